@@ -1,0 +1,88 @@
+//! The CPU twin of the shaders: the same decisions and corners, function by
+//! function, with the same names and argument order.
+//!
+//! | here | `shaders/common/` | paper |
+//! |---|---|---|
+//! | [`facing`] | `facing.wgsl` | Equation 1, the sign of one face |
+//! | [`feature`] | `feature.wgsl` | Equation 1 |
+//! | [`spine`] | `spine.wgsl` | section 3.3, projection; section 6, clipping |
+//! | [`stroke_quad`] | `stroke_quad.wgsl` | Equations 2 and 3 |
+//! | [`stroke_cap`] | `stroke_cap.wgsl` | Equations 4 and 5 |
+//! | [`stroke_vertex`] | `stroke_vertex.wgsl` | all of it for one vertex, and section 4 |
+//!
+//! A GPU test runs both over thousands of random and adversarial edges; the
+//! counts of [`count_features`] are what `edgemesh info` prints and what the
+//! GPU's own counts must equal.
+
+pub mod facing;
+pub mod feature;
+pub mod spine;
+pub mod stroke_cap;
+pub mod stroke_quad;
+pub mod stroke_vertex;
+
+use glam::Vec4;
+
+use crate::edge_mesh::EdgeMesh;
+use crate::index::NONE;
+use crate::record::EdgeFlags;
+use facing::faces_eye;
+use feature::{LineBits, classify_edge};
+
+/// How many edges belong to each class in a view; an edge can be in several.
+/// Edges that more than two faces share are in none.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct FeatureCounts {
+    /// One face toward the eye, the other away.
+    pub contour: u32,
+    /// Convex creases.
+    pub ridge: u32,
+    /// Concave creases.
+    pub valley: u32,
+    /// Edges of one face.
+    pub boundary: u32,
+    /// Edges that the artist chose.
+    pub marked: u32,
+    /// Edges between two materials.
+    pub material: u32,
+}
+
+/// One facing bit a face: whether it faces `eye` (w = 1), or the direction to
+/// the viewer (w = 0).
+#[must_use]
+pub fn facing_bits(mesh: &EdgeMesh, eye: Vec4) -> Vec<bool> {
+    mesh.face_planes.iter().map(|plane| faces_eye(plane, eye)).collect()
+}
+
+/// The line bits of every record, in order.
+#[must_use]
+pub fn classify_edges(mesh: &EdgeMesh, eye: Vec4) -> Vec<LineBits> {
+    let facing = facing_bits(mesh, eye);
+    mesh.records
+        .iter()
+        .map(|record| {
+            let a_faces = facing[record.face_a as usize];
+            let b_faces = record.face_b != NONE && facing[record.face_b as usize];
+            classify_edge(record.flags, record.face_b != NONE, a_faces, b_faces)
+        })
+        .collect()
+}
+
+/// Counts the feature edges of a view, class by class.
+#[must_use]
+pub fn count_features(mesh: &EdgeMesh, eye: Vec4) -> FeatureCounts {
+    let mut counts = FeatureCounts::default();
+    for (record, bits) in mesh.records.iter().zip(classify_edges(mesh, eye)) {
+        if record.flags.contains(EdgeFlags::NON_MANIFOLD) {
+            continue;
+        }
+        let has = |class: EdgeFlags| u32::from(record.flags.contains(class));
+        counts.contour += u32::from(bits.contains(LineBits::CONTOUR));
+        counts.ridge += has(EdgeFlags::RIDGE);
+        counts.valley += has(EdgeFlags::VALLEY);
+        counts.boundary += has(EdgeFlags::BOUNDARY);
+        counts.marked += has(EdgeFlags::MARKED);
+        counts.material += has(EdgeFlags::MATERIAL);
+    }
+    counts
+}

@@ -1,0 +1,83 @@
+//! Start and finish caps (paper, Equations 4 and 5).
+//!
+//! A cap is the triangle between the end of the spine, the end of the quad and
+//! the tip of the projected vertex normal m. The edges that meet at a vertex
+//! know nothing of each other, but all know m, so their caps meet there:
+//!
+//! ```text
+//!          m                the gap between two quads is filled by
+//!        . | .              two triangles that share the side s - m
+//!   p  /   |   \  p'
+//!    |_____s_____|
+//! ```
+//!
+//! Equation 5 as printed takes the side of m1 while the half quad takes the side
+//! of m0; where those differ the cap would lie across its own quad. A cap
+//! follows its quad here: `outside` is given, and m is turned to that side.
+//!
+//! WGSL twin: `shaders/common/stroke_cap.wgsl`.
+
+use glam::Vec2;
+
+use super::stroke_quad::sign;
+
+/// The paper's corner number j for corner `i` (0 to 2): the triangle is walked
+/// backward where `outside` is -1, so that it always winds the same way.
+#[must_use]
+pub fn cap_corner(outside: f32, i: u32) -> u32 {
+    if outside > 0.0 { i } else { 2 - i }
+}
+
+/// Corner `j` of the cap at the end `s` of a spine with perpendicular `p`.
+///
+/// `m` is the projected vertex normal, of unit length or zero; the cap reaches
+/// `reach_px` far: the width of a half quad, or half the width of a full one.
+/// Equation 4 with s0 and m0, Equation 5 with s1 and m1.
+#[must_use]
+pub fn stroke_cap(s: Vec2, p: Vec2, m: Vec2, outside: f32, reach_px: f32, j: u32) -> Vec2 {
+    match j {
+        0 => s,
+        1 => s + p * (outside * reach_px),
+        _ => s + m * (sign(m.dot(p)) * outside * reach_px),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const P: Vec2 = Vec2::Y;
+
+    #[test]
+    fn equation_4_on_the_side_of_the_normal() {
+        let m = Vec2::new(-0.6, 0.8);
+        let s = Vec2::new(5.0, 5.0);
+        let corners = [0, 1, 2].map(|j| stroke_cap(s, P, m, 1.0, 10.0, j).to_array());
+        assert_eq!(corners, [[5., 5.], [5., 15.], [-1., 13.]]);
+    }
+
+    #[test]
+    fn the_cap_follows_its_quad() {
+        let m = Vec2::new(0.6, -0.8);
+        for outside in [1.0, -1.0] {
+            let tip = stroke_cap(Vec2::ZERO, P, m, outside, 1.0, 2);
+            assert!(tip.dot(P) * outside > 0.0, "{tip}");
+        }
+    }
+
+    #[test]
+    fn j_keeps_the_winding() {
+        for outside in [1.0, -1.0] {
+            let m = Vec2::new(-0.6, 0.8 * outside);
+            let corner = |i| stroke_cap(Vec2::ZERO, P, m, outside, 1.0, cap_corner(outside, i));
+            let [a, b, c] = [0, 1, 2].map(corner);
+            assert!((b - a).perp_dot(c - a) > 0.0, "outside {outside}");
+        }
+    }
+
+    #[test]
+    fn a_normal_along_the_line_of_sight_leaves_no_cap() {
+        let tip = stroke_cap(Vec2::ONE, P, Vec2::ZERO, 1.0, 10.0, 2);
+        assert_eq!(tip, Vec2::ONE);
+    }
+}

@@ -1,0 +1,187 @@
+//! One vertex of a stroke: quad, caps, and where the brush lies on them.
+//!
+//! An edge is drawn as 12 vertices: two triangles of the quad, the start cap,
+//! the finish cap. Contours take the half quad on the outside, everything else
+//! the full quad.
+//!
+//! The outside of a contour is the side of the spine where its front face is
+//! not, which one facing bit tells for sure. The paper asks the projected vertex
+//! normal instead (Equation 3), which errs on rough meshes; it is asked here
+//! only where there is no front face to ask, for the caps and the texture of
+//! full quads.
+//!
+//! The brush is laid on in object space (paper, section 4): u begins at the
+//! edge's random scalar and grows with the length on the screen, in units of
+//! the brush's own length at this width, so that its aspect is kept; v runs
+//! from 0 on the outside to 1 on the inside. A cap repeats the column at its end.
+//!
+//! WGSL twin: `shaders/common/stroke_vertex.wgsl`.
+
+use glam::{Vec2, Vec4};
+
+use super::feature::LineBits;
+use super::spine::{Spine, lerp, project_spine, screen_normal};
+use super::stroke_cap::{cap_corner, stroke_cap};
+use super::stroke_quad::{half_quad, sign, stroke_quad};
+
+/// Vertices an edge: 6 of the quad, 3 of each cap.
+pub const VERTICES_PER_EDGE: u32 = 12;
+
+/// The quad's corners as two triangles.
+const QUAD_CORNERS: [u32; 6] = [0, 1, 2, 0, 2, 3];
+
+/// Where vertices go that must not be seen: behind the near plane, as in the
+/// paper's section 3.2.
+pub const BEHIND: Vec4 = Vec4::new(0.0, 0.0, -1.0, 1.0);
+
+/// An edge in clip space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ClipEdge {
+    /// Start.
+    pub c0: Vec4,
+    /// End.
+    pub c1: Vec4,
+    /// Vertex normal at the start, taken to clip space as a direction.
+    pub n0: Vec4,
+    /// Vertex normal at the end, likewise.
+    pub n1: Vec4,
+    /// The random scalar.
+    pub r: f32,
+}
+
+/// What all strokes of a draw share.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StrokeShape {
+    /// Size of the picture.
+    pub viewport_px: Vec2,
+    /// Width of a stroke.
+    pub width_px: f32,
+    /// Length of the brush texture over its height.
+    pub brush_aspect: f32,
+}
+
+/// A vertex for the rasterizer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StrokeVertex {
+    /// Clip-space position; w is 1, so that everything is linear on the screen.
+    pub position: Vec4,
+    /// Texture coordinate of the brush.
+    pub uv: Vec2,
+}
+
+/// Vertex `index` (0 to 11) of the stroke along `edge`.
+#[must_use]
+pub fn stroke_vertex(
+    edge: &ClipEdge,
+    shape: &StrokeShape,
+    bits: LineBits,
+    index: u32,
+) -> StrokeVertex {
+    let spine = project_spine(edge.c0, edge.c1, shape.viewport_px);
+    let hidden = StrokeVertex { position: BEHIND, uv: Vec2::ZERO };
+    if spine.p == Vec2::ZERO {
+        return hidden;
+    }
+    let m0 = screen_normal(lerp(edge.c0, edge.c1, spine.t0), edge.n0, shape.viewport_px);
+    let m1 = screen_normal(lerp(edge.c0, edge.c1, spine.t1), edge.n1, shape.viewport_px);
+    let is_half = bits.contains(LineBits::CONTOUR);
+    // p lies left of the edge, and so does face A where it looks at the eye.
+    let contour_side = if bits.contains(LineBits::A_FACES) { -1.0 } else { 1.0 };
+    let side = |m: Vec2| if is_half { contour_side } else { sign(m.dot(spine.p)) };
+    let outside = side(m0);
+    let length_px = (spine.s1 - spine.s0).length();
+    let u0 = edge.r;
+    let u1 = edge.r + outside * length_px / (shape.width_px * shape.brush_aspect);
+
+    if index < 6 {
+        let i = QUAD_CORNERS[index as usize];
+        let s = if is_half {
+            half_quad(&spine, shape.width_px, outside, i)
+        } else {
+            stroke_quad(&spine, shape.width_px * 0.5, i)
+        };
+        let is_end = i == 1 || i == 2;
+        let rim = if is_half { 1.0 } else { outside * 0.5 + 0.5 };
+        let v = if i >= 2 { 1.0 - rim } else { rim };
+        let uv = Vec2::new(if is_end { u1 } else { u0 }, v);
+        return on_screen(s, if is_end { spine.z1 } else { spine.z0 }, uv, shape);
+    }
+    let is_start = index < 9;
+    // A clipped end is no vertex of the mesh, and nobody meets it there.
+    if (is_start && spine.t0 > 0.0) || (!is_start && spine.t1 < 1.0) {
+        return hidden;
+    }
+    let m = if is_start { m0 } else { m1 };
+    let j = cap_corner(side(m), index % 3);
+    let end = cap_end(&spine, is_start);
+    let reach_px = if is_half { shape.width_px } else { shape.width_px * 0.5 };
+    let v_at_spine = if is_half { 1.0 } else { 0.5 };
+    let uv = Vec2::new(if is_start { u0 } else { u1 }, if j == 0 { v_at_spine } else { 0.0 });
+    on_screen(stroke_cap(end.0, spine.p, m, side(m), reach_px, j), end.1, uv, shape)
+}
+
+fn cap_end(spine: &Spine, is_start: bool) -> (Vec2, f32) {
+    if is_start { (spine.s0, spine.z0) } else { (spine.s1, spine.z1) }
+}
+
+fn on_screen(position_px: Vec2, depth: f32, uv: Vec2, shape: &StrokeShape) -> StrokeVertex {
+    let xy = position_px / (shape.viewport_px * 0.5);
+    StrokeVertex { position: Vec4::new(xy.x, xy.y, depth, 1.0), uv }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SHAPE: StrokeShape =
+        StrokeShape { viewport_px: Vec2::new(200.0, 100.0), width_px: 4.0, brush_aspect: 8.0 };
+
+    fn edge() -> ClipEdge {
+        ClipEdge {
+            c0: Vec4::new(0.0, 0.0, 0.5, 1.0),
+            c1: Vec4::new(0.4, 0.0, 0.25, 1.0),
+            n0: Vec4::new(0.0, 1.0, 0.0, 0.0),
+            n1: Vec4::new(0.0, 1.0, 0.0, 0.0),
+            r: 0.25,
+        }
+    }
+
+    fn pixels(vertex: StrokeVertex) -> [f32; 2] {
+        (vertex.position.truncate().truncate() * SHAPE.viewport_px * 0.5).to_array()
+    }
+
+    #[test]
+    fn a_contour_lies_where_its_front_face_is_not() {
+        let rim = |bits| pixels(stroke_vertex(&edge(), &SHAPE, bits, 2));
+        assert_eq!(rim(LineBits::CONTOUR | LineBits::A_FACES), [40.0, -4.0]);
+        assert_eq!(rim(LineBits::CONTOUR), [40.0, 4.0]);
+    }
+
+    #[test]
+    fn a_crease_is_centred_and_its_brush_starts_at_r() {
+        let corners = [0, 1, 2, 5].map(|i| stroke_vertex(&edge(), &SHAPE, LineBits::empty(), i));
+        assert_eq!(corners.map(pixels), [[0., -2.], [40., -2.], [40., 2.], [0., 2.]]);
+        // The normal points up: the upper rim is the outside, v = 0.
+        assert_eq!(corners.map(|corner| corner.uv.y), [1.0, 1.0, 0.0, 0.0]);
+        // 40 px along a brush of 4 x 8 = 32 px: 1.25 repeats.
+        assert_eq!(corners.map(|corner| corner.uv.x), [0.25, 1.5, 1.5, 0.25]);
+        assert_eq!(corners.map(|corner| corner.position.z), [0.5, 0.25, 0.25, 0.5]);
+    }
+
+    #[test]
+    fn clipped_ends_have_no_caps_and_hidden_edges_no_vertices() {
+        let mut through = edge();
+        through.c0 = Vec4::new(0.0, 0.0, 0.5, -1.0);
+        for index in 6..9 {
+            let vertex = stroke_vertex(&through, &SHAPE, LineBits::empty(), index);
+            assert_eq!(vertex.position, BEHIND);
+        }
+        assert_ne!(stroke_vertex(&through, &SHAPE, LineBits::empty(), 9).position, BEHIND);
+        let mut point = edge();
+        point.c1 = point.c0;
+        for index in 0..VERTICES_PER_EDGE {
+            let vertex = stroke_vertex(&point, &SHAPE, LineBits::CONTOUR, index);
+            assert_eq!(vertex.position, BEHIND);
+        }
+    }
+}

@@ -1,0 +1,222 @@
+//! The two layouts of an edge mesh's records.
+//!
+//! 1. The **indexed edge record**, 20 bytes an edge: indices into positions and
+//!    faces that the fill shares. This is what the paper's section 6 says will
+//!    be possible once vertex programs can read memory.
+//! 2. The **replicated edge vertex**, the paper's own (section 3): four
+//!    successive copies of `<v0, v1, v2, v3, n0, n1, r, i>`, 80 bytes each.
+//!
+//! ```text
+//!            v1              face A = <v0, v1, v2>, left of v0 -> v1
+//!           /|\              face B = <v3, v1, v0>, right of it
+//!         /  |  \
+//!      v2  A | B  v3         boundary and marked edges: v3 = v0
+//!         \  |  /
+//!           \|/
+//!            v0
+//! ```
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+
+use crate::edge_mesh::EdgeMesh;
+use crate::index::NONE;
+
+bitflags::bitflags! {
+    /// What is known of an edge before there is a view.
+    ///
+    /// The paper's record cannot tell a marked edge from a boundary, since both
+    /// set `v3 = v0`; these bits can. Several may hold at once. WGSL twin: the
+    /// constants of `shaders/common/feature.wgsl`.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
+    #[repr(transparent)]
+    pub struct EdgeFlags: u32 {
+        /// Exactly one face.
+        const BOUNDARY = 1 << 0;
+        /// Convex, and the face normals differ by more than the ridge threshold.
+        const RIDGE = 1 << 1;
+        /// Concave, and the face normals differ by more than the valley threshold.
+        const VALLEY = 1 << 2;
+        /// Chosen by the artist.
+        const MARKED = 1 << 3;
+        /// The two faces differ in material.
+        const MATERIAL = 1 << 4;
+        /// One pair of faces of an edge that more than two share.
+        const NON_MANIFOLD = 1 << 5;
+        /// The diagonal of a polygon: it can be a contour and nothing else.
+        const DIAGONAL = 1 << 6;
+        /// Both faces traverse the edge in the same direction, on a surface
+        /// that cannot be oriented; the facing of face B counts reversed.
+        const CLASH = 1 << 7;
+    }
+}
+
+impl EdgeFlags {
+    /// The classes that are drawn in every view.
+    pub const ALWAYS_DRAWN: Self = Self::BOUNDARY
+        .union(Self::RIDGE)
+        .union(Self::VALLEY)
+        .union(Self::MARKED)
+        .union(Self::MATERIAL)
+        .union(Self::NON_MANIFOLD);
+}
+
+/// The indexed edge record: 20 bytes. WGSL twin: `EdgeRecord` in
+/// `shaders/common/mesh.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct EdgeRecord {
+    /// Start vertex.
+    pub v0: u32,
+    /// End vertex.
+    pub v1: u32,
+    /// The face that traverses the edge from `v0` to `v1`.
+    pub face_a: u32,
+    /// The face across, or [`NONE`].
+    pub face_b: u32,
+    /// Static classes.
+    pub flags: EdgeFlags,
+}
+
+/// The paper's edge vertex in 32-bit floats: 80 bytes, four in a row an edge.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct EdgeVertex {
+    /// Start of the edge.
+    pub v0: [f32; 3],
+    /// End of the edge.
+    pub v1: [f32; 3],
+    /// Third vertex of face A.
+    pub v2: [f32; 3],
+    /// Third vertex of face B; equal to `v0` for boundary and marked edges.
+    pub v3: [f32; 3],
+    /// Welded vertex normal at `v0`.
+    pub n0: [f32; 3],
+    /// Welded vertex normal at `v1`.
+    pub n1: [f32; 3],
+    /// The edge's random scalar, 0 to 1.
+    pub r: f32,
+    /// The corner index i, 0 to 3, in the low two bits; [`EdgeFlags`] from bit
+    /// [`Self::FLAGS_SHIFT`] on.
+    pub corner_and_flags: u32,
+}
+
+impl EdgeVertex {
+    /// Where the class bits begin in [`Self::corner_and_flags`].
+    pub const FLAGS_SHIFT: u32 = 8;
+
+    /// The corner index i.
+    #[must_use]
+    pub const fn corner(&self) -> u32 {
+        self.corner_and_flags & 3
+    }
+
+    /// The class bits.
+    #[must_use]
+    pub const fn flags(&self) -> EdgeFlags {
+        EdgeFlags::from_bits_truncate(self.corner_and_flags >> Self::FLAGS_SHIFT)
+    }
+}
+
+/// Writes out the paper's edge mesh: four edge vertices a record, in order.
+#[must_use]
+pub fn replicate(mesh: &EdgeMesh) -> Vec<EdgeVertex> {
+    let position = |vertex: u32| mesh.positions[vertex as usize];
+    let normal = |vertex: u32| mesh.vertex_normals[vertex as usize];
+    mesh.records
+        .iter()
+        .flat_map(|record| {
+            let v0 = position(record.v0);
+            let hides_b = record.flags.intersects(EdgeFlags::BOUNDARY | EdgeFlags::MARKED)
+                || record.face_b == NONE;
+            let v3 = if hides_b { v0 } else { position(mesh.apex(record.face_b, record)) };
+            [0, 1, 2, 3].map(|corner| EdgeVertex {
+                v0,
+                v1: position(record.v1),
+                v2: position(mesh.apex(record.face_a, record)),
+                v3,
+                n0: normal(record.v0),
+                n1: normal(record.v1),
+                r: edge_random(v0.into(), position(record.v1).into()),
+                corner_and_flags: corner | record.flags.bits() << EdgeVertex::FLAGS_SHIFT,
+            })
+        })
+        .collect()
+}
+
+/// The edge's random scalar r in [0, 1): a hash of its two end positions, the
+/// same whichever end comes first, so it needs no room in the indexed record
+/// and survives any renumbering of the mesh.
+///
+/// The mixing is PCG's output function (O'Neill 2014). WGSL twin: `edge_random`
+/// in `shaders/common/mesh.wgsl`.
+#[must_use]
+pub fn edge_random(p0: Vec3, p1: Vec3) -> f32 {
+    let bits = pcg(point_hash(p0).wrapping_add(point_hash(p1)));
+    // 24 bits, so that every value is exact and 1 is never reached.
+    #[expect(clippy::cast_precision_loss, reason = "24 bits fit a float")]
+    let scaled = (bits >> 8) as f32;
+    scaled / 16_777_216.0
+}
+
+fn point_hash(point: Vec3) -> u32 {
+    // Adding 0 makes -0 and 0 the same number.
+    point.to_array().iter().fold(0, |hash, coordinate| pcg(hash ^ (coordinate + 0.0).to_bits()))
+}
+
+const fn pcg(value: u32) -> u32 {
+    let state = value.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+    let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+    (word >> 22) ^ word
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::build::{BuildOptions, build_edge_mesh};
+    use crate::model::Model;
+    use crate::report::Report;
+
+    #[test]
+    fn sizes_are_the_papers() {
+        assert_eq!(size_of::<EdgeRecord>(), 20);
+        assert_eq!(size_of::<EdgeVertex>(), 80);
+    }
+
+    #[test]
+    fn four_copies_differ_in_i_and_boundaries_repeat_v0() {
+        let positions = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [1., 1., 1.]];
+        let model = Model::from_polygons(&positions, &[&[0, 1, 2], &[1, 3, 2]]);
+        let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
+        let vertices = replicate(&mesh);
+        assert_eq!(vertices.len(), 4 * mesh.records.len());
+        for (index, vertex) in vertices.iter().enumerate() {
+            assert_eq!(vertex.corner() as usize, index % 4);
+            let is_boundary = vertex.flags().contains(EdgeFlags::BOUNDARY);
+            assert_eq!(vertex.v3 == vertex.v0, is_boundary, "{vertex:?}");
+        }
+        let inner = vertices.iter().find(|v| !v.flags().contains(EdgeFlags::BOUNDARY)).unwrap();
+        assert_eq!((inner.v0, inner.v1), ([1., 0., 0.], [0., 1., 0.]), "as face A runs");
+        assert_eq!((inner.v2, inner.v3), ([0., 0., 0.], [1., 1., 1.]));
+    }
+
+    #[test]
+    fn a_marked_edge_hides_its_second_face() {
+        let positions = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [1., 1., 1.]];
+        let model = Model::from_polygons(&positions, &[&[0, 1, 2], &[1, 3, 2]]);
+        let mut mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
+        for record in &mut mesh.records {
+            record.flags |= EdgeFlags::MARKED;
+        }
+        assert!(replicate(&mesh).iter().all(|vertex| vertex.v3 == vertex.v0));
+    }
+
+    #[test]
+    fn the_random_scalar_ignores_direction_and_spreads() {
+        let (a, b) = (Vec3::new(1.0, 2.0, 3.0), Vec3::new(-1.0, 0.5, 0.0));
+        assert!((edge_random(a, b) - edge_random(b, a)).abs() < f32::EPSILON);
+        assert!((edge_random(-a * 0.0, b) - edge_random(Vec3::ZERO, b)).abs() < f32::EPSILON);
+        let mean = (0..1000_u16).map(|k| edge_random(a * f32::from(k), b)).sum::<f32>() / 1000.0;
+        assert!((0.45..0.55).contains(&mean), "{mean}");
+    }
+}
