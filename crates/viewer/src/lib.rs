@@ -1,1 +1,19 @@
-//! x
+//! Draws 3D models as line art: looks, pictures, and the `viewer` command.
+//!
+//! ```text
+//! MODEL... --read, build (edgemesh)--> edge meshes --upload (strokes)--+
+//! technique + --set --> Look --> pipelines ----------------------------+--> frame --> PNG, statistics
+//! camera options --> View ---------------------------------------------+
+//! ```
+//!
+//! - [`technique`]: what a picture looks like, by name, with its variables.
+//! - [`render`]: a scene of edge meshes to pictures, without any window.
+//! - [`picture`]: PNG in and out, and the comparison with a reference.
+//! - [`command`]: the command line; `main.rs` only calls it.
+
+#![warn(clippy::print_stdout, clippy::print_stderr)]
+
+pub mod command;
+pub mod picture;
+pub mod render;
+pub mod technique;

@@ -1,2 +1,7 @@
-//! x
-fn main() {}
+//! The `viewer` command.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    viewer::command::main()
+}

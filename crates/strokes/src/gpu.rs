@@ -1,0 +1,149 @@
+//! The adapter and the device, asked for with what the crate needs and no more.
+//!
+//! Limits are data: the defaults of WebGPU, with only the sizes of buffers,
+//! bindings and textures raised to what the adapter has. So whatever runs here
+//! runs on any adapter of the default limits, only smaller.
+
+use thiserror::Error;
+use wgpu::{Adapter, AdapterInfo, Backends, DownlevelFlags, Features, Instance, Limits};
+
+/// A device with its queue.
+#[derive(Debug)]
+pub struct Gpu {
+    /// What the adapter says of itself.
+    pub info: AdapterInfo,
+    /// The device.
+    pub device: wgpu::Device,
+    /// Its queue.
+    pub queue: wgpu::Queue,
+}
+
+/// Why there is no device.
+#[derive(Debug, Error)]
+pub enum GpuError {
+    /// No adapter at all on the backends that were tried.
+    #[error(
+        "no graphics adapter was found (tried {tried}); install a Vulkan driver, or on Debian and \
+         Ubuntu the software one: sudo apt-get install mesa-vulkan-drivers libvulkan1"
+    )]
+    NoAdapter {
+        /// The backends.
+        tried: String,
+    },
+    /// Adapters, but none of the wanted name.
+    #[error("no graphics adapter is called '{wanted}'; there are: {}", found.join(", "))]
+    UnknownAdapter {
+        /// The name asked for.
+        wanted: String,
+        /// The names there are.
+        found: Vec<String>,
+    },
+    /// The adapter lacks something that every picture needs.
+    #[error("the graphics adapter '{name}' cannot be used, it lacks {}", lacks.join(", "))]
+    Unsuitable {
+        /// The adapter.
+        name: String,
+        /// What is missing.
+        lacks: Vec<String>,
+    },
+    /// The driver refused to open the device.
+    #[error("the graphics adapter '{name}' gave no device: {reason}")]
+    NoDevice {
+        /// The adapter.
+        name: String,
+        /// What the driver said.
+        reason: String,
+    },
+}
+
+/// The instance that all commands use: the backends of `WGPU_BACKEND`, or the
+/// first-class ones of the platform. (The OpenGL one would list the software
+/// driver a second time.)
+#[must_use]
+pub fn instance() -> (Instance, Backends) {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+    descriptor.backends = Backends::from_env().unwrap_or(Backends::PRIMARY) - Backends::NOOP;
+    let backends = descriptor.backends;
+    (Instance::new(descriptor), backends)
+}
+
+/// What `adapter` lacks of what every picture needs; empty where it will do.
+#[must_use]
+pub fn lacking(adapter: &Adapter) -> Vec<String> {
+    let flags = adapter.get_downlevel_capabilities().flags;
+    let needed = [
+        (DownlevelFlags::COMPUTE_SHADERS, "compute shaders"),
+        (DownlevelFlags::INDIRECT_EXECUTION, "indirect draws"),
+        (DownlevelFlags::VERTEX_STORAGE, "storage buffers in vertex shaders"),
+    ];
+    let mut lacks: Vec<String> = needed
+        .iter()
+        .filter(|(flag, _)| !flags.contains(*flag))
+        .map(|(_, what)| (*what).to_owned())
+        .collect();
+    Limits::default().check_limits_with_fail_fn(&adapter.limits(), false, |name, need, has| {
+        lacks.push(format!("{name} of {need} (it has {has})"));
+    });
+    lacks
+}
+
+/// Opens the adapter whose name contains `name` (any case), or the best one.
+///
+/// # Errors
+/// [`GpuError`] with what was tried and what was found.
+pub async fn open(name: Option<&str>) -> Result<Gpu, GpuError> {
+    let (instance, backends) = instance();
+    let adapter = match name {
+        None => instance.request_adapter(&wgpu::RequestAdapterOptions::default()).await.ok(),
+        Some(name) => Some(find_by_name(&instance, backends, name).await?),
+    };
+    let adapter = adapter.ok_or_else(|| GpuError::NoAdapter { tried: names_of(backends) })?;
+    let info = adapter.get_info();
+    let lacks = lacking(&adapter);
+    if !lacks.is_empty() {
+        return Err(GpuError::Unsuitable { name: info.name, lacks });
+    }
+    let (device, queue) = adapter
+        .request_device(&device_descriptor(&adapter))
+        .await
+        .map_err(|error| GpuError::NoDevice { name: info.name.clone(), reason: error.to_string() })?;
+    Ok(Gpu { info, device, queue })
+}
+
+fn device_descriptor(adapter: &Adapter) -> wgpu::DeviceDescriptor<'static> {
+    let has = adapter.limits();
+    wgpu::DeviceDescriptor {
+        label: Some("edgemesh"),
+        required_features: adapter.features() & Features::TIMESTAMP_QUERY,
+        required_limits: Limits {
+            max_storage_buffer_binding_size: has.max_storage_buffer_binding_size,
+            max_buffer_size: has.max_buffer_size,
+            max_texture_dimension_2d: has.max_texture_dimension_2d,
+            ..Limits::default()
+        },
+        ..wgpu::DeviceDescriptor::default()
+    }
+}
+
+async fn find_by_name(
+    instance: &Instance,
+    backends: Backends,
+    name: &str,
+) -> Result<Adapter, GpuError> {
+    let adapters = instance.enumerate_adapters(backends).await;
+    let found: Vec<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
+    if found.is_empty() {
+        return Err(GpuError::NoAdapter { tried: names_of(backends) });
+    }
+    let wanted = name.to_lowercase();
+    adapters
+        .into_iter()
+        .find(|adapter| adapter.get_info().name.to_lowercase().contains(&wanted))
+        .ok_or_else(|| GpuError::UnknownAdapter { wanted: name.into(), found })
+}
+
+fn names_of(backends: Backends) -> String {
+    let names: Vec<String> =
+        backends.iter_names().map(|(name, _)| name.to_lowercase()).collect();
+    names.join(", ")
+}

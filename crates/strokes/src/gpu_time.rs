@@ -1,0 +1,78 @@
+//! How long each pass took on the GPU, by timestamp queries where the adapter
+//! has them.
+
+use wgpu::Features;
+
+use crate::gpu::Gpu;
+use crate::readback::{ReadbackError, read_buffer};
+
+/// Two timestamps a pass.
+#[derive(Debug)]
+pub struct GpuTimer {
+    queries: wgpu::QuerySet,
+    resolved: wgpu::Buffer,
+    pass_count: u32,
+}
+
+impl GpuTimer {
+    /// A timer for `pass_count` passes; `None` where the device has no
+    /// timestamps.
+    #[must_use]
+    pub fn new(gpu: &Gpu, pass_count: u32) -> Option<Self> {
+        if !gpu.device.features().contains(Features::TIMESTAMP_QUERY) {
+            return None;
+        }
+        let count = 2 * pass_count;
+        let queries = gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
+            label: Some("pass times"),
+            ty: wgpu::QueryType::Timestamp,
+            count,
+        });
+        let resolved = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("pass times"),
+            size: 8 * u64::from(count),
+            usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        });
+        Some(Self { queries, resolved, pass_count })
+    }
+
+    /// The queries around compute pass `index`.
+    pub(crate) const fn compute(&self, index: u32) -> wgpu::ComputePassTimestampWrites<'_> {
+        wgpu::ComputePassTimestampWrites {
+            query_set: &self.queries,
+            beginning_of_pass_write_index: Some(2 * index),
+            end_of_pass_write_index: Some(2 * index + 1),
+        }
+    }
+
+    /// The queries around render pass `index`.
+    pub(crate) const fn render(&self, index: u32) -> wgpu::RenderPassTimestampWrites<'_> {
+        wgpu::RenderPassTimestampWrites {
+            query_set: &self.queries,
+            beginning_of_pass_write_index: Some(2 * index),
+            end_of_pass_write_index: Some(2 * index + 1),
+        }
+    }
+
+    /// After the last pass, in the same submission.
+    pub(crate) fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
+        encoder.resolve_query_set(&self.queries, 0..2 * self.pass_count, &self.resolved, 0);
+    }
+
+    /// Milliseconds of each pass of the last submission.
+    ///
+    /// # Errors
+    /// Where the device is lost.
+    #[expect(clippy::cast_precision_loss, reason = "a pass takes far less than 2^52 ticks")]
+    pub fn read_ms(&self, gpu: &Gpu) -> Result<Vec<f64>, ReadbackError> {
+        let ticks: Vec<u64> = read_buffer(gpu, &self.resolved, 2 * self.pass_count as usize)?;
+        let ns_per_tick = f64::from(gpu.queue.get_timestamp_period());
+        Ok(ticks
+            .as_chunks::<2>()
+            .0
+            .iter()
+            .map(|[start, end]| end.saturating_sub(*start) as f64 * ns_per_tick / 1e6)
+            .collect())
+    }
+}

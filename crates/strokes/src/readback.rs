@@ -1,0 +1,89 @@
+//! From the GPU back to memory: pictures and buffers.
+
+use bytemuck::Pod;
+use image::RgbaImage;
+use thiserror::Error;
+
+use crate::gpu::Gpu;
+
+/// The GPU did not hand its memory back.
+#[derive(Debug, Error)]
+#[error("the picture could not be read back from the graphics adapter: {reason}")]
+pub struct ReadbackError {
+    /// What the driver said.
+    pub reason: String,
+}
+
+impl ReadbackError {
+    fn new(reason: impl std::fmt::Display) -> Self {
+        Self { reason: reason.to_string() }
+    }
+}
+
+/// Reads an RGBA texture of one sample; waits for all submitted work.
+///
+/// # Errors
+/// Where the device is lost.
+pub fn read_picture(gpu: &Gpu, texture: &wgpu::Texture) -> Result<RgbaImage, ReadbackError> {
+    let (width, height) = (texture.width(), texture.height());
+    let row_bytes = 4 * width;
+    let padded_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let buffer = staging(gpu, u64::from(padded_bytes) * u64::from(height));
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    encoder.copy_texture_to_buffer(
+        texture.as_image_copy(),
+        wgpu::TexelCopyBufferInfo {
+            buffer: &buffer,
+            layout: wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(padded_bytes),
+                rows_per_image: None,
+            },
+        },
+        texture.size(),
+    );
+    gpu.queue.submit([encoder.finish()]);
+    let bytes = map(gpu, &buffer)?;
+    let rows = bytes.chunks(padded_bytes as usize).flat_map(|row| &row[..row_bytes as usize]);
+    RgbaImage::from_raw(width, height, rows.copied().collect())
+        .ok_or_else(|| ReadbackError::new("it gave too few bytes"))
+}
+
+/// Reads the first `count` items of a buffer that may be copied from.
+///
+/// # Errors
+/// Where the device is lost.
+pub fn read_buffer<T: Pod>(
+    gpu: &Gpu,
+    source: &wgpu::Buffer,
+    count: usize,
+) -> Result<Vec<T>, ReadbackError> {
+    let byte_count = (count * size_of::<T>()) as u64;
+    let buffer = staging(gpu, byte_count);
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    encoder.copy_buffer_to_buffer(source, 0, &buffer, 0, byte_count);
+    gpu.queue.submit([encoder.finish()]);
+    Ok(bytemuck::pod_collect_to_vec(&map(gpu, &buffer)?))
+}
+
+fn staging(gpu: &Gpu, size: u64) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("readback"),
+        size,
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    })
+}
+
+fn map(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Vec<u8>, ReadbackError> {
+    let (sender, receiver) = std::sync::mpsc::channel();
+    buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+        // The receiver waits below; if it is gone, nobody wants the answer.
+        let _ = sender.send(result);
+    });
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(ReadbackError::new)?;
+    receiver.recv().map_err(ReadbackError::new)?.map_err(ReadbackError::new)?;
+    let bytes = buffer.get_mapped_range(..).map_err(ReadbackError::new)?.to_vec();
+    buffer.unmap();
+    Ok(bytes)
+}

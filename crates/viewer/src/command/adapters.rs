@@ -1,0 +1,74 @@
+//! `viewer adapters`: the graphics adapters, and what each lacks.
+
+use clap::Args;
+use edgemesh::command::{Failure, print_to_stdout};
+use serde::Serialize;
+use strokes::gpu::{GpuError, instance, lacking};
+
+use crate::render::adapter_failure;
+
+/// Lists the graphics adapters and what each lacks
+///
+/// The environment variable `WGPU_BACKEND` chooses the backends that are tried:
+/// vulkan, metal, dx12, gl.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = "Examples:\n  viewer adapters\n  WGPU_BACKEND=gl viewer adapters --json")]
+pub(super) struct AdaptersCommand {
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct AdapterEntry {
+    name: String,
+    backend: String,
+    kind: String,
+    driver: String,
+    lacks: Vec<String>,
+}
+
+impl AdaptersCommand {
+    pub(super) fn run(&self) -> Result<(), Failure> {
+        let (instance, backends) = instance();
+        let adapters = pollster::block_on(instance.enumerate_adapters(backends));
+        let entries: Vec<AdapterEntry> = adapters
+            .iter()
+            .map(|adapter| {
+                let info = adapter.get_info();
+                AdapterEntry {
+                    name: info.name,
+                    backend: info.backend.to_string(),
+                    kind: format!("{:?}", info.device_type),
+                    driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
+                    lacks: lacking(adapter),
+                }
+            })
+            .collect();
+        if entries.is_empty() {
+            let names: Vec<String> =
+                backends.iter_names().map(|(name, _)| name.to_lowercase()).collect();
+            return Err(adapter_failure(&GpuError::NoAdapter { tried: names.join(", ") }));
+        }
+        let text = if self.json { to_json(&entries)? } else { to_text(&entries) };
+        print_to_stdout(text.as_bytes())
+    }
+}
+
+fn to_json(entries: &[AdapterEntry]) -> Result<String, Failure> {
+    let json = serde_json::to_string_pretty(entries);
+    Ok(json.map_err(|error| Failure::fault(error.to_string()))? + "\n")
+}
+
+fn to_text(entries: &[AdapterEntry]) -> String {
+    entries
+        .iter()
+        .map(|AdapterEntry { name, backend, kind, driver, lacks }| {
+            let verdict = match lacks.is_empty() {
+                true => "lacks nothing".to_owned(),
+                false => format!("lacks {}", lacks.join(", ")),
+            };
+            format!("{name} ({backend}, {kind}, {driver}): {verdict}\n")
+        })
+        .collect()
+}

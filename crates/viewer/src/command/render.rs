@@ -1,0 +1,311 @@
+//! `viewer render`: models to pictures.
+
+use std::f64::consts::TAU;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+use std::thread;
+
+use clap::Args;
+use edgemesh::camera::Camera;
+use edgemesh::command::info::FeaturesInfo;
+use edgemesh::command::options::{CameraOptions, CreaseOptions};
+use edgemesh::command::{ExitStatus, Failure, print_to_stdout, print_warnings, write_file};
+use glam::DQuat;
+use image::RgbaImage;
+use serde::Serialize;
+use strokes::gpu::{self, Gpu};
+
+use crate::picture::{DEFAULT_REFERENCE_THRESHOLD, compare, encode_png, read_png};
+use crate::render::{FrameStatistics, PictureRenderer, Scene, adapter_failure};
+use crate::technique::{TECHNIQUES, Technique, VARIABLES};
+
+/// Renders models to a PNG, without a window
+#[derive(Debug, Clone, Args)]
+#[command(after_long_help = long_help(), after_help = EXAMPLES)]
+pub(super) struct RenderCommand {
+    /// The model files (OBJ)
+    #[arg(value_name = "MODEL", required = true)]
+    models: Vec<PathBuf>,
+    /// The picture to write (PNG), or - for standard output
+    #[arg(short, long, value_name = "OUT.png")]
+    output: PathBuf,
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = parse_size)]
+    size: [u32; 2],
+    /// How it looks: ink or pen
+    #[arg(long, value_name = "NAME", default_value = "ink")]
+    technique: String,
+    /// Set a variable of the technique; repeatable
+    #[arg(long, value_name = "PASS.VARIABLE=VALUE")]
+    set: Vec<String>,
+    /// Samples a pixel
+    #[arg(long, value_name = "N", default_value = "4", value_parser = ["1", "4"])]
+    samples: String,
+    /// The adapter whose name contains this [default: the best]
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+    /// No paper behind the model
+    #[arg(long)]
+    transparent: bool,
+    /// Turn the camera around the target in N steps and write numbered pictures
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    turntable: Option<u32>,
+    /// Write counts and times as JSON to a file, or - for standard output
+    #[arg(long, value_name = "FILE")]
+    stats: Option<PathBuf>,
+    /// Compare with this picture; where it differs, exit with 5 and write the
+    /// difference instead
+    #[arg(long, value_name = "PNG", conflicts_with = "turntable")]
+    reference: Option<PathBuf>,
+    /// The share of pixels that may differ
+    #[arg(long, value_name = "T", default_value_t = DEFAULT_REFERENCE_THRESHOLD, value_parser = parse_share)]
+    reference_threshold: f64,
+    #[command(flatten)]
+    camera: CameraOptions,
+    #[command(flatten)]
+    creases: CreaseOptions,
+}
+
+const EXAMPLES: &str = "Examples:\n  \
+    viewer render bunny.obj -o bunny.png\n  \
+    viewer render bunny.obj -o bunny.png --technique pen --set strokes.width=4 --size 2048x1024\n  \
+    viewer render part.obj -o part.png --eye 3,2,5 --ortho --crease 20 --stats -\n  \
+    viewer render part.obj -o turn.png --turntable 36";
+
+fn long_help() -> String {
+    let list = |rows: &[(&str, &str)]| {
+        rows.iter().map(|(name, what)| format!("  {name:<18} {what}\n")).collect::<String>()
+    };
+    format!("Techniques:\n{}\nVariables:\n{}\n{EXAMPLES}", list(&TECHNIQUES), list(&VARIABLES))
+}
+
+/// What `--stats` writes; scripts rely on the keys.
+#[derive(Debug, Serialize)]
+struct Statistics {
+    adapter: String,
+    backend: String,
+    size: [u32; 2],
+    triangles: usize,
+    edges: usize,
+    features: FeaturesInfo,
+    strokes: u32,
+    passes: Vec<PassTime>,
+    frame_ms: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct PassTime {
+    name: &'static str,
+    gpu_ms: Option<f64>,
+}
+
+impl RenderCommand {
+    pub(super) fn run(&self, is_quiet: bool) -> Result<(), Failure> {
+        self.check_outputs()?;
+        let mut technique = Technique::by_name(&self.technique)?;
+        for assignment in &self.set {
+            technique.set(assignment)?;
+        }
+        if self.transparent {
+            technique.make_transparent();
+        }
+        let reference = self.reference.as_deref().map(read_png).transpose()?;
+        let (gpu, scene) = self.open_and_load()?;
+        if !is_quiet {
+            for (name, _, report) in &scene.models {
+                print_warnings(name, report);
+            }
+        }
+        log::info!("drawing on {} ({})", gpu.info.name, gpu.info.backend);
+        let camera = self.camera.camera(&scene.bounds)?;
+        let samples = if self.samples == "1" { 1 } else { 4 };
+        let renderer = PictureRenderer::new(&gpu, &scene, &technique.look(), self.size, samples)?;
+        let statistics = match self.turntable {
+            Some(steps) => self.write_turntable(&renderer, &camera, steps)?,
+            None => self.write_picture(&renderer, &camera, reference.as_ref())?,
+        };
+        self.write_statistics(&gpu, &scene, &statistics)
+    }
+
+    /// The device opens while the models are read: each takes its time alone.
+    fn open_and_load(&self) -> Result<(Gpu, Scene), Failure> {
+        thread::scope(|scope| {
+            let opening = scope.spawn(|| pollster::block_on(gpu::open(self.adapter.as_deref())));
+            let scene = Scene::load(&self.models, &self.creases.build_options());
+            let gpu = opening.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            // What is wrong with the model is told first; it is likelier and nearer.
+            let scene = scene?;
+            Ok((gpu.map_err(|error| adapter_failure(&error))?, scene))
+        })
+    }
+
+    /// Says at once what would fail after all the work.
+    fn check_outputs(&self) -> Result<(), Failure> {
+        let is_stream = |path: &Path| path == Path::new("-");
+        if !is_stream(&self.output) {
+            let is_png = self.output.extension().is_some_and(|end| end.eq_ignore_ascii_case("png"));
+            if !is_png {
+                let message = format!("--output {}: must end in .png", self.output.display());
+                return Err(Failure::usage(message));
+            }
+            if self.models.iter().any(|model| *model == self.output) {
+                return Err(Failure::usage("--output is one of the models; name another file"));
+            }
+        } else if self.turntable.is_some() {
+            return Err(Failure::usage("--turntable writes several files; --output cannot be -"));
+        } else if self.stats.as_deref().is_some_and(is_stream) {
+            return Err(Failure::usage("--output and --stats cannot both be -"));
+        }
+        let files = [Some(&self.output), self.stats.as_ref()];
+        for file in files.into_iter().flatten().filter(|file| !is_stream(file)) {
+            let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+            if let Some(folder) = folder
+                && !folder.is_dir()
+            {
+                let (file, folder) = (file.display(), folder.display());
+                return Err(Failure::fault(format!(
+                    "{file}: cannot be written: the folder {folder} does not exist; make it first"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    fn write_picture(
+        &self,
+        renderer: &PictureRenderer,
+        camera: &Camera,
+        reference: Option<&RgbaImage>,
+    ) -> Result<FrameStatistics, Failure> {
+        let (picture, statistics) = renderer.render(camera)?;
+        if let Some(reference) = reference {
+            self.compare_with(&picture, reference)?;
+        }
+        self.write_png(&self.output, &picture)?;
+        Ok(statistics)
+    }
+
+    fn compare_with(&self, picture: &RgbaImage, reference: &RgbaImage) -> Result<(), Failure> {
+        let Some(difference) = compare(picture, reference) else {
+            let (width, height) = reference.dimensions();
+            return Err(Failure::fault(format!(
+                "the reference is {width}x{height} and the picture {}x{}; give --size {width}x{height}",
+                self.size[0], self.size[1]
+            )));
+        };
+        if difference.share <= self.reference_threshold {
+            return Ok(());
+        }
+        self.write_png(&self.output, &difference.picture)?;
+        let message = format!(
+            "the picture differs from the reference in {} pixels, {:.4} % (allowed {:.4} %); the \
+             difference is in {}",
+            difference.wrong_pixels,
+            difference.share * 100.0,
+            self.reference_threshold * 100.0,
+            self.output.display()
+        );
+        Err(Failure { message, status: ExitStatus::Differs })
+    }
+
+    fn write_turntable(
+        &self,
+        renderer: &PictureRenderer,
+        camera: &Camera,
+        steps: u32,
+    ) -> Result<FrameStatistics, Failure> {
+        let axis = camera.up.normalize_or_zero();
+        let mut last = None;
+        for step in 0..steps {
+            let turn = DQuat::from_axis_angle(axis, TAU * f64::from(step) / f64::from(steps));
+            let eye = camera.target + turn * (camera.eye - camera.target);
+            let (picture, statistics) = renderer.render(&Camera { eye, ..*camera })?;
+            self.write_png(&numbered(&self.output, step, steps), &picture)?;
+            last = Some(statistics);
+        }
+        last.ok_or_else(|| Failure::usage("--turntable needs at least one step"))
+    }
+
+    fn write_png(&self, path: &Path, picture: &RgbaImage) -> Result<(), Failure> {
+        write_result(path, &encode_png(picture, self.transparent)?)
+    }
+
+    fn write_statistics(
+        &self,
+        gpu: &Gpu,
+        scene: &Scene,
+        statistics: &FrameStatistics,
+    ) -> Result<(), Failure> {
+        let Some(path) = &self.stats else { return Ok(()) };
+        let sum = |count: fn(&edgemesh::edge_mesh::MeshCounts) -> usize| {
+            scene.models.iter().map(|(_, mesh, _)| count(&mesh.counts)).sum()
+        };
+        let passes = statistics.passes.iter();
+        let statistics = Statistics {
+            adapter: gpu.info.name.clone(),
+            backend: gpu.info.backend.to_string(),
+            size: self.size,
+            triangles: sum(|counts| counts.triangles),
+            edges: sum(|counts| counts.edges.edges),
+            features: statistics.tally.features().into(),
+            strokes: statistics.tally.instance_count,
+            passes: passes.map(|&(name, gpu_ms)| PassTime { name, gpu_ms }).collect(),
+            frame_ms: statistics.frame_ms,
+        };
+        let json = serde_json::to_string_pretty(&statistics);
+        let json = json.map_err(|error| Failure::fault(error.to_string()))? + "\n";
+        write_result(path, json.as_bytes())
+    }
+}
+
+/// Writes a file, or standard output for `-`.
+fn write_result(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    if path == Path::new("-") {
+        return print_to_stdout(bytes);
+    }
+    write_file(path, bytes)
+}
+
+/// `turn.png` becomes `turn-00.png`, with as many digits as the last one needs.
+fn numbered(path: &Path, step: u32, steps: u32) -> PathBuf {
+    let digits = (steps - 1).checked_ilog10().map_or(1, |log| log as usize + 1);
+    let mut name = path.file_stem().unwrap_or(OsStr::new("picture")).to_owned();
+    name.push(format!("-{step:0digits$}.png"));
+    path.with_file_name(name)
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| text.trim().parse().ok().filter(|&side: &u32| side > 0);
+    text.split_once(['x', 'X'])
+        .and_then(|(width, height)| Some([side(width)?, side(height)?]))
+        .ok_or_else(|| "needs two numbers of pixels, as 1920x1080".into())
+}
+
+fn parse_share(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|share| (0.0..=1.0).contains(share))
+        .ok_or_else(|| "needs a share from 0 to 1".into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_two_numbers() {
+        assert_eq!(parse_size("1920x1080"), Ok([1920, 1080]));
+        for text in ["1920", "0x10", "10x", "10x-1", "axb", "1x2x3"] {
+            assert!(parse_size(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn turntable_names_sort_as_they_turn() {
+        let names = [0, 9, 35].map(|step| numbered(Path::new("a/turn.png"), step, 36));
+        assert_eq!(names[0], Path::new("a/turn-00.png"));
+        assert_eq!(names[2], Path::new("a/turn-35.png"));
+        assert!(names.is_sorted());
+        assert_eq!(numbered(Path::new("t.png"), 0, 1), Path::new("t-0.png"));
+    }
+}

@@ -1,0 +1,119 @@
+//! Pictures: PNG in and out, and the comparison with a reference.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use edgemesh::command::Failure;
+use image::{DynamicImage, Rgba, RgbaImage};
+
+/// Two pixels differ where a channel differs by more than this, of 255. Less is
+/// what adapters round apart; more would hide a stroke drawn in grey.
+pub const PIXEL_TOLERANCE: u8 = 16;
+
+/// The share of pixels that may differ where none is given: 0.04 %, what other
+/// renderers found between drivers.
+pub const DEFAULT_REFERENCE_THRESHOLD: f64 = 0.0004;
+
+/// Encodes as PNG: with straight alpha where `is_transparent`, else opaque.
+///
+/// `picture` has premultiplied alpha, as it comes from the GPU.
+///
+/// # Errors
+/// Where the encoder fails.
+pub fn encode_png(picture: &RgbaImage, is_transparent: bool) -> Result<Vec<u8>, Failure> {
+    let picture = if is_transparent {
+        DynamicImage::ImageRgba8(straight_alpha(picture))
+    } else {
+        DynamicImage::ImageRgba8(picture.clone()).to_rgb8().into()
+    };
+    let mut bytes = Cursor::new(Vec::new());
+    picture
+        .write_to(&mut bytes, image::ImageFormat::Png)
+        .map_err(|error| Failure::fault(format!("the PNG cannot be encoded: {error}")))?;
+    Ok(bytes.into_inner())
+}
+
+fn straight_alpha(picture: &RgbaImage) -> RgbaImage {
+    let mut straight = picture.clone();
+    for Rgba([r, g, b, a]) in straight.pixels_mut() {
+        if *a != 0 {
+            for channel in [r, g, b] {
+                let value = (u32::from(*channel) * 255 + u32::from(*a) / 2) / u32::from(*a);
+                *channel = u8::try_from(value).unwrap_or(u8::MAX);
+            }
+        }
+    }
+    straight
+}
+
+/// Reads a PNG.
+///
+/// # Errors
+/// Names the file and what is wrong with it.
+pub fn read_png(path: &Path) -> Result<RgbaImage, Failure> {
+    let failed =
+        |error: &dyn std::fmt::Display| Failure::fault(format!("{}: {error}", path.display()));
+    let bytes = std::fs::read(path).map_err(|error| failed(&error))?;
+    let picture = image::load_from_memory_with_format(&bytes, image::ImageFormat::Png);
+    Ok(picture.map_err(|error| failed(&error))?.to_rgba8())
+}
+
+/// What a comparison found.
+#[derive(Debug)]
+pub struct Difference {
+    /// Pixels that differ by more than [`PIXEL_TOLERANCE`].
+    pub wrong_pixels: usize,
+    /// The same as a share of all pixels.
+    pub share: f64,
+    /// The pictures' difference, channel by channel, on black.
+    pub picture: RgbaImage,
+}
+
+/// Compares two pictures of the same size; `None` where the sizes differ.
+#[must_use]
+#[expect(clippy::cast_precision_loss, reason = "a share needs no more digits")]
+pub fn compare(picture: &RgbaImage, reference: &RgbaImage) -> Option<Difference> {
+    if picture.dimensions() != reference.dimensions() {
+        return None;
+    }
+    let mut wrong_pixels = 0;
+    let difference = RgbaImage::from_fn(picture.width(), picture.height(), |x, y| {
+        let (Rgba(ours), Rgba(theirs)) = (picture.get_pixel(x, y), reference.get_pixel(x, y));
+        let [r, g, b, a] = [0, 1, 2, 3].map(|channel| ours[channel].abs_diff(theirs[channel]));
+        wrong_pixels += usize::from([r, g, b, a].iter().any(|&step| step > PIXEL_TOLERANCE));
+        // A difference of alpha alone must not be invisible.
+        Rgba([r.max(a), g.max(a), b.max(a), 255])
+    });
+    let share = wrong_pixels as f64 / f64::from(picture.width()) / f64::from(picture.height());
+    Some(Difference { wrong_pixels, share, picture: difference })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stroke_that_is_gone_counts_and_rounding_does_not() {
+        let paper = RgbaImage::from_pixel(8, 8, Rgba([255; 4]));
+        let mut rounded = paper.clone();
+        rounded.put_pixel(1, 1, Rgba([250, 255, 255, 255]));
+        assert_eq!(compare(&paper, &rounded).unwrap().wrong_pixels, 0);
+        let mut stroke = paper.clone();
+        for x in 0..8 {
+            stroke.put_pixel(x, 4, Rgba([0, 0, 0, 255]));
+        }
+        let difference = compare(&paper, &stroke).unwrap();
+        assert_eq!(difference.wrong_pixels, 8);
+        assert!((difference.share - 0.125).abs() < 1e-9);
+        assert_eq!(difference.picture.get_pixel(3, 4), &Rgba([255; 4]));
+        assert!(compare(&paper, &RgbaImage::new(4, 8)).is_none());
+    }
+
+    #[test]
+    fn transparency_is_stored_straight() {
+        let grey = RgbaImage::from_pixel(1, 1, Rgba([64, 64, 64, 128]));
+        let png = encode_png(&grey, true).unwrap();
+        let back = image::load_from_memory(&png).unwrap().to_rgba8();
+        assert_eq!(back.get_pixel(0, 0), &Rgba([128, 128, 128, 128]));
+    }
+}

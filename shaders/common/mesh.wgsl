@@ -1,0 +1,44 @@
+// The edge mesh on the GPU. Rust twins: EdgeRecord and edge_random in
+// crates/edgemesh/src/record.rs, FacePlane in edge_mesh.rs, MeshUniform in
+// crates/strokes/src/mesh_buffers.rs.
+
+const NONE: u32 = 0xffffffffu;
+
+// 20 bytes an edge. face_a traverses the edge from v0 to v1; face_b may be NONE.
+struct EdgeRecord {
+    v0: u32,
+    v1: u32,
+    face_a: u32,
+    face_b: u32,
+    flags: u32,
+}
+
+struct FacePlane {
+    normal: vec4f,
+    point: vec4f,
+}
+
+struct MeshUniform {
+    face_count: u32,
+    edge_count: u32,
+    run_count: u32,
+    padding: u32,
+}
+
+// The edge's random scalar in [0, 1): a hash of its ends, either way round.
+fn edge_random(p0: vec3f, p1: vec3f) -> f32 {
+    let bits = pcg(point_hash(p0) + point_hash(p1));
+    return f32(bits >> 8u) / 16777216.0;
+}
+
+fn point_hash(point: vec3f) -> u32 {
+    // -0 and 0 are the same number; adding 0 may be optimized away, this not.
+    let bits = select(bitcast<vec3u>(point), vec3u(0u), point == vec3f(0.0));
+    return pcg(pcg(pcg(bits.x) ^ bits.y) ^ bits.z);
+}
+
+fn pcg(value: u32) -> u32 {
+    let state = value * 747796405u + 2891336453u;
+    let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return (word >> 22u) ^ word;
+}

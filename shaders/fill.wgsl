@@ -1,0 +1,20 @@
+// The surface itself: depth for the strokes to be tested against, and one flat
+// colour. Both sides of a face are filled.
+#import <common/frame.wgsl>
+
+// Rust twin: FillUniform in crates/strokes/src/fill.rs.
+struct FillUniform {
+    color: vec4f,
+}
+
+@group(1) @binding(0) var<uniform> fill: FillUniform;
+
+@vertex
+fn fill_vertex(@location(0) position: vec3f) -> @builtin(position) vec4f {
+    return frame.clip_from_world * vec4f(position, 1.0);
+}
+
+@fragment
+fn fill_fragment() -> @location(0) vec4f {
+    return fill.color;
+}
