@@ -30,6 +30,23 @@ struct StrokeUniform {
 @group(2) @binding(1) var<storage, read> normals: array<f32>;
 @group(2) @binding(2) var<storage, read> records: array<EdgeRecord>;
 @group(2) @binding(3) var<storage, read> live: array<u32>;
+// Three vertices a face.
+@group(2) @binding(4) var<storage, read> triangles: array<u32>;
+
+// The vertex of a face that is not on the edge.
+fn apex(face: u32, record: EdgeRecord) -> u32 {
+    for (var corner = 0u; corner < 3u; corner++) {
+        let vertex = triangles[3u * face + corner];
+        if vertex != record.v0 && vertex != record.v1 {
+            return vertex;
+        }
+    }
+    return record.v0;
+}
+
+fn clip_of(vertex: u32) -> vec4f {
+    return frame.clip_from_world * vec4f(position_of(vertex), 1.0);
+}
 
 fn position_of(vertex: u32) -> vec3f {
     let at = 3u * vertex;
@@ -55,9 +72,16 @@ fn stroke_vertices(
     let record = records[word & EDGE_INDEX_MASK];
     let p0 = position_of(record.v0);
     let p1 = position_of(record.v1);
+    // The paper's v3 = v0 where there is no second face.
+    var v3 = record.v0;
+    if record.face_b != NONE {
+        v3 = apex(record.face_b, record);
+    }
     let edge = ClipEdge(
         frame.clip_from_world * vec4f(p0, 1.0),
         frame.clip_from_world * vec4f(p1, 1.0),
+        clip_of(apex(record.face_a, record)),
+        clip_of(v3),
         frame.clip_from_world * vec4f(normal_of(record.v0), 0.0),
         frame.clip_from_world * vec4f(normal_of(record.v1), 0.0),
         edge_random(p0, p1),

@@ -9,6 +9,9 @@ const BEHIND: vec4f = vec4f(0.0, 0.0, -1.0, 1.0);
 struct ClipEdge {
     c0: vec4f,
     c1: vec4f,
+    // Third vertices of face A and B; c3 = c0 where there is no B.
+    c2: vec4f,
+    c3: vec4f,
     n0: vec4f,
     n1: vec4f,
     r: f32,
@@ -42,18 +45,24 @@ fn stroke_vertex(edge: ClipEdge, shape: StrokeShape, bits: u32, index: u32) -> S
     let u0 = edge.r;
     let u1 = edge.r + side0 * length_px / (shape.width_px * shape.brush_aspect);
 
+    let reach_px = select(shape.width_px * 0.5, shape.width_px, is_half);
+
     if index < 6u {
         // Corners 0, 1, 2 and 0, 2, 3.
-        let i = select(index, (index - 3u + u32(index > 3u)), index >= 3u);
+        let i = select(index, index - 3u + u32(index > 3u), index >= 3u);
         let s = select(
-            stroke_quad(spine, shape.width_px * 0.5, i),
-            half_quad(spine, shape.width_px, side0, i),
+            stroke_quad(spine, reach_px, i),
+            half_quad(spine, reach_px, side0, i),
             is_half,
         );
         let is_end = i == 1u || i == 2u;
         let rim = select(side0 * 0.5 + 0.5, 1.0, is_half);
         let uv = vec2f(select(u0, u1, is_end), select(rim, 1.0 - rim, i >= 2u));
-        return on_screen(s, select(spine.z0, spine.z1, is_end), uv, shape);
+        var z = select(spine.z0, spine.z1, is_end);
+        if !is_half {
+            z += quad_rise(edge, spine, shape.viewport_px, select(-1.0, 1.0, i >= 2u), reach_px);
+        }
+        return on_screen(s, z, uv, shape);
     }
     let is_start = index < 9u;
     // A clipped end is no vertex of the mesh, and nobody meets it there.
@@ -63,11 +72,44 @@ fn stroke_vertex(edge: ClipEdge, shape: StrokeShape, bits: u32, index: u32) -> S
     let m = select(m1, m0, is_start);
     let side = select(side1, side0, is_start);
     let j = cap_corner(side, index % 3u);
-    let reach_px = select(shape.width_px * 0.5, shape.width_px, is_half);
     let s = select(spine.s1, spine.s0, is_start);
+    var z = select(spine.z1, spine.z0, is_start);
+    if j != 0u && !is_half {
+        z += quad_rise(edge, spine, shape.viewport_px, side, reach_px);
+    }
     let uv = vec2f(select(u1, u0, is_start), select(0.0, select(0.5, 1.0, is_half), j == 0u));
-    let position_px = stroke_cap(s, spine.p, m, side, reach_px, j);
-    return on_screen(position_px, select(spine.z1, spine.z0, is_start), uv, shape);
+    return on_screen(stroke_cap(s, spine.p, m, side, reach_px, j), z, uv, shape);
+}
+
+// How much nearer than the edge the rim of a full quad must lie on one side.
+fn quad_rise(edge: ClipEdge, spine: Spine, viewport_px: vec2f, side: f32, reach_px: f32) -> f32 {
+    return max(
+        rise_toward_eye(spine, edge.c2, viewport_px, side, reach_px),
+        rise_toward_eye(spine, edge.c3, viewport_px, side, reach_px),
+    );
+}
+
+// How much nearer the face with the third vertex `apex` lies, reach_px away.
+fn rise_toward_eye(
+    spine: Spine,
+    apex: vec4f,
+    viewport_px: vec2f,
+    side: f32,
+    reach_px: f32,
+) -> f32 {
+    if apex.w - apex.z <= 0.0 {
+        return 0.0;
+    }
+    let along = spine.s1 - spine.s0;
+    let to_apex = to_pixels(apex, viewport_px) - spine.s0;
+    let distance_px = dot(to_apex, spine.p) * side;
+    if distance_px < MIN_LENGTH_PX {
+        return 0.0;
+    }
+    let t = dot(to_apex, along) / dot(along, along);
+    let edge_depth = spine.z0 + (spine.z1 - spine.z0) * t;
+    let rise = apex.z / apex.w - edge_depth;
+    return max(rise * min(reach_px / distance_px, 1.0), 0.0);
 }
 
 fn on_screen(position_px: vec2f, depth: f32, uv: vec2f, shape: StrokeShape) -> StrokeVertex {

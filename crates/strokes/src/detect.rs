@@ -59,7 +59,11 @@ impl DetectPipeline {
         };
         let faces_layout = layout(
             "detect faces",
-            &[uniform_entry(0, compute), storage_entry(1, compute, true), storage_entry(2, compute, false)],
+            &[
+                uniform_entry(0, compute),
+                storage_entry(1, compute, true),
+                storage_entry(2, compute, false),
+            ],
         );
         let edges_layout = layout(
             "detect edges",

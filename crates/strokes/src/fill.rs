@@ -2,11 +2,13 @@
 //!
 //! The surface is pushed away from the eye a little (the paper's section 3.5
 //! uses the same offset), in proportion to its slope on the screen, so that a
-//! stroke along an edge is not swallowed by the faces beside it. The push grows
-//! with the stroke's width, since that is how far a face can rise under it.
+//! stroke along an edge is not swallowed by the faces beside it. The push is that
+//! of about one pixel of slope, whatever the width of the strokes; wide strokes
+//! follow their faces by themselves (`stroke_vertex.wgsl`).
 //!
-//! Rejected: pulling the strokes forward by a constant; no constant is right for
-//! a face seen head on and for one seen edge on.
+//! Rejected: pulling the strokes forward by a constant, as no constant is right
+//! for a face seen head on and for one seen edge on; a push that grows with the
+//! strokes, as hidden lines then show through along every silhouette.
 
 use bytemuck::{Pod, Zeroable};
 use wgpu::ShaderStages;
@@ -36,7 +38,7 @@ pub struct FillPipeline {
 }
 
 impl FillPipeline {
-    /// Builds the pipeline for strokes that reach `stroke_reach_px` to a side.
+    /// Builds the pipeline.
     ///
     /// # Errors
     /// Where the shader cannot be put together.
@@ -45,7 +47,6 @@ impl FillPipeline {
         frame_layout: &wgpu::BindGroupLayout,
         samples: u32,
         color: [f32; 4],
-        stroke_reach_px: f32,
     ) -> Result<Self, ShaderError> {
         let pass_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("fill"),
@@ -76,7 +77,7 @@ impl FillPipeline {
                 depth_write_enabled: Some(true),
                 depth_compare: Some(wgpu::CompareFunction::Greater),
                 stencil: wgpu::StencilState::default(),
-                bias: push_away(stroke_reach_px),
+                bias: push_away(),
             }),
             multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
             fragment: Some(wgpu::FragmentState {
@@ -110,13 +111,14 @@ impl FillPipeline {
     }
 }
 
-/// Away from the eye is toward 0 in reversed depth. The driver's slope is the
-/// larger of the two screen directions; across a diagonal it is up to the root
-/// of two more, and one pixel more comes from where samples lie.
-fn push_away(stroke_reach_px: f32) -> wgpu::DepthBiasState {
+/// Away from the eye is toward 0 in reversed depth. A sample lies up to a pixel
+/// from where the edge's depth was taken; the driver's slope is the larger of
+/// the two screen directions, so a slope across the diagonal counts as the root
+/// of two of it.
+const fn push_away() -> wgpu::DepthBiasState {
     wgpu::DepthBiasState {
         constant: -PUSH_STEPS,
-        slope_scale: -(1.0 + std::f32::consts::SQRT_2 * stroke_reach_px),
+        slope_scale: -std::f32::consts::SQRT_2,
         clamp: 0.0,
     }
 }

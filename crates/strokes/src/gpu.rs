@@ -103,10 +103,10 @@ pub async fn open(name: Option<&str>) -> Result<Gpu, GpuError> {
     if !lacks.is_empty() {
         return Err(GpuError::Unsuitable { name: info.name, lacks });
     }
-    let (device, queue) = adapter
-        .request_device(&device_descriptor(&adapter))
-        .await
-        .map_err(|error| GpuError::NoDevice { name: info.name.clone(), reason: error.to_string() })?;
+    let (device, queue) =
+        adapter.request_device(&device_descriptor(&adapter)).await.map_err(|error| {
+            GpuError::NoDevice { name: info.name.clone(), reason: error.to_string() }
+        })?;
     Ok(Gpu { info, device, queue })
 }
 
@@ -143,7 +143,6 @@ async fn find_by_name(
 }
 
 fn names_of(backends: Backends) -> String {
-    let names: Vec<String> =
-        backends.iter_names().map(|(name, _)| name.to_lowercase()).collect();
+    let names: Vec<String> = backends.iter_names().map(|(name, _)| name.to_lowercase()).collect();
     names.join(", ")
 }

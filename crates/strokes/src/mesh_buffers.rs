@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | positions | 12 a vertex | fill, strokes |
 //! | vertex normals | 12 a vertex | strokes |
-//! | triangles | 12 a face | fill |
+//! | triangles | 12 a face | fill, strokes |
 //! | face planes | 32 a face | facing |
 //! | facing | 1 bit a face | detection |
 //! | edge records | 20 an edge | detection, strokes |
@@ -144,7 +144,7 @@ impl MeshBuffers {
             uniform: uniform_buffer(device, "mesh size", &size),
             positions: upload(device, "positions", &mesh.positions, storage | BufferUsages::VERTEX),
             normals: upload(device, "vertex normals", &mesh.vertex_normals, storage),
-            triangles: upload(device, "triangles", &mesh.triangles, BufferUsages::INDEX),
+            triangles: upload(device, "triangles", &mesh.triangles, storage | BufferUsages::INDEX),
             planes: upload(device, "face planes", &mesh.face_planes, storage),
             records: upload(device, "edge records", &mesh.records, storage),
             facing: words("facing", size.face_count.div_ceil(32), BufferUsages::COPY_SRC),

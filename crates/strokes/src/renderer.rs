@@ -53,15 +53,12 @@ impl Renderer {
         let device = &gpu.device;
         let layout = frame_layout(device);
         let [r, g, b, a] = look.background;
-        // A contour's half quad reaches its whole width to one side, but lies
-        // off the surface; what must not be swallowed reaches half of it.
-        let reach_px = look.strokes.as_ref().map_or(0.0, |style| style.width_px * 0.5);
         let stroke = look.strokes.as_ref();
         Ok(Self {
             background: wgpu::Color { r, g, b, a },
             frame: Frame::new(device, &layout, &bytemuck::Zeroable::zeroed()),
             detect: DetectPipeline::new(device, &layout)?,
-            fill: FillPipeline::new(device, &layout, samples, look.fill_color, reach_px)?,
+            fill: FillPipeline::new(device, &layout, samples, look.fill_color)?,
             stroke: stroke
                 .map(|style| StrokePipeline::new(gpu, &layout, samples, style))
                 .transpose()?,

@@ -68,10 +68,7 @@ impl ShaderSource {
     ///
     /// # Errors
     /// A missing file, an import in the wrong place, or a cycle.
-    pub fn resolve(
-        root: &str,
-        load: &dyn Fn(&str) -> Option<String>,
-    ) -> Result<Self, ShaderError> {
+    pub fn resolve(root: &str, load: &dyn Fn(&str) -> Option<String>) -> Result<Self, ShaderError> {
         let mut source = Self { text: String::new(), lines: Vec::new(), files: Vec::new() };
         let missing = || ShaderError {
             file: root.into(),
@@ -142,9 +139,9 @@ impl ShaderSource {
     #[must_use]
     pub fn origin(&self, line: usize) -> (&str, usize) {
         let last = self.lines.len().saturating_sub(1);
-        self.lines.get(line.saturating_sub(1).min(last)).map_or(("", 0), |origin| {
-            (self.files[origin.file].as_str(), origin.line)
-        })
+        self.lines
+            .get(line.saturating_sub(1).min(last))
+            .map_or(("", 0), |origin| (self.files[origin.file].as_str(), origin.line))
     }
 
     /// Parses and validates the module as wgpu will.

@@ -81,7 +81,7 @@ impl StrokePipeline {
         let vertex = ShaderStages::VERTEX;
         let draw_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("stroke draw"),
-            entries: &[0, 1, 2, 3].map(|binding| storage_entry(binding, vertex, true)),
+            entries: &[0, 1, 2, 3, 4].map(|binding| storage_entry(binding, vertex, true)),
         });
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("stroke"),
@@ -96,7 +96,7 @@ impl StrokePipeline {
     /// Prepares one mesh.
     #[must_use]
     pub fn draw(&self, device: &wgpu::Device, mesh: &MeshBuffers) -> StrokeDraw {
-        let buffers = [&mesh.positions, &mesh.normals, &mesh.records, &mesh.live];
+        let buffers = [&mesh.positions, &mesh.normals, &mesh.records, &mesh.live, &mesh.triangles];
         StrokeDraw { draw_group: bind_buffers(device, "stroke", &self.draw_layout, &buffers) }
     }
 
@@ -137,11 +137,7 @@ fn pass_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     })
 }
 
-fn pass_group(
-    gpu: &Gpu,
-    layout: &wgpu::BindGroupLayout,
-    style: &StrokeStyle,
-) -> wgpu::BindGroup {
+fn pass_group(gpu: &Gpu, layout: &wgpu::BindGroupLayout, style: &StrokeStyle) -> wgpu::BindGroup {
     let solid = Brush::solid();
     let brush = style.brush.as_ref().unwrap_or(&solid);
     let uniform = StrokeUniform {

@@ -89,10 +89,8 @@ impl<'a> PictureRenderer<'a> {
         samples: u32,
     ) -> Result<Self, Failure> {
         check_size(gpu, size)?;
-        let renderer = Renderer::new(gpu, look, samples).map_err(|error| Failure {
-            message: error.to_string(),
-            status: ExitStatus::Shader,
-        })?;
+        let renderer = Renderer::new(gpu, look, samples)
+            .map_err(|error| Failure { message: error.to_string(), status: ExitStatus::Shader })?;
         let meshes = scene
             .models
             .iter()
@@ -125,11 +123,8 @@ impl<'a> PictureRenderer<'a> {
             .map_err(|error| Failure::fault(format!("the graphics adapter was lost: {error}")))?;
         let frame_ms = started.elapsed().as_secs_f64() * 1e3;
         let picture = read_picture(self.gpu, self.targets.picture()).map_err(lost)?;
-        let statistics = FrameStatistics {
-            tally: self.read_tally()?,
-            passes: self.read_passes()?,
-            frame_ms,
-        };
+        let statistics =
+            FrameStatistics { tally: self.read_tally()?, passes: self.read_passes()?, frame_ms };
         Ok((picture, statistics))
     }
 
@@ -145,7 +140,8 @@ impl<'a> PictureRenderer<'a> {
     fn read_tally(&self) -> Result<Tally, Failure> {
         let mut sum = Tally::default();
         for mesh in &self.meshes {
-            let tallies: Vec<Tally> = read_buffer(self.gpu, mesh.buffers.tally(), 1).map_err(lost)?;
+            let tallies: Vec<Tally> =
+                read_buffer(self.gpu, mesh.buffers.tally(), 1).map_err(lost)?;
             let Some(tally) = tallies.first() else { continue };
             sum.instance_count += tally.instance_count;
             sum.contour += tally.contour;

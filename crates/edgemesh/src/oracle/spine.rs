@@ -108,7 +108,9 @@ pub fn lerp(c0: Vec4, c1: Vec4, t: f32) -> Vec4 {
     c0 * (1.0 - t) + c1 * t
 }
 
-fn to_pixels(clip: Vec4, viewport_px: Vec2) -> Vec2 {
+/// A clip-space point in front of the eye, in pixels from the middle, y up.
+#[must_use]
+pub fn to_pixels(clip: Vec4, viewport_px: Vec2) -> Vec2 {
     clip.truncate().truncate() / clip.w * (viewport_px * 0.5)
 }
 

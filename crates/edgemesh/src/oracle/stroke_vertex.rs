@@ -10,6 +10,11 @@
 //! only where there is no front face to ask, for the caps and the texture of
 //! full quads.
 //!
+//! A full quad lies over the faces beside its edge, which can rise toward the
+//! eye under it. So its rims take the depth of those faces ([`rise_toward_eye`])
+//! where that is nearer than the edge's own, and are not swallowed however wide
+//! they are. A half quad lies off the surface and keeps the edge's depth.
+//!
 //! The brush is laid on in object space (paper, section 4): u begins at the
 //! edge's random scalar and grows with the length on the screen, in units of
 //! the brush's own length at this width, so that its aspect is kept; v runs
@@ -20,7 +25,7 @@
 use glam::{Vec2, Vec4};
 
 use super::feature::LineBits;
-use super::spine::{Spine, lerp, project_spine, screen_normal};
+use super::spine::{MIN_LENGTH_PX, Spine, lerp, project_spine, screen_normal, to_pixels};
 use super::stroke_cap::{cap_corner, stroke_cap};
 use super::stroke_quad::{half_quad, sign, stroke_quad};
 
@@ -41,6 +46,10 @@ pub struct ClipEdge {
     pub c0: Vec4,
     /// End.
     pub c1: Vec4,
+    /// Third vertex of face A.
+    pub c2: Vec4,
+    /// Third vertex of face B; equal to `c0` where there is none.
+    pub c3: Vec4,
     /// Vertex normal at the start, taken to clip space as a direction.
     pub n0: Vec4,
     /// Vertex normal at the end, likewise.
@@ -93,18 +102,24 @@ pub fn stroke_vertex(
     let u0 = edge.r;
     let u1 = edge.r + outside * length_px / (shape.width_px * shape.brush_aspect);
 
+    let reach_px = if is_half { shape.width_px } else { shape.width_px * 0.5 };
+    let rise = |side: f32| {
+        if is_half { 0.0 } else { quad_rise(edge, &spine, shape.viewport_px, side, reach_px) }
+    };
+
     if index < 6 {
         let i = QUAD_CORNERS[index as usize];
         let s = if is_half {
-            half_quad(&spine, shape.width_px, outside, i)
+            half_quad(&spine, reach_px, outside, i)
         } else {
-            stroke_quad(&spine, shape.width_px * 0.5, i)
+            stroke_quad(&spine, reach_px, i)
         };
         let is_end = i == 1 || i == 2;
         let rim = if is_half { 1.0 } else { outside * 0.5 + 0.5 };
         let v = if i >= 2 { 1.0 - rim } else { rim };
         let uv = Vec2::new(if is_end { u1 } else { u0 }, v);
-        return on_screen(s, if is_end { spine.z1 } else { spine.z0 }, uv, shape);
+        let z = if is_end { spine.z1 } else { spine.z0 };
+        return on_screen(s, z + rise(if i >= 2 { 1.0 } else { -1.0 }), uv, shape);
     }
     let is_start = index < 9;
     // A clipped end is no vertex of the mesh, and nobody meets it there.
@@ -113,15 +128,53 @@ pub fn stroke_vertex(
     }
     let m = if is_start { m0 } else { m1 };
     let j = cap_corner(side(m), index % 3);
-    let end = cap_end(&spine, is_start);
-    let reach_px = if is_half { shape.width_px } else { shape.width_px * 0.5 };
+    let s = if is_start { spine.s0 } else { spine.s1 };
+    let z = if is_start { spine.z0 } else { spine.z1 };
     let v_at_spine = if is_half { 1.0 } else { 0.5 };
     let uv = Vec2::new(if is_start { u0 } else { u1 }, if j == 0 { v_at_spine } else { 0.0 });
-    on_screen(stroke_cap(end.0, spine.p, m, side(m), reach_px, j), end.1, uv, shape)
+    let position_px = stroke_cap(s, spine.p, m, side(m), reach_px, j);
+    on_screen(position_px, if j == 0 { z } else { z + rise(side(m)) }, uv, shape)
 }
 
-fn cap_end(spine: &Spine, is_start: bool) -> (Vec2, f32) {
-    if is_start { (spine.s0, spine.z0) } else { (spine.s1, spine.z1) }
+/// How much nearer than the edge, in depth, the rim of a full quad must lie on
+/// one side: as much as the higher of the two faces.
+fn quad_rise(edge: &ClipEdge, spine: &Spine, viewport_px: Vec2, side: f32, reach_px: f32) -> f32 {
+    rise_toward_eye(spine, edge.c2, viewport_px, side, reach_px).max(rise_toward_eye(
+        spine,
+        edge.c3,
+        viewport_px,
+        side,
+        reach_px,
+    ))
+}
+
+/// How much nearer than the edge the face with the third vertex `apex` lies,
+/// `reach_px` away from the edge on the side `side` (+1 is the side of p).
+///
+/// Depth is linear on the screen, so the face's plane gives it exactly; past the
+/// face's own end it stays what it was there. Zero where the face falls away,
+/// lies on the other side, or reaches behind the near plane.
+#[must_use]
+pub fn rise_toward_eye(
+    spine: &Spine,
+    apex: Vec4,
+    viewport_px: Vec2,
+    side: f32,
+    reach_px: f32,
+) -> f32 {
+    if apex.w - apex.z <= 0.0 {
+        return 0.0;
+    }
+    let along = spine.s1 - spine.s0;
+    let to_apex = to_pixels(apex, viewport_px) - spine.s0;
+    let distance_px = to_apex.dot(spine.p) * side;
+    if distance_px < MIN_LENGTH_PX {
+        return 0.0;
+    }
+    let t = to_apex.dot(along) / along.dot(along);
+    let edge_depth = spine.z0 + (spine.z1 - spine.z0) * t;
+    let rise = apex.z / apex.w - edge_depth;
+    (rise * (reach_px / distance_px).min(1.0)).max(0.0)
 }
 
 fn on_screen(position_px: Vec2, depth: f32, uv: Vec2, shape: &StrokeShape) -> StrokeVertex {
@@ -140,6 +193,8 @@ mod tests {
         ClipEdge {
             c0: Vec4::new(0.0, 0.0, 0.5, 1.0),
             c1: Vec4::new(0.4, 0.0, 0.25, 1.0),
+            c2: Vec4::new(0.2, 0.4, 0.2, 1.0),
+            c3: Vec4::new(0.2, -0.4, 0.2, 1.0),
             n0: Vec4::new(0.0, 1.0, 0.0, 0.0),
             n1: Vec4::new(0.0, 1.0, 0.0, 0.0),
             r: 0.25,
@@ -166,6 +221,25 @@ mod tests {
         // 40 px along a brush of 4 x 8 = 32 px: 1.25 repeats.
         assert_eq!(corners.map(|corner| corner.uv.x), [0.25, 1.5, 1.5, 0.25]);
         assert_eq!(corners.map(|corner| corner.position.z), [0.5, 0.25, 0.25, 0.5]);
+    }
+
+    #[test]
+    fn rims_follow_a_face_that_rises_and_not_one_that_falls() {
+        let depth =
+            |edge: &ClipEdge, i| stroke_vertex(edge, &SHAPE, LineBits::empty(), i).position.z;
+        // The edge's depth beside the apex is 0.375; 20 px away the face lies
+        // 0.2 nearer, so 2 px away 0.02.
+        let mut rising = edge();
+        rising.c2 = Vec4::new(0.2, 0.4, 0.575, 1.0);
+        assert!((depth(&rising, 5) - 0.52).abs() < 1e-6, "{}", depth(&rising, 5));
+        assert!((depth(&rising, 2) - 0.27).abs() < 1e-6, "{}", depth(&rising, 2));
+        assert!((depth(&rising, 0) - 0.5).abs() < 1e-6, "the other side stays");
+        // A face that ends after 1 px rises no further than its end.
+        rising.c2 = Vec4::new(0.2, 0.02, 0.385, 1.0);
+        assert!((depth(&rising, 5) - 0.51).abs() < 1e-5, "{}", depth(&rising, 5));
+        // A half quad lies off the surface.
+        let half = stroke_vertex(&rising, &SHAPE, LineBits::CONTOUR, 5);
+        assert!((half.position.z - 0.5).abs() < 1e-6);
     }
 
     #[test]

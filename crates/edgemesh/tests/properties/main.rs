@@ -1,0 +1,29 @@
+//! Properties that hold for every mesh, tried on random ones.
+//!
+//! - `edges`: each edge once, counted again by plain maps; Euler's formula;
+//!   order and winding do not matter.
+//! - `views`: contours and creases under flips, scales and the paper's Equation 1.
+//! - `readers`: the same polygons as two other OBJ parsers.
+//!
+//! `PROPTEST_CASES` (256 for the usual count) makes runs longer,
+//! `PROPTEST_RNG_SEED` gives other cases.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod edges;
+mod meshes;
+mod readers;
+mod views;
+
+use proptest::test_runner::{Config, RngSeed};
+
+/// `cases` cases, and the same ones in every run unless the environment asks
+/// for others.
+fn config(cases: u32) -> Config {
+    let asked = Config::default();
+    let rng_seed = match asked.rng_seed {
+        RngSeed::Random => RngSeed::Fixed(2004),
+        fixed @ RngSeed::Fixed(_) => fixed,
+    };
+    Config { cases: cases * asked.cases / 256, rng_seed, failure_persistence: None, ..asked }
+}

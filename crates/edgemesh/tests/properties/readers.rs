@@ -1,0 +1,138 @@
+//! The same polygons as two other OBJ parsers read: `tobj` on the bare file,
+//! without the screen that stands before it here, and `obj-rs`.
+
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+use edgemesh::model::Model;
+use edgemesh::read::read_model;
+use obj::raw::object::Polygon;
+
+/// The polygons of a file, each as the positions of its corners.
+type Polygons = Vec<Vec<[f32; 3]>>;
+
+/// At least this many files are read by both parsers of a comparison.
+const COMPARED: usize = 40;
+
+/// `EDGEMESH_SHARED`, else `../shared` beside the workspace.
+fn corpus() -> Option<PathBuf> {
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared");
+    let folder = env::var_os("EDGEMESH_SHARED").map_or(beside, PathBuf::from);
+    Some(folder).filter(|folder| folder.is_dir())
+}
+
+fn obj_files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            files.extend(obj_files(&path));
+        } else if path.extension().is_some_and(|extension| extension == "obj") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    files
+}
+
+fn ours(model: &Model) -> Polygons {
+    let position = |corner: usize| model.positions[model.corners[corner].position as usize];
+    model.polygons.iter().map(|polygon| polygon.corner_range().map(position).collect()).collect()
+}
+
+fn by_tobj(path: &Path) -> Option<Polygons> {
+    let bytes = fs::read(path).unwrap();
+    let no_materials = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
+    let options = tobj::LoadOptions::default();
+    let (models, _) = tobj::load_obj_buf(&mut bytes.as_slice(), &options, no_materials).ok()?;
+    let mut polygons = Polygons::new();
+    for mesh in models.into_iter().map(|model| model.mesh) {
+        let positions = mesh.positions.as_chunks::<3>().0;
+        let mut rest = mesh.indices.as_slice();
+        // No arities stand for triangles only.
+        let mut arities = mesh.face_arities.iter().map(|&arity| arity as usize);
+        while !rest.is_empty() {
+            let (face, after) = rest.split_at(arities.next().unwrap_or(3));
+            rest = after;
+            // Points and lines count as faces there.
+            if face.len() > 2 {
+                polygons.push(face.iter().map(|&vertex| positions[vertex as usize]).collect());
+            }
+        }
+    }
+    Some(polygons)
+}
+
+fn by_obj_rs(path: &Path) -> Option<Polygons> {
+    let bytes = fs::read(path).unwrap();
+    let raw = obj::raw::parse_obj(bytes.as_slice()).ok()?;
+    let position = |&index: &usize| {
+        let (x, y, z, _) = raw.positions[index];
+        [x, y, z]
+    };
+    let corners = |polygon: &Polygon| -> Vec<usize> {
+        match polygon {
+            Polygon::P(corners) => corners.clone(),
+            Polygon::PT(corners) | Polygon::PN(corners) => {
+                corners.iter().map(|corner| corner.0).collect()
+            }
+            Polygon::PTN(corners) => corners.iter().map(|corner| corner.0).collect(),
+        }
+    };
+    Some(
+        raw.polygons
+            .iter()
+            .map(|polygon| corners(polygon).iter().map(position).collect())
+            .collect(),
+    )
+}
+
+/// Says where the two differ first.
+fn compare(ours: &Polygons, theirs: &Polygons) -> Result<(), String> {
+    if ours.len() != theirs.len() {
+        return Err(format!("{} polygons, there {}", ours.len(), theirs.len()));
+    }
+    match ours.iter().zip(theirs).position(|(a, b)| a != b) {
+        Some(at) => Err(format!("polygon {at}: {:?}, there {:?}", ours[at], theirs[at])),
+        None => Ok(()),
+    }
+}
+
+fn compare_all(parser: &str, read: impl Fn(&Path) -> Option<Polygons>) {
+    let Some(shared) = corpus() else {
+        eprintln!("left out {COMPARED} cases of {parser}: set EDGEMESH_SHARED to the shared files");
+        return;
+    };
+    let mut compared = 0;
+    let mut wrong = Vec::new();
+    for path in [obj_files(&shared.join("corpus/obj")), obj_files(&shared.join("models"))].concat()
+    {
+        let (Ok((model, _)), Some(theirs)) = (read_model(&path), read(&path)) else { continue };
+        compared += 1;
+        if let Err(why) = compare(&ours(&model), &theirs) {
+            wrong.push(format!("{}: {why}", path.display()));
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {compared} differ:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(compared >= COMPARED, "{parser} and this crate both read only {compared} files");
+}
+
+#[test]
+fn tobj_reads_the_same_polygons() {
+    compare_all("tobj", by_tobj);
+}
+
+#[test]
+fn obj_rs_reads_the_same_polygons() {
+    compare_all("obj-rs", by_obj_rs);
+}
+
+#[test]
+fn a_difference_is_found() {
+    let triangle = vec![[0.0; 3], [1.0; 3], [2.0; 3]];
+    let mut moved = triangle.clone();
+    moved[2][1] = 2.000_000_2;
+    assert_eq!(compare(&vec![triangle.clone()], &vec![triangle.clone()]), Ok(()));
+    assert!(compare(&vec![triangle.clone()], &vec![moved]).is_err());
+    assert!(compare(&vec![triangle.clone()], &vec![triangle.clone(), triangle]).is_err());
+}

@@ -1,0 +1,285 @@
+//! Contours and creases: what they must do under flips, scales and other eyes,
+//! and the paper's Equation 1 against the facing bits.
+
+use std::collections::BTreeMap;
+
+use edgemesh::build::BuildOptions;
+use edgemesh::camera::Camera;
+use edgemesh::edge_mesh::{Bounds, EdgeMesh};
+use edgemesh::index::NONE;
+use edgemesh::oracle::classify_edges;
+use edgemesh::oracle::feature::{LineBits, equation_1};
+use edgemesh::record::{EdgeFlags, EdgeRecord, replicate};
+use glam::{DVec3, Vec3, Vec4};
+use proptest::prelude::*;
+
+use crate::config;
+use crate::meshes::{Mesh, closed_mesh, key, one_sided_mesh, oriented_mesh, soup};
+
+const CREASES: EdgeFlags = EdgeFlags::RIDGE.union(EdgeFlags::VALLEY);
+
+/// An eye-point in or around the meshes, or a direction to a distant viewer.
+fn eye() -> impl Strategy<Value = Vec4> {
+    // Multiples of a power of two, as the positions are.
+    let coordinate = (-16_384..16_384_i16).prop_map(|steps| f32::from(steps) / 4096.0);
+    ([coordinate.clone(), coordinate.clone(), coordinate], any::<bool>())
+        .prop_filter("no direction", |(eye, _)| Vec3::from(*eye).length() > 0.1)
+        .prop_map(|(eye, is_point)| Vec3::from(eye).extend(f32::from(is_point)))
+}
+
+/// The ends of an edge, in an order that does not depend on its record.
+type Ends = [[u32; 3]; 2];
+
+fn ends(mesh: &EdgeMesh, record: &EdgeRecord) -> Ends {
+    let mut ends = [record.v0, record.v1].map(|v| mesh.positions[v as usize].map(key));
+    ends.sort_unstable();
+    ends
+}
+
+/// Whether the edge is a contour, by its ends.
+fn contours(mesh: &EdgeMesh, eye: Vec4) -> BTreeMap<Ends, bool> {
+    let bits = classify_edges(mesh, eye);
+    let edges = mesh.records.iter().map(|record| ends(mesh, record));
+    edges.zip(bits.into_iter().map(|bits| bits.contains(LineBits::CONTOUR))).collect()
+}
+
+/// How far the eye is from a face's plane, in 64 bits, and how much rounding
+/// can turn the face's normal.
+struct Side {
+    distance: f64,
+    rounding: f64,
+}
+
+impl Side {
+    fn of(mesh: &EdgeMesh, face: u32, eye: Vec4) -> Self {
+        let [a, b, c] = mesh.triangles[face as usize]
+            .map(|v| Vec3::from(mesh.positions[v as usize]).as_dvec3());
+        let area = (b - a).cross(c - a);
+        let longest =
+            [b - a, c - b, a - c].map(DVec3::length_squared).into_iter().fold(0.0, f64::max);
+        let to_eye = eye.truncate().as_dvec3() - f64::from(eye.w) * a;
+        let reach = eye.truncate().length() + a.as_vec3().length();
+        Self {
+            distance: (area / area.length()).dot(to_eye).abs(),
+            // A thin triangle's normal loses as much as its height to its length.
+            rounding: f64::from(f32::EPSILON) * 8.0 * f64::from(reach) * longest / area.length(),
+        }
+    }
+
+    /// Whether 32 bits may get the side wrong.
+    fn is_in_doubt(&self) -> bool {
+        // NaN, for a face without area, is in doubt.
+        !(self.distance > self.rounding)
+    }
+}
+
+fn is_in_doubt(mesh: &EdgeMesh, record: &EdgeRecord, eye: Vec4) -> bool {
+    [record.face_a, record.face_b]
+        .into_iter()
+        .filter(|&face| face != NONE)
+        .any(|face| Side::of(mesh, face, eye).is_in_doubt())
+}
+
+fn options(ridge_deg: f64, valley_deg: f64) -> BuildOptions {
+    BuildOptions {
+        ridge_angle_rad: ridge_deg.to_radians(),
+        valley_angle_rad: valley_deg.to_radians(),
+        ..BuildOptions::default()
+    }
+}
+
+fn swap_creases(flags: EdgeFlags) -> EdgeFlags {
+    let mut swapped = flags - CREASES;
+    swapped.set(EdgeFlags::RIDGE, flags.contains(EdgeFlags::VALLEY));
+    swapped.set(EdgeFlags::VALLEY, flags.contains(EdgeFlags::RIDGE));
+    swapped
+}
+
+proptest! {
+    #![proptest_config(config(128))]
+
+    #[test]
+    fn flipping_all_faces_swaps_ridges_with_valleys_and_keeps_contours(
+        mesh in oriented_mesh().prop_map(|mesh| mesh.triangulated()),
+        (ridge, valley) in (5.0..120.0, 5.0..120.0),
+        eye in eye(),
+    ) {
+        let (front, _) = mesh.build_with(&options(ridge, valley));
+        let (back, _) = mesh.turned(|_| true).build_with(&options(valley, ridge));
+        let flags = |mesh: &EdgeMesh| -> BTreeMap<Ends, EdgeFlags> {
+            mesh.records.iter().map(|record| (ends(mesh, record), record.flags)).collect()
+        };
+        let swapped: BTreeMap<Ends, EdgeFlags> =
+            flags(&front).into_iter().map(|(ends, flags)| (ends, swap_creases(flags))).collect();
+        prop_assert_eq!(flags(&back), swapped);
+
+        // Zero counts as back on both sides, so an edge-on face may differ.
+        let (before, after) = (contours(&front, eye), contours(&back, eye));
+        let mut doubtful = 0;
+        for record in &front.records {
+            if is_in_doubt(&front, record, eye) {
+                doubtful += 1;
+            } else {
+                let ends = ends(&front, record);
+                prop_assert_eq!(before[&ends], after[&ends], "{:?}", record);
+            }
+        }
+        prop_assert!(doubtful <= 8 + front.records.len() / 50, "{} in doubt", doubtful);
+    }
+
+    #[test]
+    fn scaling_by_a_power_of_two_changes_no_class(
+        mesh in prop_oneof![oriented_mesh(), one_sided_mesh(), soup(3..=5)],
+        eye in eye(),
+        exponent in -100..=100_i32,
+    ) {
+        let scale = 2.0_f32.powi(exponent);
+        let (small, large) = (mesh.build(), mesh.scaled(scale).build());
+        prop_assert_eq!(&small.records, &large.records);
+        prop_assert_eq!(&small.triangles, &large.triangles);
+        prop_assert_eq!(&small.vertex_normals, &large.vertex_normals);
+        prop_assert_eq!(small.counts, large.counts);
+        let scaled_eye = (eye.truncate() * scale).extend(eye.w);
+        prop_assert_eq!(classify_edges(&small, eye), classify_edges(&large, scaled_eye));
+    }
+
+    #[test]
+    fn the_default_view_grows_with_the_model(
+        mesh in oriented_mesh(),
+        exponent in -100..=100_i32,
+        is_orthographic in any::<bool>(),
+    ) {
+        let scale = 2.0_f32.powi(exponent);
+        let look = |positions: &[[f32; 3]]| {
+            let bounds = Bounds::of(positions);
+            let camera = Camera { is_orthographic, ..Camera::default_view(&bounds) };
+            camera.view(&bounds, 1.0)
+        };
+        let scaled = mesh.scaled(scale).positions;
+        let (near, far) = (look(&mesh.positions), look(&scaled));
+        let expected = (near.eye.truncate() * scale).extend(near.eye.w);
+        prop_assert_eq!(if is_orthographic { near.eye } else { expected }, far.eye);
+        for (&small, &large) in mesh.positions.iter().zip(&scaled) {
+            let before = near.clip_from_world.project_point3(small.into());
+            let after = far.clip_from_world.project_point3(large.into());
+            prop_assert!((before - after).abs().max_element() < 1e-4, "{} and {}", before, after);
+        }
+    }
+
+    #[test]
+    fn contours_of_a_closed_mesh_are_closed_loops(
+        mesh in closed_mesh(),
+        eye in eye(),
+        at_vertex in prop::option::weighted(0.2, any::<prop::sample::Index>()),
+    ) {
+        let built = mesh.build();
+        let eye = match at_vertex {
+            Some(index) => Vec3::from(*index.get(&built.positions)).extend(eye.w),
+            None => eye,
+        };
+        let mut ends_at = vec![0_u32; built.positions.len()];
+        for (record, bits) in built.records.iter().zip(classify_edges(&built, eye)) {
+            if bits.contains(LineBits::CONTOUR) {
+                ends_at[record.v0 as usize] += 1;
+                ends_at[record.v1 as usize] += 1;
+            }
+        }
+        prop_assert!(ends_at.iter().all(|count| count % 2 == 0), "{:?}", ends_at);
+        // A closed surface has a near side and a far side from outside.
+        let is_outside = eye.w == 0.0 || Vec3::from(eye.truncate()).length() > 3.5;
+        let contour_ends: u32 = ends_at.iter().sum();
+        prop_assert!(contour_ends >= 6 || !is_outside || at_vertex.is_some(), "no contour");
+    }
+
+    #[test]
+    fn equation_1_agrees_with_facing_bits_and_flags(
+        mesh in prop_oneof![3 => oriented_mesh(), 1 => one_sided_mesh()],
+        (ridge, valley) in (5.0..120.0_f64, 5.0..120.0_f64),
+        eye in eye(),
+    ) {
+        let (built, _) = mesh.build_with(&options(ridge, valley));
+        let cosines = [ridge, valley].map(|degrees| degrees.to_radians().cos());
+        #[expect(clippy::cast_possible_truncation, reason = "the shader has 32 bits too")]
+        let [ridge_cosine, valley_cosine] = cosines.map(|cosine| cosine as f32);
+        let vertices = replicate(&built);
+        let (mut contours_in_doubt, mut creases_in_doubt) = (0, 0);
+        let lines = classify_edges(&built, eye);
+        for ((record, four), bits) in built.records.iter().zip(vertices.as_chunks::<4>().0).zip(lines) {
+            for vertex in four {
+                prop_assert_eq!(vertex.flags(), record.flags);
+                let (is_contour, crease) = equation_1(vertex, eye, ridge_cosine, valley_cosine);
+                if is_in_doubt(&built, record, eye) {
+                    contours_in_doubt += 1;
+                } else {
+                    prop_assert_eq!(is_contour, bits.contains(LineBits::CONTOUR), "{:?}", record);
+                }
+                if record.face_b == NONE {
+                    prop_assert_eq!((is_contour, crease), (false, EdgeFlags::empty()));
+                } else if crease_in_doubt(&built, record, cosines) {
+                    creases_in_doubt += 1;
+                } else if !record.flags.contains(EdgeFlags::DIAGONAL) {
+                    prop_assert_eq!(crease, record.flags & CREASES, "{:?}", record);
+                }
+            }
+        }
+        let bound = 32 + vertices.len() / 50;
+        prop_assert!(contours_in_doubt <= bound, "{} in doubt", contours_in_doubt);
+        prop_assert!(creases_in_doubt <= bound, "{} in doubt", creases_in_doubt);
+    }
+}
+
+/// Whether the faces turn by so nearly a threshold, or so nearly by 180
+/// degrees, that 32 bits may decide otherwise.
+fn crease_in_doubt(mesh: &EdgeMesh, record: &EdgeRecord, cosines: [f64; 2]) -> bool {
+    let eye = Vec4::ZERO;
+    let normal = |face: u32| {
+        let [a, b, c] = mesh.triangles[face as usize]
+            .map(|v| Vec3::from(mesh.positions[v as usize]).as_dvec3());
+        (b - a).cross(c - a).normalize_or_zero()
+    };
+    let faces = [record.face_a, record.face_b];
+    let rounding: f64 = faces.iter().map(|&face| Side::of(mesh, face, eye).rounding).sum();
+    let [normal_a, normal_b] = faces.map(normal);
+    let turned = if record.flags.contains(EdgeFlags::CLASH) { -1.0 } else { 1.0 };
+    let cosine = normal_a.dot(normal_b) * turned;
+    // Near 180 degrees the apex of B lies in the plane of A.
+    let lift = normal_a.cross(normal_b).length();
+    !(cosines.iter().all(|threshold| (cosine - threshold).abs() > rounding))
+        || (cosine < 0.0 && lift <= rounding)
+}
+
+#[test]
+fn flips_and_marks_of_a_cube_are_what_they_should_be() {
+    let mesh = Mesh {
+        positions: vec![
+            [0., 0., 0.],
+            [1., 0., 0.],
+            [1., 1., 0.],
+            [0., 1., 0.],
+            [0., 0., 1.],
+            [1., 0., 1.],
+            [1., 1., 1.],
+            [0., 1., 1.],
+        ],
+        polygons: [
+            [0, 3, 2, 1],
+            [4, 5, 6, 7],
+            [0, 1, 5, 4],
+            [2, 3, 7, 6],
+            [1, 2, 6, 5],
+            [0, 4, 7, 3],
+        ]
+        .map(Vec::from)
+        .to_vec(),
+    };
+    let count = |mesh: &EdgeMesh, class| {
+        mesh.records.iter().filter(|record| record.flags.contains(class)).count()
+    };
+    let (front, back) = (mesh.build(), mesh.turned(|_| true).build());
+    assert_eq!((count(&front, EdgeFlags::RIDGE), count(&front, EdgeFlags::VALLEY)), (12, 0));
+    assert_eq!((count(&back, EdgeFlags::RIDGE), count(&back, EdgeFlags::VALLEY)), (0, 12));
+    let is_contour = |mesh: &EdgeMesh| -> usize {
+        contours(mesh, Vec4::new(3.0, 2.0, 4.0, 1.0)).values().filter(|found| **found).count()
+    };
+    assert_eq!((is_contour(&front), is_contour(&back)), (6, 6));
+}
