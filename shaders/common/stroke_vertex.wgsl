@@ -83,13 +83,26 @@ fn stroke_vertex(edge: ClipEdge, shape: StrokeShape, bits: u32, index: u32) -> S
 
 // How much nearer than the edge the rim of a full quad must lie on one side.
 fn quad_rise(edge: ClipEdge, spine: Spine, viewport_px: vec2f, side: f32, reach_px: f32) -> f32 {
+    let middle = lerp(edge.c0, edge.c1, (spine.t0 + spine.t1) * 0.5);
+    let a = in_front(middle, edge.c2);
+    let b = in_front(middle, edge.c3);
     return max(
-        rise_toward_eye(spine, edge.c2, viewport_px, side, reach_px),
-        rise_toward_eye(spine, edge.c3, viewport_px, side, reach_px),
+        rise_toward_eye(spine, a, viewport_px, side, reach_px),
+        rise_toward_eye(spine, b, viewport_px, side, reach_px),
     );
 }
 
-// How much nearer the face with the third vertex `apex` lies, reach_px away.
+// A point of the face for its third vertex, in front of the near plane.
+fn in_front(middle: vec4f, apex: vec4f) -> vec4f {
+    let middle_distance = middle.w - middle.z;
+    let apex_distance = apex.w - apex.z;
+    if apex_distance > 0.0 {
+        return apex;
+    }
+    return lerp(middle, apex, 0.5 * middle_distance / (middle_distance - apex_distance));
+}
+
+// How much nearer the face with the point `apex` lies, reach_px away.
 fn rise_toward_eye(
     spine: Spine,
     apex: vec4f,
@@ -97,7 +110,7 @@ fn rise_toward_eye(
     side: f32,
     reach_px: f32,
 ) -> f32 {
-    if apex.w - apex.z <= 0.0 {
+    if apex.w <= 0.0 {
         return 0.0;
     }
     let along = spine.s1 - spine.s0;

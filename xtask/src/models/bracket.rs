@@ -33,7 +33,7 @@ const T: f64 = 0.15;
 
 /// The rib: half its width, and how far it reaches up and out.
 const RIB_W: f64 = 0.06;
-const RIB_Y: f64 = 0.45;
+const RIB_Y: f64 = 0.55;
 const RIB_Z: f64 = 0.7;
 
 /// The hole and the pad around it.

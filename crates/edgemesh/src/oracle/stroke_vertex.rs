@@ -139,21 +139,29 @@ pub fn stroke_vertex(
 /// How much nearer than the edge, in depth, the rim of a full quad must lie on
 /// one side: as much as the higher of the two faces.
 fn quad_rise(edge: &ClipEdge, spine: &Spine, viewport_px: Vec2, side: f32, reach_px: f32) -> f32 {
-    rise_toward_eye(spine, edge.c2, viewport_px, side, reach_px).max(rise_toward_eye(
-        spine,
-        edge.c3,
-        viewport_px,
-        side,
-        reach_px,
-    ))
+    let middle = lerp(edge.c0, edge.c1, (spine.t0 + spine.t1) * 0.5);
+    let rise =
+        |apex: Vec4| rise_toward_eye(spine, in_front(middle, apex), viewport_px, side, reach_px);
+    rise(edge.c2).max(rise(edge.c3))
 }
 
-/// How much nearer than the edge the face with the third vertex `apex` lies,
+/// A point of the face for its third vertex: the vertex itself, or, where it
+/// lies behind the near plane, one halfway from the edge's middle to that plane.
+fn in_front(middle: Vec4, apex: Vec4) -> Vec4 {
+    let middle_distance = middle.w - middle.z;
+    let apex_distance = apex.w - apex.z;
+    if apex_distance > 0.0 {
+        return apex;
+    }
+    lerp(middle, apex, 0.5 * middle_distance / (middle_distance - apex_distance))
+}
+
+/// How much nearer than the edge the face with the point `apex` lies,
 /// `reach_px` away from the edge on the side `side` (+1 is the side of p).
 ///
-/// Depth is linear on the screen, so the face's plane gives it exactly; past the
-/// face's own end it stays what it was there. Zero where the face falls away,
-/// lies on the other side, or reaches behind the near plane.
+/// `apex` is a point of the face in front of the near plane. Depth is linear on
+/// the screen, so the face's plane gives it exactly; past `apex` it stays what
+/// it was there. Zero where the face falls away or lies on the other side.
 #[must_use]
 pub fn rise_toward_eye(
     spine: &Spine,
@@ -162,7 +170,7 @@ pub fn rise_toward_eye(
     side: f32,
     reach_px: f32,
 ) -> f32 {
-    if apex.w - apex.z <= 0.0 {
+    if apex.w <= 0.0 {
         return 0.0;
     }
     let along = spine.s1 - spine.s0;
@@ -237,6 +245,11 @@ mod tests {
         // A face that ends after 1 px rises no further than its end.
         rising.c2 = Vec4::new(0.2, 0.02, 0.385, 1.0);
         assert!((depth(&rising, 5) - 0.51).abs() < 1e-5, "{}", depth(&rising, 5));
+        // Behind the eye, the part in front of the near plane counts: this face
+        // goes up by 0.4 toward w = 0.5, and its depth with it.
+        rising.c2 = Vec4::new(0.2, 0.8, 0.5, -1.0);
+        assert!(depth(&rising, 5) > 0.51, "{}", depth(&rising, 5));
+        rising.c2 = Vec4::new(0.2, 0.02, 0.385, 1.0);
         // A half quad lies off the surface.
         let half = stroke_vertex(&rising, &SHAPE, LineBits::CONTOUR, 5);
         assert!((half.position.z - 0.5).abs() < 1e-6);

@@ -1,0 +1,324 @@
+//! The commands' contract: exit statuses, messages, JSON.
+
+use std::ffi::{OsStr, OsString};
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use tempfile::TempDir;
+use testkit::locate::program;
+
+use crate::child::{edgemesh, json, one_error, run, stderr};
+
+/// A cube of six quads; sound, so that nothing is said about it.
+const CUBE: &str = "\
+v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
+f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n";
+
+/// A triangle that comes twice, and two faces that use a NaN.
+const BROKEN: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 1 2 3\nf 1 2 4\nf 1 2 3 4\n";
+
+/// A folder with the file `name`, which goes with the first value.
+fn file(name: impl AsRef<Path>, bytes: &[u8]) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    fs::write(&path, bytes).unwrap();
+    (folder, path)
+}
+
+fn info_with(path: &Path, arguments: &[&str]) -> Output {
+    let mut all: Vec<&OsStr> = vec![OsStr::new("info"), path.as_os_str()];
+    all.extend(arguments.iter().map(OsStr::new));
+    edgemesh(&all)
+}
+
+fn assert_status(output: &Output, status: i32) {
+    assert_eq!(output.status.code(), Some(status), "{output:?}");
+}
+
+/// Refused with one message that names the file and has `part` in it.
+fn assert_refused(path: &Path, part: &str) {
+    let output = info_with(path, &[]);
+    assert_status(&output, 1);
+    assert_eq!(one_error(&output, &[&path.display().to_string(), part]), Ok(()), "{output:?}");
+    assert!(output.stdout.is_empty(), "results only where there are any: {output:?}");
+}
+
+#[test]
+fn wrong_command_lines_end_with_2_and_say_why() {
+    let (_folder, cube) = file("cube.obj", CUBE.as_bytes());
+    let cases: [(&[&str], &str); 10] = [
+        (&["--eye", "1,2"], "--eye"),
+        (&["--eye", "1,2,x"], "--eye"),
+        (&["--eye", "1,nan,0"], "--eye"),
+        (&["--eye", "1,2,3", "--target", "1,2,3"], "--target"),
+        (&["--eye", "0,5,0", "--target", "0,0,0", "--up", "0,1,0"], "--up"),
+        (&["--fov", "180"], "--fov"),
+        (&["--crease", "-1"], "-1"),
+        (&["--crease", "20", "--ridge", "20"], "--ridge"),
+        (&["--frobnicate"], "--frobnicate"),
+        (&["another.obj"], "another.obj"),
+    ];
+    for (arguments, part) in cases {
+        let output = info_with(&cube, arguments);
+        assert_status(&output, 2);
+        let message = stderr(&output);
+        assert!(message.starts_with("error: "), "{arguments:?}: {message}");
+        assert!(message.contains(part), "{arguments:?}: {message}");
+        assert!(output.stdout.is_empty(), "{output:?}");
+    }
+}
+
+#[test]
+fn a_command_line_without_a_command_is_wrong() {
+    let cases: [&[&str]; 4] = [&[], &["info"], &["frobnicate"], &["--frobnicate"]];
+    for arguments in cases {
+        let output = edgemesh(arguments);
+        assert_status(&output, 2);
+        let message = stderr(&output);
+        assert!(message.contains("Usage: edgemesh"), "{arguments:?}: {message}");
+    }
+}
+
+#[test]
+fn help_and_version_go_to_standard_output() {
+    let cases: [(&[&str], &str); 5] = [
+        (&["--help"], "info"),
+        (&["-h"], "info"),
+        (&["info", "--help"], "--crease"),
+        (&["help", "info"], "--crease"),
+        (&["--version"], "edgemesh "),
+    ];
+    for (arguments, part) in cases {
+        let output = edgemesh(arguments);
+        assert_status(&output, 0);
+        let text = String::from_utf8_lossy(&output.stdout);
+        assert!(text.contains(part), "{arguments:?}: {text}");
+        assert!(output.stderr.is_empty(), "{output:?}");
+    }
+}
+
+#[test]
+fn what_is_no_model_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    assert_refused(&folder.path().join("missing.obj"), "cannot be read");
+    assert_refused(folder.path(), "is a folder");
+    assert_refused(&folder.path().join("cube.obj").join("cube.obj"), "cannot be read");
+}
+
+#[test]
+fn other_formats_under_obj_are_named() {
+    let cases: [(&[u8], &str); 6] = [
+        (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "a PNG picture"),
+        (b"<!DOCTYPE html>\n<html><body>404</body></html>\n", "HTML"),
+        (b"\x1f\x8b\x08\0\0\0\0\0", "gzip"),
+        (b"glTF\x02\0\0\0", "glTF"),
+        (b"version https://git-lfs.github.com/spec/v1\noid sha256:00\n", "Git LFS"),
+        (b"v 0 0 0\nv 1 0 0\0\n", "binary data"),
+    ];
+    for (bytes, what) in cases {
+        let (_folder, path) = file("model.obj", bytes);
+        assert_refused(&path, what);
+    }
+}
+
+#[test]
+fn warnings_are_said_once_and_q_silences_them() {
+    let (_folder, broken) = file("broken.obj", BROKEN.as_bytes());
+    let output = info_with(&broken, &["--json"]);
+    assert_status(&output, 0);
+    let message = stderr(&output);
+    for (line, code) in [(6, "duplicate"), (4, "nonfinite")] {
+        let start = format!("{}:{line}: warning: ", broken.display());
+        let found: Vec<&str> =
+            message.lines().filter(|text| text.ends_with(&format!("[{code}]"))).collect();
+        assert_eq!(found.len(), 1, "{code} once in {message:?}");
+        assert!(found[0].starts_with(&start), "{found:?}");
+    }
+    let warnings = json(&output)["warnings"].clone();
+    assert_eq!(warnings.as_array().unwrap().len(), message.lines().count(), "{warnings}");
+
+    let quiet = info_with(&broken, &["--json", "-q"]);
+    assert_status(&quiet, 0);
+    assert!(quiet.stderr.is_empty(), "{quiet:?}");
+    assert_eq!(quiet.stdout, output.stdout, "the results are the same");
+}
+
+#[test]
+fn sound_models_give_results_and_no_messages() {
+    let (_folder, cube) = file("cube.obj", CUBE.as_bytes());
+    let output = info_with(&cube, &[]);
+    assert_status(&output, 0);
+    assert!(output.stderr.is_empty(), "{output:?}");
+    let text = String::from_utf8_lossy(&output.stdout);
+    for (name, count) in [("edges", "18"), ("diagonals", "6"), ("ridge", "12")] {
+        let row = text.lines().find(|line| line.trim_start().starts_with(name)).unwrap();
+        assert_eq!(row.split_whitespace().nth(1), Some(count), "{row}");
+    }
+}
+
+#[test]
+fn lines_are_counted_however_they_end() {
+    for line_end in ["\n", "\r\n", "\r"] {
+        let text = ["# comment", "v 0 0 0", "v 1 0 0", "v 0 1 0", "f 1 2 7", ""].join(line_end);
+        let (_folder, path) = file("broken.obj", text.as_bytes());
+        assert_refused(&path, "broken.obj:5: ");
+    }
+}
+
+#[test]
+fn a_byte_order_mark_is_no_part_of_the_first_line() {
+    let (_folder, cube) = file("cube.obj", format!("\u{feff}{CUBE}").as_bytes());
+    assert_eq!(json(&info_with(&cube, &["--json"]))["vertices"].as_u64(), Some(8));
+}
+
+#[test]
+fn only_models_far_from_the_origin_lose_precision() {
+    for (offset, codes) in [(0, ""), (1000, ""), (1_000_000, "precision")] {
+        let text = format!("v {offset} 0 0\nv {} 0 0\nv {offset} 1 0\nf 1 2 3\n", offset + 1);
+        let (_folder, path) = file("far.obj", text.as_bytes());
+        let warnings = json(&info_with(&path, &["--json"]))["warnings"].clone();
+        assert_eq!(warnings[0]["code"].as_str().unwrap_or(""), codes, "{offset}: {warnings}");
+    }
+}
+
+#[test]
+fn json_has_the_keys_that_scripts_rely_on() {
+    let (_folder, broken) = file("broken.obj", BROKEN.as_bytes());
+    let info = json(&info_with(&broken, &["--json"]));
+    let counts = [
+        "vertices",
+        "welded_vertices",
+        "triangles",
+        "degenerate_triangles",
+        "duplicate_triangles",
+        "edges",
+        "diagonal_edges",
+        "boundary_edges",
+        "non_manifold_edges",
+        "inconsistent_edges",
+        "components",
+        "records",
+    ];
+    assert_counts(&info, &counts);
+    assert_counts(&info["bytes"], &["indexed", "replicated_f32", "replicated_i16"]);
+    let source = [
+        "vertices",
+        "polygons",
+        "triangles",
+        "edges",
+        "boundary_edges",
+        "non_manifold_edges",
+        "inconsistent_edges",
+    ];
+    assert_counts(&info["source"], &source);
+    let features = ["contour", "ridge", "valley", "boundary", "marked", "material"];
+    assert_counts(&info["features"], &features);
+    assert_eq!(info["file"].as_str(), broken.to_str());
+    for corner in ["min", "max"] {
+        let corner = info["bounds"][corner].as_array().unwrap();
+        assert!(corner.len() == 3 && corner.iter().all(Value::is_number), "{corner:?}");
+    }
+    let warnings = info["warnings"].as_array().unwrap();
+    assert!(!warnings.is_empty(), "the file is broken: {info}");
+    for warning in warnings {
+        assert_counts(warning, &["count"]);
+        let place = warning["place"].as_str().unwrap();
+        assert!(warning["code"].is_string() && place.contains("broken.obj:"), "{warning}");
+    }
+}
+
+fn assert_counts(object: &Value, keys: &[&str]) {
+    for key in keys {
+        assert!(object[key].is_u64(), "{key:?} is a count in {object}");
+    }
+}
+
+#[test]
+fn counts_of_a_cube_follow_the_options() {
+    let (_folder, cube) = file("cube.obj", CUBE.as_bytes());
+    let features = |arguments: &[&str]| {
+        let output = info_with(&cube, &[&["--json"], arguments].concat());
+        json(&output)["features"].clone()
+    };
+    let ridges = |arguments: &[&str]| features(arguments)["ridge"].as_u64();
+    assert_eq!(ridges(&[]), Some(12));
+    assert_eq!(ridges(&["--crease", "89"]), Some(12));
+    assert_eq!(ridges(&["--crease", "91"]), Some(0));
+    assert_eq!(ridges(&["--ridge", "91", "--valley", "10"]), Some(0));
+    // Three faces are seen from a corner, one from straight ahead.
+    assert_eq!(features(&[])["contour"].as_u64(), Some(6));
+    let ahead = ["--eye", "0.5,0.5,9", "--target", "0.5,0.5,0.5"];
+    assert_eq!(features(&ahead)["contour"].as_u64(), Some(4));
+    let parallel = [&ahead[..], &["--ortho"]].concat();
+    assert_eq!(features(&parallel)["contour"].as_u64(), Some(4));
+    // From the side the eye sees two faces; parallel lines of sight, only one.
+    let aside = ["--eye=9,0.5,9", "--target=9,0.5,0.5"];
+    assert_eq!(features(&aside)["contour"].as_u64(), Some(6));
+    assert_eq!(features(&[&aside[..], &["--ortho"]].concat())["contour"].as_u64(), Some(4));
+}
+
+/// `edgemesh info --json cube.obj` by a shell, which can close its output.
+#[cfg(unix)]
+fn info_in_shell(redirection: &str) -> Output {
+    let (_folder, cube) = file("cube.obj", CUBE.as_bytes());
+    let script = format!("exec \"$0\" info --json \"$1\" {redirection}");
+    run(Command::new("sh").args(["-c", &script]).arg(program("edgemesh")).arg(&cube))
+}
+
+#[cfg(unix)]
+#[test]
+fn a_closed_output_ends_quietly() {
+    let (_folder, cube) = file("cube.obj", CUBE.as_bytes());
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let mut command = Command::new(program("edgemesh"));
+    let output = run(command.arg("info").arg(&cube).stdout(writer));
+    assert_status(&output, 0);
+    assert!(output.stderr.is_empty(), "{output:?}");
+
+    let output = info_in_shell(">&-");
+    assert!(matches!(output.status.code(), Some(0 | 1)), "{output:?}");
+    assert!(!stderr(&output).contains("panic"), "{output:?}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_error() {
+    let output = info_in_shell(">/dev/full");
+    assert_status(&output, 1);
+    assert_eq!(one_error(&output, &["standard output", "No space"]), Ok(()));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn endless_input_is_refused() {
+    assert_refused(Path::new("/dev/zero"), "binary data");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_path_may_be_any_bytes() {
+    use std::os::unix::ffi::OsStringExt as _;
+    let name = OsString::from_vec(b"cube-\xff.obj".to_vec());
+    let (_folder, cube) = file(name, CUBE.as_bytes());
+    let output = info_with(&cube, &["--json"]);
+    assert_status(&output, 0);
+    assert_eq!(json(&output)["source"]["polygons"].as_u64(), Some(6));
+}
+
+/// A pipe has no size to ask for and cannot be read twice.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_model_may_come_through_a_pipe() {
+    let (reader, mut writer) = std::io::pipe().unwrap();
+    writer.write_all(CUBE.as_bytes()).unwrap();
+    drop(writer);
+    let mut command = Command::new("sh");
+    command.args(["-c", "exec \"$0\" info /dev/fd/3 3<&0"]).arg(program("edgemesh"));
+    let output = command.stdin(reader).output().unwrap();
+    assert_status(&output, 0);
+    assert!(String::from_utf8_lossy(&output.stdout).contains("polygons"), "{output:?}");
+}

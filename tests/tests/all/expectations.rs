@@ -1,0 +1,364 @@
+//! What broken and odd OBJ files must give: `malformed/gen/EXPECT.tsv` row by
+//! row, and the rest of the corpus without a crash.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use serde_json::Value;
+use testkit::locate::{left_out, shared};
+
+use crate::child::{edgemesh, info, json, one_error, stderr};
+
+/// How many rows of the table are about stored OBJ files.
+const STORED_ROWS: usize = 42;
+
+/// How many rows are about large OBJ files, which are made here.
+const BIG_ROWS: usize = 4;
+
+/// Files of the corpus that are called sound and do not load, and why.
+const REFUSED: [(&str, &str); 6] = [
+    ("assimp/box_UTF16BE.obj", "UTF-16 is named, not read"),
+    ("assimp/number_formats.obj", "3.1+e2 is no number"),
+    ("assimp/point_cloud.obj", "points without faces"),
+    ("assimp/testpoints.obj", "points without faces"),
+    ("tinyobjloader/issue-356-leading-spaces-newmtl.obj", "no geometry at all"),
+    ("tinyobjloader/points-prim.obj", "points without faces"),
+];
+
+/// At least this many files of the corpus are called sound.
+const SOUND_FILES: usize = 50;
+
+/// At least this many files broke other parsers.
+const BROKEN_FILES: usize = 50;
+
+/// A row of the table.
+struct Row {
+    file: String,
+    stored: String,
+    /// `error(index)`, `warn(material)`, `ok`, `either`.
+    verdict: String,
+    /// The line that an error must name.
+    line: Option<u32>,
+    /// Counts of the file's own faces, by letter: V F T E B M I.
+    counts: BTreeMap<char, u64>,
+    /// Counts after welding equal positions.
+    welded: BTreeMap<char, u64>,
+    why: String,
+}
+
+impl Row {
+    fn parse(text: &str) -> Self {
+        let columns: Vec<&str> = text.split('\t').collect();
+        let [file, stored, expect, why] = columns[..] else { panic!("four columns in {text:?}") };
+        let (verdict, rest) = expect.split_once(' ').unwrap_or((expect, ""));
+        // What a tolerance would weld is not for exact welding to say.
+        let exact = rest.split("welding with a tolerance:").next().unwrap_or(rest);
+        let (own, welded) = exact.split_once("welded:").unwrap_or((exact, ""));
+        let line = own.strip_prefix("line ").and_then(|rest| rest.split(' ').next()?.parse().ok());
+        Self {
+            file: file.into(),
+            stored: stored.into(),
+            verdict: verdict.trim_end_matches(';').into(),
+            line,
+            counts: counts_in(own),
+            welded: counts_in(welded),
+            why: why.into(),
+        }
+    }
+
+    /// The word in `name(word)`.
+    fn code(&self, name: &str) -> Option<&str> {
+        self.verdict.strip_prefix(name)?.strip_prefix('(')?.strip_suffix(')')
+    }
+
+    /// A warning that the row allows where it expects none.
+    fn allowed_warning(&self) -> Option<&str> {
+        let (_, rest) = self.why.split_once("or warn(")?;
+        rest.split(')').next()
+    }
+
+    /// Whether the row may be an error that says what is not read.
+    fn may_be_refused_as_lines(&self) -> bool {
+        self.why.contains("or a clear word that l is not read")
+    }
+}
+
+/// `V=4 F=1, ...` by letter.
+fn counts_in(text: &str) -> BTreeMap<char, u64> {
+    text.split([' ', ','])
+        .filter_map(|word| {
+            let (letter, number) = word.split_once('=')?;
+            Some((letter.parse().ok()?, number.parse().ok()?))
+        })
+        .collect()
+}
+
+#[test]
+fn rows_are_understood() {
+    let row = Row::parse("obj/a.obj\tstored\tok V=24 F=6 E=24, welded: V=8 E=12\tor warn(x) it");
+    assert_eq!((row.verdict.as_str(), row.line), ("ok", None));
+    assert_eq!(row.counts, BTreeMap::from([('V', 24), ('F', 6), ('E', 24)]));
+    assert_eq!(row.welded, BTreeMap::from([('V', 8), ('E', 12)]));
+    assert_eq!(row.allowed_warning(), Some("x"));
+    let row = Row::parse("obj/a.obj\tstored\terror(index) line 4\twhy");
+    assert_eq!((row.code("error"), row.code("warn"), row.line), (Some("index"), None, Some(4)));
+    let row = Row::parse("obj/a.obj\tstored\tok; welding with a tolerance: V=8 E=12 B=0\twhy");
+    assert_eq!((row.verdict.as_str(), row.counts.len()), ("ok", 0));
+}
+
+/// The folder of the table and its rows about OBJ.
+fn rows(shared: &Path) -> (PathBuf, Vec<Row>) {
+    let folder = shared.join("corpus/malformed/gen");
+    let table = fs::read_to_string(folder.join("EXPECT.tsv")).unwrap();
+    let rows = table.lines().skip(1).map(Row::parse);
+    (folder, rows.filter(|row| row.file.starts_with("obj/")).collect())
+}
+
+#[test]
+fn stored_rows_give_what_the_table_says() {
+    let Some(shared) = shared() else { return left_out("broken OBJ files", STORED_ROWS) };
+    let (folder, rows) = rows(&shared);
+    let stored: Vec<&Row> = rows.iter().filter(|row| row.stored == "stored").collect();
+    assert!(stored.len() >= STORED_ROWS, "{} rows in the table", stored.len());
+    let wrong: Vec<String> = stored
+        .iter()
+        .filter_map(|row| {
+            let why = check_row(row, &folder.join(&row.file)).err()?;
+            Some(format!("{} ({} {}): {why}", row.file, row.verdict, row.why))
+        })
+        .collect();
+    assert!(wrong.is_empty(), "{} rows are wrong:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+fn check_row(row: &Row, path: &Path) -> Result<(), String> {
+    let output = info(path);
+    let again = info(path);
+    if output != again {
+        return Err(format!("two runs differ: {output:?} and {again:?}"));
+    }
+    let status = output.status.code();
+    if let Some(code) = row.code("error") {
+        return check_error(row, path, &output, code);
+    }
+    match (row.verdict.as_str(), status) {
+        ("either", _) => check_any(&output),
+        ("ok", Some(1)) if row.may_be_refused_as_lines() => {
+            one_error(&output, &["'l'", "not read"])
+        }
+        (_, Some(0)) => {
+            let info = json(&output);
+            check_counts(row, &info)?;
+            check_warnings(row, &info, &stderr(&output))
+        }
+        _ => Err(format!("{:?}: {}", output.status, stderr(&output))),
+    }
+}
+
+fn check_error(row: &Row, path: &Path, output: &Output, code: &str) -> Result<(), String> {
+    if output.status.code() != Some(1) {
+        return Err(format!("{:?} instead of exit status 1", output.status));
+    }
+    let place = match row.line {
+        Some(line) => format!("{}:{line}: ", path.display()),
+        None => path.display().to_string(),
+    };
+    one_error(output, &[&place])?;
+    // The message does not print its code; the library has it.
+    match edgemesh::read::read_model(path) {
+        Err(error) if error.code() == code => Ok(()),
+        Err(error) => Err(format!("error({}) instead of error({code}): {error}", error.code())),
+        Ok(_) => Err("the library reads it".into()),
+    }
+}
+
+fn check_counts(row: &Row, info: &Value) -> Result<(), String> {
+    let source = &info["source"];
+    let own = |letter| match letter {
+        'V' => &source["vertices"],
+        'F' => &source["polygons"],
+        'T' => &source["triangles"],
+        'E' => &source["edges"],
+        'B' => &source["boundary_edges"],
+        'M' => &source["non_manifold_edges"],
+        'I' => &source["inconsistent_edges"],
+        _ => &Value::Null,
+    };
+    for (&letter, &count) in &row.counts {
+        if own(letter).as_u64() != Some(count) {
+            return Err(format!("{letter}={count} is {} in {source}", own(letter)));
+        }
+    }
+    for (&letter, &count) in &row.welded {
+        let number = |key: &str| info[key].as_u64();
+        let found = match letter {
+            'V' => number("welded_vertices"),
+            'E' => number("edges").zip(number("diagonal_edges")).map(|(all, cut)| all - cut),
+            'B' => number("boundary_edges"),
+            _ => None,
+        };
+        if found != Some(count) {
+            return Err(format!("welded {letter}={count} is {found:?}"));
+        }
+    }
+    Ok(())
+}
+
+fn check_warnings(row: &Row, info: &Value, stderr: &str) -> Result<(), String> {
+    let warnings = info["warnings"].as_array().ok_or("no warnings in the JSON")?;
+    let codes: Vec<&str> = warnings.iter().filter_map(|warning| warning["code"].as_str()).collect();
+    if stderr.lines().count() != warnings.len() {
+        return Err(format!("{codes:?} and on standard error {stderr:?}"));
+    }
+    match row.code("warn") {
+        Some(code) if codes.contains(&code) => Ok(()),
+        None if codes.iter().all(|code| row.allowed_warning() == Some(*code)) => Ok(()),
+        _ => Err(format!("warnings {codes:?}")),
+    }
+}
+
+/// Loads, or is refused with one message; nothing else.
+fn check_any(output: &Output) -> Result<(), String> {
+    match output.status.code() {
+        Some(0) => Ok(()),
+        Some(1) => one_error(output, &[]),
+        _ => Err(format!("{:?}: {}", output.status, stderr(output))),
+    }
+}
+
+/// All OBJ files under `folder`, sorted.
+fn obj_files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            files.extend(obj_files(&path));
+        } else if path.extension().is_some_and(|extension| extension == "obj") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    files
+}
+
+#[test]
+fn sound_files_load() {
+    let Some(shared) = shared() else { return left_out("sound OBJ files", SOUND_FILES) };
+    let folder = shared.join("corpus/obj");
+    let files = obj_files(&folder);
+    assert!(files.len() >= SOUND_FILES, "only {} files in {}", files.len(), folder.display());
+    let mut refused = Vec::new();
+    for file in &files {
+        let output = info(file);
+        assert_eq!(check_any(&output), Ok(()), "{}", file.display());
+        if output.status.code() != Some(0) {
+            let name = file.strip_prefix(&folder).unwrap().to_str().unwrap().to_owned();
+            eprintln!("not read: {name}: {}", stderr(&output).trim_end());
+            refused.push(name);
+        }
+    }
+    eprintln!("{} of {} sound files load", files.len() - refused.len(), files.len());
+    let expected: Vec<&str> = REFUSED.iter().map(|(name, _)| *name).collect();
+    assert_eq!(refused, expected, "these files do not load; the list has the known ones");
+}
+
+#[test]
+fn broken_files_of_others_end_in_order() {
+    let Some(shared) = shared() else {
+        return left_out("other parsers' broken OBJ files", BROKEN_FILES);
+    };
+    let files = obj_files(&shared.join("corpus/malformed/obj"));
+    assert!(files.len() >= BROKEN_FILES, "only {} files", files.len());
+    for file in &files {
+        assert_eq!(check_any(&info(file)), Ok(()), "{}", file.display());
+    }
+}
+
+/// Writes the large file that `name` stands for.
+fn write_big(name: &str, path: &Path) {
+    let mut out = BufWriter::new(File::create(path).unwrap());
+    match name {
+        "obj/big_isolated_vertices.obj" => {
+            out.write_all(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+            for vertex in 0..1_000_000 {
+                writeln!(out, "v {vertex}.5 {}.25 0.125", vertex / 7).unwrap();
+            }
+        }
+        "obj/big_groups.obj" => {
+            for group in 0..100_000 {
+                writeln!(out, "o part{group}\nv {group} 0 0\nv {group} 1 0\nv {group} 0 1")
+                    .unwrap();
+                writeln!(out, "f -3 -2 -1").unwrap();
+            }
+        }
+        "obj/big_line_16MiB.obj" => {
+            out.write_all(b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n# ").unwrap();
+            out.write_all(&vec![b'x'; 16 << 20]).unwrap();
+            out.write_all(b"\nf 1 2 3\nf 1 3 4\n").unwrap();
+        }
+        "obj/big_hub_vertex.obj" => write_cone(&mut out, 100_000),
+        _ => panic!("no generator for {name}"),
+    }
+    out.flush().unwrap();
+}
+
+/// A cone: the tip and a rim of `count` vertices.
+fn write_cone(out: &mut impl Write, count: u32) {
+    writeln!(out, "v 0 0 1").unwrap();
+    for step in 0..count {
+        let angle = f64::from(step) * std::f64::consts::TAU / f64::from(count);
+        writeln!(out, "v {:.7} {:.7} 0", angle.cos(), angle.sin()).unwrap();
+    }
+    for step in 0..count {
+        writeln!(out, "f 1 {} {}", step + 2, (step + 1) % count + 2).unwrap();
+    }
+}
+
+#[test]
+fn big_rows_give_what_the_table_says() {
+    let Some(shared) = shared() else { return left_out("large OBJ files", BIG_ROWS) };
+    let (_, rows) = rows(&shared);
+    let big: Vec<&Row> = rows.iter().filter(|row| row.stored == "big").collect();
+    assert_eq!(big.len(), BIG_ROWS, "large OBJ files of the table");
+    let folder = tempfile::tempdir().unwrap();
+    for row in big {
+        let path = folder.path().join("big.obj");
+        write_big(&row.file, &path);
+        let output = info(&path);
+        assert_eq!(output.status.code(), Some(0), "{}: {}", row.file, stderr(&output));
+        let info = json(&output);
+        assert_eq!(check_counts(row, &info), Ok(()), "{}", row.file);
+        assert_eq!(check_warnings(row, &info, &stderr(&output)), Ok(()), "{}", row.file);
+    }
+}
+
+/// Vertices that no face uses must not cost much: the table allows ten times
+/// the file. The limit here is on addresses, of which memory is a part.
+#[cfg(target_os = "linux")]
+#[test]
+fn isolated_vertices_fit_into_ten_times_the_file() {
+    use std::process::{Command, Stdio};
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("isolated.obj");
+    write_big("obj/big_isolated_vertices.obj", &path);
+    let kibibytes = fs::metadata(&path).unwrap().len() * 10 / 1024;
+    let script = format!("ulimit -v {kibibytes} && exec \"$0\" info \"$1\"");
+    let program = testkit::locate::program("edgemesh");
+    let mut command = Command::new("sh");
+    command.args(["-c", &script]).arg(program).arg(&path).stdout(Stdio::piped());
+    let output = crate::child::run(&mut command);
+    assert_eq!(output.status.code(), Some(0), "in {kibibytes} KiB: {}", stderr(&output));
+}
+
+#[test]
+fn a_quarter_of_a_million_faces_at_one_vertex_take_linear_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("cone.obj");
+    let mut out = BufWriter::new(File::create(&path).unwrap());
+    write_cone(&mut out, 250_000);
+    out.flush().unwrap();
+    let output = edgemesh(&["info", "--json", path.to_str().unwrap()]);
+    assert_eq!(json(&output)["edges"].as_u64(), Some(500_000));
+}

@@ -1,0 +1,242 @@
+//! Pictures: goldens, and what can be said of them in closed form.
+
+use edgemesh::build::{BuildOptions, build_edge_mesh};
+use edgemesh::camera::Camera;
+use edgemesh::edge_mesh::EdgeMesh;
+use edgemesh::model::Model;
+use edgemesh::report::Report;
+use glam::DVec3;
+use image::{GrayImage, Luma, RgbaImage};
+use testkit::compare::Golden;
+use viewer::render::{PictureRenderer, Scene};
+use viewer::technique::Technique;
+
+use crate::gpu_device::{gpu, is_pinned_driver};
+use crate::gpu_twin::own_models;
+
+pub(crate) fn technique(name: &str, settings: &[&str]) -> Technique {
+    let mut technique = Technique::by_name(name).unwrap();
+    for setting in settings {
+        technique.set(setting).unwrap();
+    }
+    technique
+}
+
+pub(crate) fn picture(
+    mesh: &EdgeMesh,
+    camera: &Camera,
+    technique: &Technique,
+    size_px: u32,
+    samples: u32,
+) -> RgbaImage {
+    let scene = Scene {
+        models: vec![("test".into(), mesh.clone(), Report::default())],
+        bounds: mesh.bounds,
+    };
+    let size = [size_px, size_px];
+    let renderer = PictureRenderer::new(gpu(), &scene, &technique.look(), size, samples).unwrap();
+    renderer.render(camera).unwrap().0
+}
+
+pub(crate) fn own_model(name: &str) -> EdgeMesh {
+    own_models().into_iter().find(|(known, _)| known == name).unwrap().1
+}
+
+/// Which pixels are darker than middle grey.
+fn ink(picture: &RgbaImage) -> GrayImage {
+    GrayImage::from_fn(picture.width(), picture.height(), |x, y| {
+        Luma([u8::from(picture.get_pixel(x, y).0[0] < 128)])
+    })
+}
+
+fn ink_count(picture: &RgbaImage) -> usize {
+    ink(picture).iter().filter(|&&pixel| pixel > 0).count()
+}
+
+fn from(mesh: &EdgeMesh, direction: DVec3, radii: f64) -> Camera {
+    let default = Camera::default_view(&mesh.bounds);
+    let eye = default.target + direction.normalize_or_zero() * mesh.bounds.radius() * radii;
+    Camera { eye, ..default }
+}
+
+fn check_golden(name: &str, picture: &RgbaImage) {
+    Golden::lines(is_pinned_driver()).check(name, picture);
+}
+
+#[test]
+fn golden_models() {
+    for (name, mesh) in own_models() {
+        let camera = Camera::default_view(&mesh.bounds);
+        check_golden(
+            &format!("{name}-ink"),
+            &picture(&mesh, &camera, &technique("ink", &[]), 256, 4),
+        );
+    }
+}
+
+#[test]
+fn golden_pen() {
+    for name in ["bracket", "plane_with_hole"] {
+        let mesh = own_model(name);
+        let look = technique("pen", &["strokes.width=8"]);
+        let camera = from(&mesh, DVec3::new(-1.0, 0.8, 1.0), 2.4);
+        check_golden(&format!("{name}-pen"), &picture(&mesh, &camera, &look, 256, 4));
+    }
+}
+
+/// The cylinder's end, where the paper's caps leave gaps (its Figure 5), in
+/// wide strokes.
+#[test]
+fn golden_caps() {
+    let mesh = own_model("cylinder");
+    let look = technique("ink", &["strokes.width=10"]);
+    let camera = from(&mesh, DVec3::new(0.1, 1.0, 0.35), 2.4);
+    check_golden("cylinder-caps", &picture(&mesh, &camera, &look, 256, 4));
+}
+
+#[test]
+fn golden_orthographic_and_inside() {
+    let mesh = own_model("bracket");
+    let mut camera = from(&mesh, DVec3::new(1.0, 1.0, 1.0), 3.0);
+    camera.is_orthographic = true;
+    check_golden("bracket-ortho", &picture(&mesh, &camera, &technique("ink", &[]), 256, 4));
+    let cube = own_model("cube");
+    let inside = Camera { eye: DVec3::new(0.1, 0.05, 0.2), ..Camera::default_view(&cube.bounds) };
+    let look = technique("ink", &["strokes.width=4"]);
+    check_golden("cube-inside", &picture(&cube, &inside, &look, 256, 4));
+}
+
+#[test]
+fn the_same_view_gives_the_same_bytes() {
+    let mesh = own_model("wave_blob");
+    let camera = Camera::default_view(&mesh.bounds);
+    let look = technique("pen", &[]);
+    let first = picture(&mesh, &camera, &look, 200, 4);
+    let again = picture(&mesh, &camera, &look, 200, 4);
+    assert_eq!(first, again);
+    assert!(ink_count(&first) > 500, "and there is something to see");
+}
+
+/// Half quads lie outside: around a convex body without creases, every pixel
+/// next to its silhouette is inked, and none inside of it.
+#[test]
+fn contours_of_a_convex_body_ring_it_from_outside() {
+    let mesh = without_creases(&own_model("cylinder"));
+    let solid = technique("ink", &["fill.color=#000000", "strokes.color=#00000000"]);
+    let lines = technique("ink", &["strokes.width=3"]);
+    for direction in [DVec3::new(1.0, 0.6, 1.2), DVec3::new(0.2, -1.0, 0.3), DVec3::X] {
+        let camera = from(&mesh, direction, 3.0);
+        let body = ink(&picture(&mesh, &camera, &solid, 256, 1));
+        let stroke = ink(&picture(&mesh, &camera, &lines, 256, 1));
+        let (mut ring, mut gaps, mut inside) = (0, 0, 0);
+        for (x, y) in (2..254).flat_map(|y| (2..254).map(move |x| (x, y))) {
+            let near = |reach: u32| {
+                (x - reach..=x + reach)
+                    .flat_map(|x| (y - reach..=y + reach).map(move |y| (x, y)))
+                    .filter(|&(x, y)| body.get_pixel(x, y).0[0] > 0)
+                    .count()
+            };
+            let is_inked = stroke.get_pixel(x, y).0[0] > 0;
+            let is_body = body.get_pixel(x, y).0[0] > 0;
+            // A neighbour along a side, not only across a corner.
+            if !is_body && near(1) >= 2 {
+                ring += 1;
+                gaps += usize::from(!is_inked);
+            }
+            inside += usize::from(is_inked && near(2) == 25);
+        }
+        assert!(ring > 200, "the body is in the picture");
+        assert_eq!((gaps, inside), (0, 0), "from {direction}, of {ring} pixels around");
+    }
+}
+
+fn without_creases(mesh: &EdgeMesh) -> EdgeMesh {
+    use edgemesh::record::EdgeFlags;
+    let mut mesh = mesh.clone();
+    for record in &mut mesh.records {
+        record.flags -= EdgeFlags::RIDGE | EdgeFlags::VALLEY | EdgeFlags::MATERIAL;
+    }
+    mesh
+}
+
+/// A cube seen exactly from the front draws its front outline: the side faces
+/// are seen edge on, and zero counts as back.
+#[test]
+fn a_cube_from_the_front_is_one_square() {
+    let cube = own_model("cube");
+    let mut camera = from(&cube, DVec3::Z, 3.0);
+    camera.is_orthographic = true;
+    let stroke = ink(&picture(&cube, &camera, &technique("ink", &["strokes.width=2"]), 256, 1));
+    let row: Vec<u32> = (0..256).filter(|&x| stroke.get_pixel(x, 128).0[0] > 0).collect();
+    assert_eq!(row.len(), 4, "two pixels on each side: {row:?}");
+    assert_eq!((row[1] - row[0], row[3] - row[2]), (1, 1), "{row:?}");
+}
+
+/// A floor that goes on behind the eye draws the same as one that ends in front
+/// of it, below the picture.
+#[test]
+fn an_edge_through_the_eye_plane_draws_like_its_visible_part() {
+    let floor = |near_z: f32| {
+        let corners = [[-1., 0., near_z], [1., 0., near_z], [1., 0., -20.], [-1., 0., -20.]];
+        let model = Model::from_polygons(&corners, &[&[0, 1, 2, 3]]);
+        build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default())
+    };
+    let camera = Camera {
+        eye: DVec3::new(0.3, 0.5, 0.0),
+        target: DVec3::new(0.2, 0.4, -1.0),
+        up: DVec3::Y,
+        fov_y_rad: 1.0,
+        is_orthographic: false,
+    };
+    let look = technique("ink", &["strokes.width=4"]);
+    let (through, before) = (floor(30.0), floor(-0.5));
+    let through = picture(&through, &camera, &look, 256, 4);
+    let before = picture(&before, &camera, &look, 256, 4);
+    assert!(ink_count(&before) > 500, "{}", ink_count(&before));
+    let differing =
+        through.pixels().zip(before.pixels()).filter(|(a, b)| a.0[0].abs_diff(b.0[0]) > 64);
+    assert!(differing.count() <= 4, "the near planes differ, the lines do not");
+}
+
+/// Eyes at a vertex, on an edge, in a face: what is drawn is drawn right or not
+/// at all, and nothing sweeps across the picture.
+#[test]
+fn the_eye_on_the_mesh_leaves_no_spikes() {
+    let cube = own_model("cube");
+    let corner = cube.bounds.max[0];
+    for at in [DVec3::splat(0.5), DVec3::new(0.5, 0.5, 0.1), DVec3::new(0.5, 0.2, 0.1)] {
+        let eye = at * f64::from(corner) * 2.0;
+        let camera = Camera {
+            eye,
+            target: DVec3::new(-0.3, -0.1, -0.2),
+            ..Camera::default_view(&cube.bounds)
+        };
+        let look = technique("ink", &["strokes.width=2"]);
+        let inked = ink_count(&picture(&cube, &camera, &look, 256, 1));
+        // Ten edges across the picture, two pixels wide, would be 5,000.
+        assert!(inked < 5000, "{inked} pixels from {eye}");
+    }
+}
+
+#[test]
+fn one_triangle_front_edge_on_and_none() {
+    let model = Model::from_polygons(&[[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]], &[&[0, 1, 2]]);
+    let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
+    let look = technique("ink", &["strokes.width=2"]);
+    let count =
+        |direction: DVec3| ink_count(&picture(&mesh, &from(&mesh, direction, 3.0), &look, 128, 1));
+    let (front, back, edge_on) = (count(DVec3::Z), count(DVec3::NEG_Z), count(DVec3::X));
+    assert!(front > 200, "{front}");
+    assert!(front.abs_diff(back) < 20, "both sides: {front} {back}");
+    assert!((20..front / 2).contains(&edge_on), "a line: {edge_on}");
+}
+
+#[test]
+fn transparency_leaves_the_paper_out() {
+    let mesh = own_model("cube");
+    let mut look = technique("ink", &[]);
+    look.make_transparent();
+    let picture = picture(&mesh, &Camera::default_view(&mesh.bounds), &look, 64, 4);
+    assert_eq!(picture.get_pixel(0, 0).0[3], 0);
+    assert_eq!(picture.get_pixel(32, 32).0[3], 255);
+}

@@ -1,0 +1,21 @@
+//! All tests across the crates, in one binary so that they link once.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod child;
+mod commands;
+mod dependencies;
+mod expectations;
+#[cfg(feature = "gpu")]
+mod gpu_device;
+#[cfg(feature = "gpu")]
+mod gpu_render;
+#[cfg(feature = "gpu")]
+mod gpu_twin;
+#[cfg(feature = "gpu")]
+mod gpu_visibility;
+mod layouts;
+mod models;
+mod noop;
+mod render_command;
+mod shaders;

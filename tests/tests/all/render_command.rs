@@ -1,0 +1,202 @@
+//! `viewer`, run as users run it. What needs no adapter runs everywhere.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use testkit::locate::{program, workspace_root};
+
+fn viewer(arguments: &[&str]) -> Output {
+    Command::new(program("viewer")).args(arguments).output().unwrap()
+}
+
+fn message(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn cube() -> String {
+    workspace_root().join("models/cube.obj").display().to_string()
+}
+
+#[test]
+fn wrong_command_lines_exit_with_2_and_say_why() {
+    let cube = cube();
+    for (arguments, word) in [
+        (vec![], "Usage"),
+        (vec!["render"], "MODEL"),
+        (vec!["render", &cube], "--output"),
+        (vec!["render", &cube, "-o", "a.jpg"], ".png"),
+        (vec!["render", &cube, "-o", "a.png", "--size", "10"], "1920x1080"),
+        (vec!["render", &cube, "-o", "a.png", "--samples", "2"], "samples"),
+        (vec!["render", &cube, "-o", "a.png", "--eye", "1,2"], "three numbers"),
+        (vec!["render", &cube, "-o", "a.png", "--set", "strokes.width=x"], "pixels"),
+        (vec!["render", &cube, "-o", "-", "--stats", "-"], "both"),
+        (vec!["render", &cube, "-o", &cube], ".png"),
+    ] {
+        let output = viewer(&arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", message(&output));
+        assert!(message(&output).contains(word), "{arguments:?}: {}", message(&output));
+    }
+}
+
+#[test]
+fn wrong_inputs_and_outputs_exit_with_1_and_leave_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out.png").display().to_string();
+    let cube = cube();
+    for (arguments, word) in [
+        (vec!["render", "no/such.obj", "-o", &out], "no/such.obj"),
+        (vec!["render", &cube, "-o", "no/such/folder/out.png"], "no/such/folder does not exist"),
+        (vec!["render", &cube, "-o", &out, "--reference", "no/such.png"], "no/such.png"),
+    ] {
+        let output = viewer(&arguments);
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {}", message(&output));
+        assert!(message(&output).contains(word), "{arguments:?}: {}", message(&output));
+    }
+    assert_eq!(folder.path().read_dir().unwrap().count(), 0);
+}
+
+#[test]
+fn an_unknown_technique_exits_with_4_and_names_those_there_are() {
+    let output = viewer(&["render", &cube(), "-o", "a.png", "--technique", "oil"]);
+    assert_eq!(output.status.code(), Some(4));
+    assert!(message(&output).contains("ink, pen"), "{}", message(&output));
+}
+
+#[test]
+fn without_an_adapter_the_status_is_3_and_the_message_says_what_to_install() {
+    for arguments in
+        [vec!["adapters".to_owned()], vec!["render".into(), cube(), "-o".into(), "a.png".into()]]
+    {
+        let output = Command::new(program("viewer"))
+            .args(&arguments)
+            .env("VK_DRIVER_FILES", "/nonexistent")
+            .env("VK_ICD_FILENAMES", "/nonexistent")
+            .env("WGPU_BACKEND", "vulkan")
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(3), "{arguments:?}: {}", message(&output));
+        assert!(message(&output).contains("mesa-vulkan-drivers"), "{}", message(&output));
+    }
+    assert!(!Path::new("a.png").exists());
+}
+
+#[cfg(feature = "gpu")]
+mod with_adapter {
+    use super::*;
+    use serde_json::Value;
+    use testkit::locate::{left_out, shared};
+
+    fn statistics(arguments: &[&str]) -> Value {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("out.png").display().to_string();
+        let mut all = vec!["-q", "render", "-o", &out, "--stats", "-", "--size", "64x64"];
+        all.extend(arguments);
+        let output = viewer(&all);
+        assert_eq!(output.status.code(), Some(0), "{}", message(&output));
+        assert!(Path::new(&out).is_file());
+        serde_json::from_slice(&output.stdout).unwrap()
+    }
+
+    #[test]
+    fn statistics_have_the_keys_that_scripts_rely_on() {
+        let statistics = statistics(&[&cube()]);
+        for key in [
+            "adapter",
+            "backend",
+            "size",
+            "triangles",
+            "edges",
+            "features",
+            "strokes",
+            "passes",
+            "frame_ms",
+        ] {
+            assert!(statistics.get(key).is_some(), "{key}");
+        }
+        assert_eq!((&statistics["triangles"], &statistics["edges"]), (&12.into(), &18.into()));
+        assert_eq!(statistics["features"]["ridge"], 12);
+        let names: Vec<_> =
+            statistics["passes"].as_array().unwrap().iter().map(|pass| &pass["name"]).collect();
+        assert_eq!(names, ["detect", "fill", "strokes"]);
+    }
+
+    /// The GPU counts what the reference program counted in 64 bits.
+    #[test]
+    fn counts_equal_the_reference_on_every_shared_model() {
+        let Some(shared) = shared() else { return left_out("models with reference counts", 7) };
+        let text = std::fs::read_to_string(shared.join("models/reference_counts.json")).unwrap();
+        let reference: Value = serde_json::from_str(&text).unwrap();
+        let models = reference["models"].as_object().unwrap();
+        assert!(models.len() >= 7);
+        for (name, counts) in models {
+            let vector = |key: &str| {
+                let parts = counts[key].as_array().unwrap().iter().map(Value::to_string);
+                parts.collect::<Vec<_>>().join(",")
+            };
+            let file = shared.join(format!("models/{name}.obj")).display().to_string();
+            let got = statistics(&[&file, "--eye", &vector("eye"), "--target", &vector("center")]);
+            let pairs = [
+                (&got["edges"], "edges"),
+                (&got["features"]["contour"], "contour_edges_manifold"),
+                (&got["features"]["boundary"], "boundary_edges"),
+                (&got["features"]["ridge"], "crease_ridge"),
+                (&got["features"]["valley"], "crease_valley"),
+            ];
+            for (got, key) in pairs {
+                // Where faces are polygons, the reference counts no creases.
+                if let Some(want) = counts.get(key) {
+                    assert_eq!(got, want, "{name}: {key}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_reference_that_differs_exits_with_5_and_writes_the_difference() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name).display().to_string();
+        let (cube, first, second) = (cube(), path("first.png"), path("second.png"));
+        let size = ["--size", "64x64"];
+        let run = |extra: &[&str]| viewer(&[&["render", &cube], &size[..], extra].concat());
+        assert_eq!(run(&["-o", &first]).status.code(), Some(0));
+        let same = run(&["-o", &second, "--reference", &first]);
+        assert_eq!(same.status.code(), Some(0), "{}", message(&same));
+        let other = run(&["-o", &second, "--reference", &first, "--set", "strokes.width=6"]);
+        assert_eq!(other.status.code(), Some(5), "{}", message(&other));
+        assert!(message(&other).contains("pixels"), "{}", message(&other));
+        assert!(Path::new(&second).is_file());
+        let wrong_size = viewer(&["render", &cube, "-o", &second, "--reference", &first]);
+        assert_eq!(wrong_size.status.code(), Some(1), "{}", message(&wrong_size));
+    }
+
+    #[test]
+    fn a_turntable_writes_numbered_pictures_and_a_stream_is_a_png() {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("turn.png").display().to_string();
+        let cube = cube();
+        let output = viewer(&["render", &cube, "-o", &out, "--size", "32x16", "--turntable", "3"]);
+        assert_eq!(output.status.code(), Some(0), "{}", message(&output));
+        for step in 0..3 {
+            assert!(folder.path().join(format!("turn-{step}.png")).is_file());
+        }
+        let output = viewer(&["render", &cube, "-o", "-", "--size", "32x16", "--transparent"]);
+        let picture = image::load_from_memory(&output.stdout).unwrap();
+        assert_eq!((picture.width(), picture.height()), (32, 16));
+        assert!(picture.color().has_alpha());
+    }
+
+    #[test]
+    fn a_picture_beyond_the_adapter_is_refused_with_the_limit() {
+        let output = viewer(&["render", &cube(), "-o", "a.png", "--size", "1000000x4"]);
+        assert_eq!(output.status.code(), Some(1), "{}", message(&output));
+        assert!(message(&output).contains("at most"), "{}", message(&output));
+        assert!(!Path::new("a.png").exists());
+    }
+
+    #[test]
+    fn an_unknown_adapter_names_those_there_are() {
+        let output = viewer(&["render", &cube(), "-o", "a.png", "--adapter", "no such"]);
+        assert_eq!(output.status.code(), Some(3), "{}", message(&output));
+        assert!(message(&output).contains("there are: "), "{}", message(&output));
+    }
+}

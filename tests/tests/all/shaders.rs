@@ -1,0 +1,51 @@
+//! Every shader file, by the resolver that the renderer uses.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use strokes::shader::{EMBEDDED, ShaderSource};
+use testkit::locate::workspace_root;
+
+/// All shader files on disk, path from the shader folder and text.
+pub(crate) fn shader_files() -> BTreeMap<String, String> {
+    fn walk(folder: &Path, prefix: &str, files: &mut BTreeMap<String, String>) {
+        for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {
+            let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
+            if entry.path().is_dir() {
+                walk(&entry.path(), &format!("{name}/"), files);
+            } else if name.ends_with(".wgsl") {
+                files.insert(name, fs::read_to_string(entry.path()).unwrap());
+            }
+        }
+    }
+    let mut files = BTreeMap::new();
+    let folder = workspace_root().join("shaders");
+    walk(&folder, "", &mut files);
+    assert!(files.len() > 8, "too few shaders under {}", folder.display());
+    files
+}
+
+#[test]
+fn the_embedded_shaders_are_those_on_disk() {
+    let embedded: BTreeMap<String, String> =
+        EMBEDDED.iter().map(|(path, text)| ((*path).to_owned(), (*text).to_owned())).collect();
+    assert_eq!(embedded, shader_files());
+}
+
+#[test]
+fn every_shader_is_valid_and_common_files_have_no_entry_points() {
+    let mut failures = Vec::new();
+    for path in shader_files().keys() {
+        match ShaderSource::embedded(path).and_then(|source| source.validate()) {
+            Err(error) => failures.push(error.to_string()),
+            Ok(module) => {
+                let is_root = !path.starts_with("common/");
+                if is_root == module.entry_points.is_empty() {
+                    failures.push(format!("{path}: entry points belong outside of common/"));
+                }
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
