@@ -6,6 +6,7 @@
 // No barriers over all edges either: software drivers run those slowly, and
 // runs that are scanned by one small workgroup need next to none.
 #import <common/feature.wgsl>
+#import <common/frame.wgsl>
 #import <common/mesh.wgsl>
 
 // Edges an invocation looks at. Rust twin: EDGES_PER_RUN in mesh_buffers.rs.
@@ -37,10 +38,11 @@ fn looks_at_eye(face: u32) -> bool {
     return (facing[face >> 5u] & (1u << (face & 31u))) != 0u;
 }
 
-fn line_bits(record: EdgeRecord) -> u32 {
+fn line_bits(record: EdgeRecord, is_outside: bool) -> u32 {
     let has_b = record.face_b != NONE;
     let b_faces = has_b && looks_at_eye(record.face_b);
-    return classify_edge(record.flags, has_b, looks_at_eye(record.face_a), b_faces);
+    let a_faces = looks_at_eye(record.face_a);
+    return classify_edge(record.flags, has_b, a_faces, b_faces, is_outside);
 }
 
 @compute @workgroup_size(64)
@@ -51,6 +53,7 @@ fn count_runs(@builtin(global_invocation_id) id: vec3u) {
     }
     let first = run * EDGES_PER_RUN;
     let last = min(first + EDGES_PER_RUN, mesh.edge_count);
+    let is_outside = eye_is_outside(frame.eye, mesh.box_min.xyz, mesh.box_max.xyz);
     var live_count = 0u;
     var contour = 0u;
     var ridge = 0u;
@@ -60,11 +63,8 @@ fn count_runs(@builtin(global_invocation_id) id: vec3u) {
     var material = 0u;
     for (var edge = first; edge < last; edge++) {
         let record = records[edge];
-        let bits = line_bits(record);
-        if (bits & DRAWN) == 0u {
-            continue;
-        }
-        live_count++;
+        let bits = line_bits(record, is_outside);
+        live_count += u32((bits & DRAWN) != 0u);
         if (record.flags & NON_MANIFOLD) != 0u {
             continue;
         }
@@ -129,9 +129,10 @@ fn write_runs(@builtin(global_invocation_id) id: vec3u) {
     }
     let first = run * EDGES_PER_RUN;
     let last = min(first + EDGES_PER_RUN, mesh.edge_count);
+    let is_outside = eye_is_outside(frame.eye, mesh.box_min.xyz, mesh.box_max.xyz);
     var place = runs[run];
     for (var edge = first; edge < last; edge++) {
-        let bits = line_bits(records[edge]);
+        let bits = line_bits(records[edge], is_outside);
         if (bits & DRAWN) != 0u {
             live[place] = edge | (bits & (CONTOUR | A_FACES));
             place++;

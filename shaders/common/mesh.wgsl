@@ -23,6 +23,9 @@ struct MeshUniform {
     edge_count: u32,
     run_count: u32,
     padding: u32,
+    // The box around the mesh; w is unused.
+    box_min: vec4f,
+    box_max: vec4f,
 }
 
 // The edge's random scalar in [0, 1): a hash of its ends, either way round.

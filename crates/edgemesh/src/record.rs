@@ -48,6 +48,9 @@ bitflags::bitflags! {
         /// Both faces traverse the edge in the same direction, on a surface
         /// that cannot be oriented; the facing of face B counts reversed.
         const CLASH = 1 << 7;
+        /// On a closed component whose faces look outwards: where both faces
+        /// look away from an eye outside of it, the component hides the edge.
+        const SOLID = 1 << 8;
     }
 }
 

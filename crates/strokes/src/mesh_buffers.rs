@@ -27,7 +27,7 @@ use crate::frame::uniform_buffer;
 pub const EDGES_PER_RUN: u32 = 64;
 
 /// How large the mesh is. WGSL twin: `MeshUniform` in `shaders/common/mesh.wgsl`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct MeshUniform {
     /// Triangles.
@@ -38,6 +38,10 @@ pub struct MeshUniform {
     pub run_count: u32,
     /// Unused.
     pub padding: u32,
+    /// Lower corner of the box around the mesh; w is unused.
+    pub box_min: [f32; 4],
+    /// Upper corner.
+    pub box_max: [f32; 4],
 }
 
 /// The arguments of the indirect draw and the view's counts, as the GPU writes
@@ -120,11 +124,14 @@ impl MeshBuffers {
     /// [`MeshTooLarge`], before anything is uploaded.
     pub fn new(device: &wgpu::Device, mesh: &EdgeMesh) -> Result<Self, MeshTooLarge> {
         let edge_count = to_u32(mesh.records.len());
+        let corner = |[x, y, z]: [f32; 3]| [x, y, z, 0.0];
         let size = MeshUniform {
             face_count: to_u32(mesh.triangles.len()),
             edge_count,
             run_count: edge_count.div_ceil(EDGES_PER_RUN),
             padding: 0,
+            box_min: corner(mesh.bounds.min),
+            box_max: corner(mesh.bounds.max),
         };
         check_sizes(device, mesh)?;
         let storage = BufferUsages::STORAGE;

@@ -104,20 +104,20 @@ fn classification_agrees_in_every_case() {
         bits: u32,
     }
     let inputs: Vec<Input> = (0..EdgeFlags::all().bits() + 1)
-        .flat_map(|flags| (0..8).map(move |bits| Input { flags, bits }))
+        .flat_map(|flags| (0..16).map(move |bits| Input { flags, bits }))
         .collect();
     let body = "#import <common/feature.wgsl>
         struct Input { flags: u32, bits: u32 }
         alias Output = u32;
         fn run(input: Input) -> Output {
             return classify_edge(input.flags, (input.bits & 1u) != 0u, (input.bits & 2u) != 0u,
-                (input.bits & 4u) != 0u);
+                (input.bits & 4u) != 0u, (input.bits & 8u) != 0u);
         }";
     let outputs: Vec<u32> = run_wgsl(gpu(), body, &inputs);
     for (Input { flags, bits }, got) in inputs.iter().zip(outputs) {
         let flags = EdgeFlags::from_bits(*flags).unwrap();
-        let want = classify_edge(flags, bits & 1 != 0, bits & 2 != 0, bits & 4 != 0);
-        assert_eq!(LineBits::from_bits(got), Some(want), "{flags:?} {bits:03b}");
+        let want = classify_edge(flags, bits & 1 != 0, bits & 2 != 0, bits & 4 != 0, bits & 8 != 0);
+        assert_eq!(LineBits::from_bits(got), Some(want), "{flags:?} {bits:04b}");
     }
 }
 

@@ -34,7 +34,7 @@ macro_rules! layout {
 fn rust_layouts() -> BTreeMap<String, Layout> {
     BTreeMap::from([
         layout!(FrameUniform { clip_from_world, eye, viewport_px, padding }),
-        layout!(MeshUniform { face_count, edge_count, run_count, padding }),
+        layout!(MeshUniform { face_count, edge_count, run_count, padding, box_min, box_max }),
         layout!(FacePlane { normal, point }),
         layout!(EdgeRecord { v0, v1, face_a, face_b, flags }),
         layout!(Tally {

@@ -19,7 +19,7 @@ use rustc_hash::FxHashSet;
 
 use self::corners::{CornerInput, UnionFind, build_fill};
 use self::orient::orient;
-use self::records::{RecordInput, build_records, is_diagonal_edge};
+use self::records::{RecordInput, build_records, is_diagonal_edge, mark_solids};
 use self::triangulate::{PolygonTriangle, triangulate};
 use self::weld::weld;
 use crate::edge_mesh::{Bounds, EdgeMesh, MeshCounts, SourceCounts};
@@ -119,7 +119,8 @@ fn finish(model: &Model, options: &BuildOptions, report: &mut Report, parts: Par
         is_diagonal: &is_diagonal,
         clashes: &clashes,
     };
-    let records = build_records(&input, &table, options);
+    let mut records = build_records(&input, &table, options);
+    mark_solids(&positions, &triangles, &mut records);
     let fill = build_fill(&CornerInput {
         model,
         positions: &positions,

@@ -19,6 +19,8 @@
 use glam::{DVec3, Vec3};
 
 use super::BuildOptions;
+use super::corners::UnionFind;
+use super::normals::corners_of;
 use crate::index::NONE;
 use crate::record::{EdgeFlags, EdgeRecord};
 use crate::topology::{EdgeTable, triangle_side};
@@ -55,6 +57,41 @@ pub(crate) fn build_records(
         }
     }
     records
+}
+
+/// Marks the edges of closed components whose faces look outwards.
+///
+/// A component is closed where each of its edges has two faces that wind the
+/// same way, and looks outwards where the volume it encloses is positive.
+pub(crate) fn mark_solids(
+    positions: &[[f32; 3]],
+    triangles: &[[u32; 3]],
+    records: &mut [EdgeRecord],
+) {
+    let opens = EdgeFlags::BOUNDARY | EdgeFlags::NON_MANIFOLD | EdgeFlags::CLASH;
+    let mut sets = UnionFind::new(triangles.len());
+    for record in records.iter().filter(|record| record.face_b != NONE) {
+        sets.join(record.face_a as usize, record.face_b as usize);
+    }
+    // Six times the volume between each component and the first vertex.
+    let origin = positions.first().map_or(DVec3::ZERO, |&first| Vec3::from(first).as_dvec3());
+    let mut volumes = vec![0.0; triangles.len()];
+    for (face, &triangle) in triangles.iter().enumerate() {
+        let [a, b, c] = corners_of(positions, triangle).map(|corner| corner - origin);
+        volumes[sets.root(face)] += a.dot(b.cross(c));
+    }
+    let mut is_closed = vec![true; triangles.len()];
+    for record in records.iter().filter(|record| record.flags.intersects(opens)) {
+        is_closed[sets.root(record.face_a as usize)] = false;
+        if record.face_b != NONE {
+            is_closed[sets.root(record.face_b as usize)] = false;
+        }
+    }
+    for record in records {
+        let component = sets.root(record.face_a as usize);
+        let is_solid = is_closed[component] && volumes[component] > 0.0;
+        record.flags.set(EdgeFlags::SOLID, is_solid);
+    }
 }
 
 /// Whether an edge is nothing but a polygon's diagonal: both of its faces say so.
@@ -217,6 +254,20 @@ mod tests {
         for (solid_a, solid_b) in split {
             assert_eq!(solid_a, solid_b, "each pair belongs to one solid");
         }
+    }
+
+    #[test]
+    fn closed_and_outward_is_solid() {
+        let corners = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
+        let outward: [&[u32]; 4] = [&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]];
+        let inward: [&[u32]; 4] = [&[0, 1, 2], &[0, 3, 1], &[1, 3, 2], &[0, 2, 3]];
+        let solid_count = |polygons: &[&[u32]]| {
+            let records = records_of(&corners, polygons);
+            records.iter().filter(|record| record.flags.contains(EdgeFlags::SOLID)).count()
+        };
+        assert_eq!(solid_count(&outward), 6);
+        assert_eq!(solid_count(&inward), 0);
+        assert_eq!(solid_count(&outward[..3]), 0, "open");
     }
 
     #[test]

@@ -35,15 +35,28 @@ const CONTOUR: [[bool; 2]; 2] = [
 ///
 /// `has_b` is false where there is no second face; `b_faces` is then unused.
 /// Pairs of a non-manifold edge are drawn in every view and are no contours.
+///
+/// An edge of a solid with both faces turned away from an eye outside of it is
+/// hidden by the solid itself, and is not drawn: tested against the depth it
+/// would show at its ends, where its width reaches past the faces in front.
 #[must_use]
-pub fn classify_edge(flags: EdgeFlags, has_b: bool, a_faces: bool, b_faces: bool) -> LineBits {
+pub fn classify_edge(
+    flags: EdgeFlags,
+    has_b: bool,
+    a_faces: bool,
+    b_faces: bool,
+    eye_is_outside: bool,
+) -> LineBits {
     let b_faces = b_faces != flags.contains(EdgeFlags::CLASH);
     let is_manifold = has_b && !flags.contains(EdgeFlags::NON_MANIFOLD);
     let is_contour = is_manifold && CONTOUR[usize::from(a_faces)][usize::from(b_faces)];
+    let is_behind_solid =
+        flags.contains(EdgeFlags::SOLID) && eye_is_outside && !a_faces && !b_faces;
+    let is_always_drawn = flags.intersects(EdgeFlags::ALWAYS_DRAWN) && !is_behind_solid;
     let mut bits = LineBits::empty();
     bits.set(LineBits::CONTOUR, is_contour);
     bits.set(LineBits::A_FACES, a_faces);
-    bits.set(LineBits::DRAWN, is_contour || flags.intersects(EdgeFlags::ALWAYS_DRAWN));
+    bits.set(LineBits::DRAWN, is_contour || is_always_drawn);
     bits
 }
 
@@ -82,13 +95,22 @@ pub fn equation_1(
     (is_contour, crease)
 }
 
+/// Whether the eye lies outside of the box from `min` to `max`, and so outside of
+/// every solid in it; a viewer at infinity (w = 0) does.
+#[must_use]
+pub fn eye_is_outside(eye: Vec4, min: Vec3, max: Vec3) -> bool {
+    let eye_point = eye.truncate();
+    eye.w == 0.0 || eye_point.cmplt(min).any() || eye_point.cmpgt(max).any()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn a_contour_has_one_face_of_each_kind() {
-        let is_contour = |flags, a, b| classify_edge(flags, true, a, b).contains(LineBits::CONTOUR);
+        let is_contour =
+            |flags, a, b| classify_edge(flags, true, a, b, true).contains(LineBits::CONTOUR);
         for (a, b) in [(false, false), (true, true)] {
             assert!(!is_contour(EdgeFlags::empty(), a, b));
             assert!(is_contour(EdgeFlags::CLASH, a, b), "a clash turns face B around");
@@ -102,11 +124,29 @@ mod tests {
 
     #[test]
     fn what_is_drawn_without_a_contour() {
-        let is_drawn = |flags| classify_edge(flags, false, true, false).contains(LineBits::DRAWN);
+        let is_drawn =
+            |flags| classify_edge(flags, false, true, false, true).contains(LineBits::DRAWN);
         assert!(!is_drawn(EdgeFlags::empty()));
         assert!(!is_drawn(EdgeFlags::DIAGONAL));
         for flags in EdgeFlags::ALWAYS_DRAWN.iter() {
             assert!(is_drawn(flags), "{flags:?}");
         }
+    }
+
+    #[test]
+    fn a_solid_hides_its_own_back_from_an_eye_outside() {
+        let ridge = EdgeFlags::RIDGE | EdgeFlags::SOLID;
+        let is_drawn = |flags, a, b, outside| {
+            classify_edge(flags, true, a, b, outside).contains(LineBits::DRAWN)
+        };
+        assert!(!is_drawn(ridge, false, false, true));
+        assert!(is_drawn(ridge, false, false, false), "from inside it is seen");
+        assert!(is_drawn(EdgeFlags::RIDGE, false, false, true), "an open surface hides nothing");
+        for (a, b) in [(true, true), (true, false), (false, true)] {
+            assert!(is_drawn(ridge, a, b, true));
+        }
+        let outside = |eye: [f32; 4]| eye_is_outside(eye.into(), Vec3::ZERO, Vec3::ONE);
+        assert!(outside([0.5, 0.5, 1.1, 1.0]) && !outside([0.5, 0.5, 1.0, 1.0]));
+        assert!(outside([0.5, 0.5, 0.5, 0.0]), "a direction");
     }
 }

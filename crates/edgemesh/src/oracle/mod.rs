@@ -27,7 +27,7 @@ use crate::edge_mesh::EdgeMesh;
 use crate::index::NONE;
 use crate::record::EdgeFlags;
 use facing::faces_eye;
-use feature::{LineBits, classify_edge};
+use feature::{LineBits, classify_edge, eye_is_outside};
 
 /// How many edges belong to each class in a view; an edge can be in several.
 /// Edges that more than two faces share are in none.
@@ -58,12 +58,13 @@ pub fn facing_bits(mesh: &EdgeMesh, eye: Vec4) -> Vec<bool> {
 #[must_use]
 pub fn classify_edges(mesh: &EdgeMesh, eye: Vec4) -> Vec<LineBits> {
     let facing = facing_bits(mesh, eye);
+    let outside = eye_is_outside(eye, mesh.bounds.min.into(), mesh.bounds.max.into());
     mesh.records
         .iter()
         .map(|record| {
             let a_faces = facing[record.face_a as usize];
             let b_faces = record.face_b != NONE && facing[record.face_b as usize];
-            classify_edge(record.flags, record.face_b != NONE, a_faces, b_faces)
+            classify_edge(record.flags, record.face_b != NONE, a_faces, b_faces, outside)
         })
         .collect()
 }
