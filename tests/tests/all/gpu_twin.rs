@@ -166,7 +166,7 @@ fn stroke_inputs() -> Vec<StrokeInput> {
             2 => 0.1 + 1e-4 * random.signed(),
             _ => 1.0,
         };
-        let spread = if kind % 7 == 0 { 1000.0 } else { 1.5 };
+        let spread = if kind.is_multiple_of(7) { 1000.0 } else { 1.5 };
         let xy = Vec2::new(random.signed(), random.signed()) * spread;
         // The near plane lies at w = 0.1, as a finite projection has it.
         let z = 0.1 * (10.0 - w) / 9.9;

@@ -14,6 +14,7 @@ mod gpu_render;
 mod gpu_twin;
 #[cfg(feature = "gpu")]
 mod gpu_visibility;
+mod hostile;
 mod layouts;
 mod models;
 mod noop;

@@ -93,7 +93,7 @@ mod with_adapter {
         all.extend(arguments);
         let output = viewer(&all);
         assert_eq!(output.status.code(), Some(0), "{}", message(&output));
-        assert!(Path::new(&out).is_file());
+        assert!(Path::new(&out).is_file(), "the picture is there");
         serde_json::from_slice(&output.stdout).unwrap()
     }
 

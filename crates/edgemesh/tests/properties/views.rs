@@ -188,6 +188,35 @@ proptest! {
     }
 
     #[test]
+    fn a_flat_polygon_is_covered_once_whatever_its_shape(
+        radii in prop::collection::vec(1..6_i8, 4..14),
+        start in any::<prop::sample::Index>(),
+        is_backward in any::<bool>(),
+    ) {
+        let mesh = star(&radii, start.index(radii.len()), is_backward);
+        let built = mesh.build();
+        let front = if is_backward { -9.0 } else { 9.0 };
+        for height in [front, -front] {
+            let is_contour = contours(&built, Vec4::new(0.1, 0.2, height, 1.0));
+            prop_assert!(is_contour.values().all(|found| !found), "no triangle turns over");
+        }
+        let corner = |index: u32| Vec3::from(mesh.positions[index as usize]).as_dvec3();
+        let ring = &mesh.polygons[0];
+        let outline: f64 = (0..ring.len())
+            .map(|k| corner(ring[k]).cross(corner(ring[(k + 1) % ring.len()])).z)
+            .sum();
+        let covered: f64 = built
+            .triangles
+            .iter()
+            .map(|triangle| {
+                let [a, b, c] = triangle.map(|v| Vec3::from(built.positions[v as usize]).as_dvec3());
+                (b - a).cross(c - a).length()
+            })
+            .sum();
+        prop_assert!((outline.abs() - covered).abs() < 1e-4, "{} of {}", covered, outline);
+    }
+
+    #[test]
     fn equation_1_agrees_with_facing_bits_and_flags(
         mesh in prop_oneof![3 => oriented_mesh(), 1 => one_sided_mesh()],
         (ridge, valley) in (5.0..120.0_f64, 5.0..120.0_f64),
@@ -226,6 +255,22 @@ proptest! {
         prop_assert!(contours_in_doubt <= bound, "{} in doubt", contours_in_doubt);
         prop_assert!(creases_in_doubt <= bound, "{} in doubt", creases_in_doubt);
     }
+}
+
+/// One polygon around the origin, mostly concave, its corners at `radii`.
+fn star(radii: &[i8], start: usize, is_backward: bool) -> Mesh {
+    let count = u32::try_from(radii.len()).unwrap();
+    let step = std::f32::consts::TAU / f32::from(u8::try_from(count).unwrap());
+    let corners = radii.iter().zip(0_u8..).map(|(&radius, k)| {
+        let (sin, cos) = (step * f32::from(k)).sin_cos();
+        [f32::from(radius) * cos, f32::from(radius) * sin, 0.0]
+    });
+    let mut ring: Vec<u32> = (0..count).collect();
+    ring.rotate_left(start);
+    if is_backward {
+        ring.reverse();
+    }
+    Mesh { positions: corners.collect(), polygons: vec![ring] }
 }
 
 /// Whether the faces turn by so nearly a threshold, or so nearly by 180

@@ -148,7 +148,7 @@ impl RenderCommand {
                 let message = format!("--output {}: must end in .png", self.output.display());
                 return Err(Failure::usage(message));
             }
-            if self.models.iter().any(|model| *model == self.output) {
+            if self.models.contains(&self.output) {
                 return Err(Failure::usage("--output is one of the models; name another file"));
             }
         } else if self.turntable.is_some() {
