@@ -5,7 +5,7 @@
 //! float buffer that spreads the precision evenly over the distance. Everything
 //! is worked out in 64 bits and rounded once.
 
-use glam::dcamera::rh::{proj::directx, view::look_at_mat4};
+use glam::dcamera::rh::{proj::directx, view::look_to_mat4};
 use glam::{DVec3, Mat4, Vec4};
 
 use crate::edge_mesh::Bounds;
@@ -76,7 +76,7 @@ impl Camera {
             Some(_) => self.up,
             None => forward.any_orthonormal_vector(),
         };
-        let view_from_world = look_at_mat4(self.eye, self.eye + forward, up);
+        let view_from_world = look_to_mat4(self.eye, forward, up);
         let middle = (bounds.center() - self.eye).dot(forward);
         // A little air, so that rounding cuts nothing off at the sphere itself.
         let (near, far) = (middle - 1.01 * radius, middle + 1.01 * radius);

@@ -50,6 +50,8 @@ bitflags::bitflags! {
         const CLASH = 1 << 7;
         /// On a closed component whose faces look outwards: where both faces
         /// look away from an eye outside of it, the component hides the edge.
+        /// (A surface that passes through itself can enclose a part inside out;
+        /// edges there count as hidden as well.)
         const SOLID = 1 << 8;
     }
 }

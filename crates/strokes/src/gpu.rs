@@ -56,6 +56,39 @@ pub enum GpuError {
     },
 }
 
+/// Why buffers or textures could not be made.
+#[derive(Debug, Error)]
+pub enum ResourceError {
+    /// The device has no room for them.
+    #[error("the graphics adapter ran out of memory")]
+    OutOfMemory,
+    /// A fault of ours that the driver's checks found.
+    #[error("a fault in the use of the graphics adapter: {0}")]
+    Fault(String),
+}
+
+impl Gpu {
+    /// Runs `body`, which makes buffers and textures, and catches what goes wrong
+    /// in it on the device.
+    ///
+    /// # Errors
+    /// [`ResourceError`]; what `body` made must then not be used, so it is dropped.
+    pub fn make<T>(&self, body: impl FnOnce() -> T) -> Result<T, ResourceError> {
+        // What was not made for lack of memory fails its checks as well, so
+        // both are caught and memory is told first.
+        let faults = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let made = body();
+        let memory = pollster::block_on(memory.pop());
+        let fault = pollster::block_on(faults.pop());
+        match (memory, fault) {
+            (Some(_), _) => Err(ResourceError::OutOfMemory),
+            (None, Some(fault)) => Err(ResourceError::Fault(fault.to_string())),
+            (None, None) => Ok(made),
+        }
+    }
+}
+
 /// The instance that all commands use: the backends of `WGPU_BACKEND`, or the
 /// first-class ones of the platform. (The OpenGL one would list the software
 /// driver a second time.)

@@ -23,12 +23,12 @@ impl ReadbackError {
 /// Reads an RGBA texture of one sample; waits for all submitted work.
 ///
 /// # Errors
-/// Where the device is lost.
+/// Where the device is lost or has no room for the copy.
 pub fn read_picture(gpu: &Gpu, texture: &wgpu::Texture) -> Result<RgbaImage, ReadbackError> {
     let (width, height) = (texture.width(), texture.height());
     let row_bytes = 4 * width;
     let padded_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-    let buffer = staging(gpu, u64::from(padded_bytes) * u64::from(height));
+    let buffer = staging(gpu, u64::from(padded_bytes) * u64::from(height))?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     encoder.copy_texture_to_buffer(
         texture.as_image_copy(),
@@ -52,27 +52,28 @@ pub fn read_picture(gpu: &Gpu, texture: &wgpu::Texture) -> Result<RgbaImage, Rea
 /// Reads the first `count` items of a buffer that may be copied from.
 ///
 /// # Errors
-/// Where the device is lost.
+/// Where the device is lost or has no room for the copy.
 pub fn read_buffer<T: Pod>(
     gpu: &Gpu,
     source: &wgpu::Buffer,
     count: usize,
 ) -> Result<Vec<T>, ReadbackError> {
     let byte_count = (count * size_of::<T>()) as u64;
-    let buffer = staging(gpu, byte_count);
+    let buffer = staging(gpu, byte_count)?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     encoder.copy_buffer_to_buffer(source, 0, &buffer, 0, byte_count);
     gpu.queue.submit([encoder.finish()]);
     Ok(bytemuck::pod_collect_to_vec(&map(gpu, &buffer)?))
 }
 
-fn staging(gpu: &Gpu, size: u64) -> wgpu::Buffer {
-    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+fn staging(gpu: &Gpu, size: u64) -> Result<wgpu::Buffer, ReadbackError> {
+    let descriptor = wgpu::BufferDescriptor {
         label: Some("readback"),
         size,
         usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
         mapped_at_creation: false,
-    })
+    };
+    gpu.make(|| gpu.device.create_buffer(&descriptor)).map_err(ReadbackError::new)
 }
 
 fn map(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Vec<u8>, ReadbackError> {

@@ -57,6 +57,16 @@ impl Targets {
         }
     }
 
+    /// Bytes that textures of this size take, for messages.
+    #[must_use]
+    pub const fn byte_count(size: [u32; 2], samples: u32) -> u64 {
+        let pixels = size[0] as u64 * size[1] as u64;
+        // The picture, and colour and depth for each sample; one sample is
+        // drawn into the picture itself.
+        let color_samples = if samples > 1 { samples as u64 } else { 0 };
+        pixels * 4 * (1 + color_samples + samples as u64)
+    }
+
     /// The finished picture.
     #[must_use]
     pub const fn picture(&self) -> &wgpu::Texture {

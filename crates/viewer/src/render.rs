@@ -12,7 +12,7 @@ use edgemesh::report::Report;
 use glam::Vec2;
 use image::RgbaImage;
 use strokes::frame::FrameUniform;
-use strokes::gpu::{Gpu, GpuError};
+use strokes::gpu::{Gpu, GpuError, ResourceError};
 use strokes::gpu_time::GpuTimer;
 use strokes::mesh_buffers::{MeshBuffers, Tally};
 use strokes::readback::{ReadbackError, read_buffer, read_picture};
@@ -89,6 +89,17 @@ impl<'a> PictureRenderer<'a> {
         samples: u32,
     ) -> Result<Self, Failure> {
         check_size(gpu, size)?;
+        let made = gpu.make(|| Self::make(gpu, scene, look, size, samples));
+        made.map_err(|error| resource_failure(&error, size, samples))?
+    }
+
+    fn make(
+        gpu: &'a Gpu,
+        scene: &Scene,
+        look: &Look,
+        size: [u32; 2],
+        samples: u32,
+    ) -> Result<Self, Failure> {
         let renderer = Renderer::new(gpu, look, samples)
             .map_err(|error| Failure { message: error.to_string(), status: ExitStatus::Shader })?;
         let meshes = scene
@@ -164,6 +175,21 @@ impl<'a> PictureRenderer<'a> {
 
 fn lost(error: ReadbackError) -> Failure {
     Failure::fault(error.to_string())
+}
+
+fn resource_failure(error: &ResourceError, size: [u32; 2], samples: u32) -> Failure {
+    match error {
+        ResourceError::OutOfMemory => Failure::fault(format!(
+            "{error}: the picture alone, {}x{} with {samples} samples, needs {} MiB; make --size \
+             smaller or use --samples 1",
+            size[0],
+            size[1],
+            Targets::byte_count(size, samples) >> 20
+        )),
+        ResourceError::Fault(_) => {
+            Failure { message: error.to_string(), status: ExitStatus::Internal }
+        }
+    }
 }
 
 fn check_size(gpu: &Gpu, size: [u32; 2]) -> Result<(), Failure> {

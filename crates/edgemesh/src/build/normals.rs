@@ -55,23 +55,22 @@ pub(crate) fn face_planes(
     if normals.iter().all(Option::is_some) {
         return planes;
     }
-    // Slivers can lie side by side, so the planes travel until none moves.
-    let donors = longest_edge_neighbours(positions, triangles, normals, table);
+    // Slivers can lie side by side, so the planes travel on from face to face.
+    let mut takers = longest_edge_neighbours(positions, triangles, normals, table);
+    takers.sort_unstable_by_key(|&(face, donor)| (donor, face));
     let mut has_plane: Vec<bool> = normals.iter().map(Option::is_some).collect();
-    loop {
-        let given: Vec<(usize, usize)> = donors
-            .iter()
-            .filter(|&&(face, donor)| !has_plane[face] && has_plane[donor])
-            .copied()
-            .collect();
-        if given.is_empty() {
-            return planes;
-        }
-        for (face, donor) in given {
-            planes[face] = planes[donor];
-            has_plane[face] = true;
+    let mut donors: Vec<usize> = (0..triangles.len()).filter(|&face| has_plane[face]).collect();
+    while let Some(donor) = donors.pop() {
+        let first = takers.partition_point(|taker| taker.1 < donor);
+        for &(face, _) in takers[first..].iter().take_while(|taker| taker.1 == donor) {
+            if !has_plane[face] {
+                planes[face] = planes[donor];
+                has_plane[face] = true;
+                donors.push(face);
+            }
         }
     }
+    planes
 }
 
 /// For each face without area, the face across its longest edge.

@@ -117,18 +117,24 @@ fn clip_ears(points: &[DVec3]) -> Option<Vec<[usize; 3]>> {
     let normal = area_vector(points);
     let mut ring: Vec<usize> = (0..points.len()).collect();
     let mut ears = Vec::with_capacity(points.len() - 2);
+    // Cutting an ear can make ears of its two neighbours only.
+    let mut ear: Vec<bool> =
+        (0..ring.len()).map(|tip| is_ear(points, &ring, tip, normal)).collect();
     // The search goes on behind the last ear, so that a strip of ears does not
     // become a fan of slivers around one corner.
     let mut at = 0;
     while ring.len() > 3 {
         let count = ring.len();
-        let found = (0..count)
-            .map(|step| (at + step) % count)
-            .find(|&tip| is_ear(points, &ring, tip, normal))?;
+        let found = (0..count).map(|step| (at + step) % count).find(|&tip| ear[tip])?;
         let (before, after) = ((found + count - 1) % count, (found + 1) % count);
         ears.push([ring[before], ring[found], ring[after]]);
         ring.remove(found);
-        at = if found >= ring.len() { 0 } else { found };
+        ear.remove(found);
+        let count = count - 1;
+        at = found % count;
+        for tip in [(found + count - 1) % count, at] {
+            ear[tip] = is_ear(points, &ring, tip, normal);
+        }
     }
     ears.push([ring[0], ring[1], ring[2]]);
     Some(ears)

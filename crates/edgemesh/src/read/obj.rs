@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Component, Path};
 
+use rustc_hash::FxHashMap;
+
 use super::obj_screen::{Screened, screen_obj};
 use super::{MAX_FILE_BYTES, ReadError};
 use crate::index::{NONE, to_u32};
@@ -106,8 +108,20 @@ const fn kept(index: u32, value: &[f32]) -> u32 {
     if value[0].is_nan() { NONE } else { index }
 }
 
+/// Coordinates beyond this leave no room for an eye some radii away: the numbers
+/// of a view would not be finite in 32 bits.
+const LARGEST_COORDINATE: f64 = 1e37;
+
 fn warn_if_far(screened: &Screened, report: &mut Report) {
     let Some((low, high)) = screened.bounds else { return };
+    if screened.largest_coordinate > LARGEST_COORDINATE {
+        report.warn(WarningCode::Precision, None, || {
+            format!(
+                "coordinates reach {:.3e}: views of such a model overflow; make it smaller",
+                screened.largest_coordinate
+            )
+        });
+    }
     let size = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
     if size > 0.0 && screened.largest_coordinate > FAR_FROM_ORIGIN * size {
         report.warn(WarningCode::Precision, None, || {
@@ -131,14 +145,18 @@ fn read_materials(path: &Path, screened: &Screened, report: &mut Report) -> Vec<
             }),
         }
     }
+    let mut by_name = FxHashMap::default();
+    for material in &known {
+        by_name.entry(material.name.as_str()).or_insert(material);
+    }
     screened
         .material_names
         .iter()
         .map(|name| {
-            known
-                .iter()
-                .find(|material| material.name == *name)
-                .map_or_else(|| Material { name: name.clone(), ..Material::default() }, material_of)
+            by_name.get(name.as_str()).map_or_else(
+                || Material { name: name.clone(), ..Material::default() },
+                |material| material_of(material),
+            )
         })
         .collect()
 }
@@ -216,6 +234,17 @@ mod tests {
         let (model, report) = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 2 3 4\n");
         assert_eq!(model.polygons.len(), 1);
         assert_eq!(report.count(WarningCode::NonFinite), 1);
+    }
+
+    #[test]
+    fn models_too_far_or_too_large_for_32_bits_are_told() {
+        for (text, count) in [
+            ("v 5000000 0 0\nv 5000001 0 0\nv 5000000 1 0\nf 1 2 3\n", 1),
+            ("v 0 0 0\nv 3e38 0 0\nv 0 3e38 0\nf 1 2 3\n", 1),
+            ("v 500 0 0\nv 501 0 0\nv 500 1 0\nf 1 2 3\n", 0),
+        ] {
+            assert_eq!(read(text).1.count(WarningCode::Precision), count, "{text}");
+        }
     }
 
     #[test]

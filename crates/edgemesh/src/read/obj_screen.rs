@@ -15,6 +15,8 @@
 use std::io::Write as _;
 use std::path::Path;
 
+use rustc_hash::FxHashMap;
+
 use super::ReadError;
 use crate::index::{MAX_INDEX, NONE, to_u32};
 use crate::report::{Report, WarningCode};
@@ -117,6 +119,7 @@ struct Screen<'a> {
     normal_count: usize,
     smoothing_group: u32,
     material: u32,
+    material_indices: FxHashMap<String, u32>,
     corner_count: usize,
     /// The first face that names a vertex not yet listed, by largest index.
     forward: Option<(u64, u32)>,
@@ -137,6 +140,7 @@ impl<'a> Screen<'a> {
             normal_count: 0,
             smoothing_group: 0,
             material: NONE,
+            material_indices: FxHashMap::default(),
             corner_count: 0,
             forward: None,
             line_statements: 0,
@@ -327,12 +331,13 @@ impl<'a> Screen<'a> {
     }
 
     fn material_index(&mut self, name: &str) -> u32 {
-        let names = &mut self.out.material_names;
-        let found = names.iter().position(|known| known == name);
-        to_u32(found.unwrap_or_else(|| {
-            names.push(name.to_owned());
-            names.len() - 1
-        }))
+        if let Some(&index) = self.material_indices.get(name) {
+            return index;
+        }
+        let index = to_u32(self.out.material_names.len());
+        self.out.material_names.push(name.to_owned());
+        self.material_indices.insert(name.to_owned(), index);
+        index
     }
 
     fn finish(self) -> Result<Screened, ReadError> {

@@ -7,6 +7,7 @@ use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::model::Model;
 use edgemesh::report::Report;
+use glam::Vec3;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -55,6 +56,43 @@ impl Mesh {
             polygon[1..].reverse();
         }
         turned
+    }
+
+    /// The same closed mesh of triangles, wound so that it encloses a positive
+    /// volume.
+    pub(crate) fn outward(&self) -> Self {
+        let corner = |vertex: u32| Vec3::from(self.positions[vertex as usize]).as_dvec3();
+        let volume: f64 = self
+            .polygons
+            .iter()
+            .map(|face| corner(face[0]).dot(corner(face[1]).cross(corner(face[2]))))
+            .sum();
+        self.turned(|_| volume < 0.0)
+    }
+
+    pub(crate) fn without_face(mut self, face: usize) -> Self {
+        self.polygons.remove(face);
+        self
+    }
+
+    /// The same mesh further along x.
+    pub(crate) fn moved(&self, distance: f32) -> Self {
+        let positions = self.positions.iter().map(|&[x, y, z]| [x + distance, y, z]).collect();
+        Self { positions, polygons: self.polygons.clone() }
+    }
+
+    /// All faces of `parts`, in order.
+    pub(crate) fn joined(parts: &[Self]) -> Self {
+        let mut joined = Self::default();
+        for part in parts {
+            let first = u32::try_from(joined.positions.len()).unwrap();
+            joined.positions.extend_from_slice(&part.positions);
+            let renumbered = part.polygons.iter();
+            let renumbered =
+                renumbered.map(|face| face.iter().map(|vertex| vertex + first).collect());
+            joined.polygons.extend(renumbered);
+        }
+        joined
     }
 
     pub(crate) fn scaled(&self, scale: f32) -> Self {

@@ -103,7 +103,8 @@ proptest! {
         let (front, _) = mesh.build_with(&options(ridge, valley));
         let (back, _) = mesh.turned(|_| true).build_with(&options(valley, ridge));
         let flags = |mesh: &EdgeMesh| -> BTreeMap<Ends, EdgeFlags> {
-            mesh.records.iter().map(|record| (ends(mesh, record), record.flags)).collect()
+            let visible = |flags| flags - EdgeFlags::SOLID;
+            mesh.records.iter().map(|record| (ends(mesh, record), visible(record.flags))).collect()
         };
         let swapped: BTreeMap<Ends, EdgeFlags> =
             flags(&front).into_iter().map(|(ends, flags)| (ends, swap_creases(flags))).collect();
@@ -121,6 +122,21 @@ proptest! {
             }
         }
         prop_assert!(doubtful <= 8 + front.records.len() / 50, "{} in doubt", doubtful);
+    }
+
+    #[test]
+    fn solid_edges_are_those_of_closed_components_that_look_outwards(
+        (solid, hollow) in (closed_mesh(), closed_mesh()),
+        sheet in oriented_mesh().prop_map(|mesh| mesh.triangulated().without_face(0)),
+    ) {
+        let (solid, hollow) = (solid.triangulated().outward(), hollow.triangulated().outward());
+        let hollow = hollow.turned(|_| true);
+        let solid_faces = solid.polygons.len();
+        let parts = [solid, hollow.moved(8.0), sheet.moved(16.0)];
+        for record in &Mesh::joined(&parts).build().records {
+            let is_expected = (record.face_a as usize) < solid_faces;
+            prop_assert_eq!(record.flags.contains(EdgeFlags::SOLID), is_expected, "{:?}", record);
+        }
     }
 
     #[test]
@@ -231,8 +247,8 @@ proptest! {
         let lines = classify_edges(&built, eye);
         for ((record, four), bits) in built.records.iter().zip(vertices.as_chunks::<4>().0).zip(lines) {
             if record.flags.contains(EdgeFlags::DIAGONAL) {
-                let others = record.flags - EdgeFlags::DIAGONAL - EdgeFlags::CLASH;
-                prop_assert!(others.is_empty(), "a diagonal is nothing else: {:?}", record);
+                let classes = EdgeFlags::ALWAYS_DRAWN;
+                prop_assert!(!record.flags.intersects(classes), "only a contour: {:?}", record);
             }
             for vertex in four {
                 prop_assert_eq!(vertex.flags(), record.flags);
