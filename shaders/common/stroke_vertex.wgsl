@@ -6,12 +6,17 @@
 // Behind the near plane, where nothing is seen (section 3.2).
 const BEHIND: vec4f = vec4f(0.0, 0.0, -1.0, 1.0);
 
+const EDGE_ON_FACING: f32 = 0.05;
+const LIFTED_FACING: f32 = 0.2;
+
 struct ClipEdge {
     c0: vec4f,
     c1: vec4f,
     // Third vertices of face A and B; c3 = c0 where there is no B.
     c2: vec4f,
     c3: vec4f,
+    // How squarely faces A and B look at the eye, 0 to 1.
+    facing: vec2f,
     n0: vec4f,
     n1: vec4f,
     r: f32,
@@ -87,8 +92,8 @@ fn quad_rise(edge: ClipEdge, spine: Spine, viewport_px: vec2f, side: f32, reach_
     let a = in_front(middle, edge.c2);
     let b = in_front(middle, edge.c3);
     return max(
-        rise_toward_eye(spine, a, viewport_px, side, reach_px),
-        rise_toward_eye(spine, b, viewport_px, side, reach_px),
+        rise_toward_eye(spine, a, edge.facing.x, viewport_px, side, reach_px),
+        rise_toward_eye(spine, b, edge.facing.y, viewport_px, side, reach_px),
     );
 }
 
@@ -106,6 +111,7 @@ fn in_front(middle: vec4f, apex: vec4f) -> vec4f {
 fn rise_toward_eye(
     spine: Spine,
     apex: vec4f,
+    facing: f32,
     viewport_px: vec2f,
     side: f32,
     reach_px: f32,
@@ -122,7 +128,15 @@ fn rise_toward_eye(
     let t = dot(to_apex, along) / dot(along, along);
     let edge_depth = spine.z0 + (spine.z1 - spine.z0) * t;
     let rise = apex.z / apex.w - edge_depth;
-    return max(rise * min(reach_px / distance_px, 1.0), 0.0);
+    let share = lift_share(facing, distance_px / reach_px);
+    return max(rise * min(reach_px / distance_px, 1.0) * share, 0.0);
+}
+
+// How much of a face's rise counts: nothing of a narrow wall seen edge on.
+fn lift_share(facing: f32, reaches_wide: f32) -> f32 {
+    let seen = (facing - EDGE_ON_FACING) / (LIFTED_FACING - EDGE_ON_FACING);
+    let wide = 0.5 * reaches_wide - 1.0;
+    return clamp(max(seen, wide), 0.0, 1.0);
 }
 
 fn on_screen(position_px: vec2f, depth: f32, uv: vec2f, shape: StrokeShape) -> StrokeVertex {

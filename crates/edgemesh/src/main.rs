@@ -4,7 +4,8 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use edgemesh::command::info::InfoCommand;
-use edgemesh::command::{run, start_logging};
+use edgemesh::command::options::MessageOptions;
+use edgemesh::command::run;
 
 /// Turns triangle meshes into edge meshes and says what is in them
 #[derive(Debug, Parser)]
@@ -12,12 +13,8 @@ use edgemesh::command::{run, start_logging};
 struct Edgemesh {
     #[command(subcommand)]
     command: Command,
-    /// No warnings
-    #[arg(short, long, global = true)]
-    quiet: bool,
-    /// More messages; twice for still more
-    #[arg(short, long, global = true, action = clap::ArgAction::Count)]
-    verbose: u8,
+    #[command(flatten)]
+    messages: MessageOptions,
 }
 
 #[derive(Debug, Subcommand)]
@@ -27,8 +24,8 @@ enum Command {
 
 fn main() -> ExitCode {
     let arguments = Edgemesh::parse();
-    start_logging(arguments.verbose, arguments.quiet);
+    arguments.messages.start_logging();
     run(move || match arguments.command {
-        Command::Info(command) => command.run(arguments.quiet),
+        Command::Info(command) => command.run(arguments.messages.quiet),
     })
 }

@@ -95,7 +95,9 @@ impl Gpu {
 #[must_use]
 pub fn instance() -> (Instance, Backends) {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
-    descriptor.backends = Backends::from_env().unwrap_or(Backends::PRIMARY) - Backends::NOOP;
+    let wanted = Backends::from_env().unwrap_or(Backends::PRIMARY) - Backends::NOOP;
+    // Only what this platform has, so that a message names nothing else.
+    descriptor.backends = wanted & Instance::enabled_backend_features();
     let backends = descriptor.backends;
     (Instance::new(descriptor), backends)
 }

@@ -5,7 +5,7 @@
 //! | positions | 12 a vertex | fill, strokes |
 //! | vertex normals | 12 a vertex | strokes |
 //! | triangles | 12 a face | fill, strokes |
-//! | face planes | 32 a face | facing |
+//! | face planes | 32 a face | facing, strokes |
 //! | facing | 1 bit a face | detection |
 //! | edge records | 20 an edge | detection, strokes |
 //! | live edges | 4 an edge | strokes |

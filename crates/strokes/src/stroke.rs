@@ -81,7 +81,7 @@ impl StrokePipeline {
         let vertex = ShaderStages::VERTEX;
         let draw_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("stroke draw"),
-            entries: &[0, 1, 2, 3, 4].map(|binding| storage_entry(binding, vertex, true)),
+            entries: &[0, 1, 2, 3, 4, 5].map(|binding| storage_entry(binding, vertex, true)),
         });
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("stroke"),
@@ -96,7 +96,14 @@ impl StrokePipeline {
     /// Prepares one mesh.
     #[must_use]
     pub fn draw(&self, device: &wgpu::Device, mesh: &MeshBuffers) -> StrokeDraw {
-        let buffers = [&mesh.positions, &mesh.normals, &mesh.records, &mesh.live, &mesh.triangles];
+        let buffers = [
+            &mesh.positions,
+            &mesh.normals,
+            &mesh.records,
+            &mesh.live,
+            &mesh.triangles,
+            &mesh.planes,
+        ];
         StrokeDraw { draw_group: bind_buffers(device, "stroke", &self.draw_layout, &buffers) }
     }
 

@@ -146,7 +146,8 @@ struct StrokeInput {
     width_px: f32,
     r: f32,
     bits: u32,
-    padding: [u32; 3],
+    padding: u32,
+    facing: [f32; 2],
 }
 
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
@@ -195,7 +196,8 @@ fn stroke_inputs() -> Vec<StrokeInput> {
                 width_px: 1.0 + 9.0 * random.unit(),
                 r: random.unit(),
                 bits,
-                padding: [0; 3],
+                padding: 0,
+                facing: [random.unit(), 0.4 * random.unit()],
             }
         })
         .collect()
@@ -209,12 +211,13 @@ const STROKE_BODY: &str = "#import <common/stroke_vertex.wgsl>
         width_px: f32,
         r: f32,
         bits: u32,
-        p0: u32, p1: u32, p2: u32,
+        padding: u32,
+        facing: vec2f,
     }
     struct Vertex { position: vec4f, uv: vec2f, padding: vec2f }
     struct Output { vertices: array<Vertex, 12> }
     fn run(input: Input) -> Output {
-        let edge = ClipEdge(input.c[0], input.c[1], input.c[2], input.c[3], input.n[0], input.n[1], input.r);
+        let edge = ClipEdge(input.c[0], input.c[1], input.c[2], input.c[3], input.facing, input.n[0], input.n[1], input.r);
         let shape = StrokeShape(input.viewport_px, input.width_px, 8.0);
         var output: Output;
         for (var i = 0u; i < 12u; i++) {
@@ -232,7 +235,7 @@ fn stroke_vertices_agree_and_are_always_finite() {
     for (case, (input, output)) in inputs.iter().zip(&outputs).enumerate() {
         let [c0, c1, c2, c3] = input.c.map(Vec4::from);
         let [n0, n1] = input.n.map(Vec4::from);
-        let edge = ClipEdge { c0, c1, c2, c3, n0, n1, r: input.r };
+        let edge = ClipEdge { c0, c1, c2, c3, facing: input.facing.into(), n0, n1, r: input.r };
         let viewport_px = Vec2::from(input.viewport_px);
         let shape = StrokeShape { viewport_px, width_px: input.width_px, brush_aspect: 8.0 };
         let spine = project_spine(c0, c1, viewport_px);

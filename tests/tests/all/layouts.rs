@@ -6,7 +6,7 @@ use std::mem::offset_of;
 use edgemesh::edge_mesh::FacePlane;
 use edgemesh::oracle::feature::LineBits;
 use edgemesh::oracle::spine::{GUARD_BAND, MIN_LENGTH_PX};
-use edgemesh::oracle::stroke_vertex::VERTICES_PER_EDGE;
+use edgemesh::oracle::stroke_vertex::{EDGE_ON_FACING, LIFTED_FACING, VERTICES_PER_EDGE};
 use edgemesh::record::{EdgeFlags, EdgeRecord};
 use strokes::fill::FillUniform;
 use strokes::frame::FrameUniform;
@@ -110,6 +110,8 @@ fn constants_are_equal_and_found_on_both_sides() {
         ("EDGES_PER_RUN", EDGES_PER_RUN.into()),
         ("GUARD_BAND", float(GUARD_BAND)),
         ("MIN_LENGTH_PX", float(MIN_LENGTH_PX)),
+        ("EDGE_ON_FACING", float(EDGE_ON_FACING)),
+        ("LIFTED_FACING", float(LIFTED_FACING)),
         ("ALWAYS_DRAWN", EdgeFlags::ALWAYS_DRAWN.bits().into()),
         ("EDGE_INDEX_MASK", edgemesh::index::MAX_INDEX as u64),
     ]);

@@ -81,7 +81,7 @@ pub struct Info {
     source: SourceInfo,
     repairs: RepairsInfo,
     warnings: Vec<WarningInfo>,
-    features: FeaturesInfo,
+    features: FeatureCounts,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -122,30 +122,6 @@ pub struct WarningInfo {
     count: usize,
     place: String,
     message: String,
-}
-
-/// Feature counts as `--json` and `--stats` print them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct FeaturesInfo {
-    /// See [`FeatureCounts`], as all the others.
-    pub contour: u32,
-    /// Convex creases.
-    pub ridge: u32,
-    /// Concave creases.
-    pub valley: u32,
-    /// Edges of one face.
-    pub boundary: u32,
-    /// Edges that the artist chose.
-    pub marked: u32,
-    /// Edges between two materials.
-    pub material: u32,
-}
-
-impl From<FeatureCounts> for FeaturesInfo {
-    fn from(counts: FeatureCounts) -> Self {
-        let FeatureCounts { contour, ridge, valley, boundary, marked, material } = counts;
-        Self { contour, ridge, valley, boundary, marked, material }
-    }
 }
 
 impl Info {
@@ -189,7 +165,7 @@ impl Info {
                 zero_area_triangles: report.zero_area_triangles,
             },
             warnings: warnings_of(file, report),
-            features: features.into(),
+            features,
         }
     }
 

@@ -109,17 +109,3 @@ pub fn print_warnings(model_name: &str, report: &Report) {
         eprintln!("{model_name}:{line} warning: {}{more} [{}]", warning.message, warning.code);
     }
 }
-
-/// Sets up log messages on standard error: `RUST_LOG` decides, else the count
-/// of `-v` and `-q`.
-pub fn start_logging(verbose: u8, is_quiet: bool) {
-    let level = match (is_quiet, verbose) {
-        (true, _) => "off",
-        (false, 0) => "error",
-        (false, 1) => "info",
-        (false, _) => "debug",
-    };
-    let environment = env_logger::Env::default().default_filter_or(level);
-    // Fails only where a logger is set already, which then serves as well.
-    let _ = env_logger::Builder::from_env(environment).try_init();
-}

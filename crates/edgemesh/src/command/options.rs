@@ -61,6 +61,32 @@ impl CameraOptions {
     }
 }
 
+/// How much the commands say on standard error.
+#[derive(Debug, Clone, Copy, Default, Args)]
+pub struct MessageOptions {
+    /// No warnings
+    #[arg(short, long, global = true)]
+    pub quiet: bool,
+    /// More messages; twice for still more
+    #[arg(short, long, global = true, action = clap::ArgAction::Count)]
+    pub verbose: u8,
+}
+
+impl MessageOptions {
+    /// Sets up log messages: `RUST_LOG` decides, else these options.
+    pub fn start_logging(self) {
+        let level = match (self.quiet, self.verbose) {
+            (true, _) => "off",
+            (false, 0) => "error",
+            (false, 1) => "info",
+            (false, _) => "debug",
+        };
+        let environment = env_logger::Env::default().default_filter_or(level);
+        // Fails only where a logger is set already, which then serves as well.
+        let _ = env_logger::Builder::from_env(environment).try_init();
+    }
+}
+
 /// From which angle on an edge is a crease.
 #[derive(Debug, Clone, Copy, Default, Args)]
 #[command(next_help_heading = "Creases")]

@@ -32,6 +32,7 @@ use feature::{LineBits, classify_edge, eye_is_outside};
 /// How many edges belong to each class in a view; an edge can be in several.
 /// Edges that more than two faces share are in none.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "command", derive(serde::Serialize))]
 pub struct FeatureCounts {
     /// One face toward the eye, the other away.
     pub contour: u32,

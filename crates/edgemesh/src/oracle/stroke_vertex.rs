@@ -39,6 +39,14 @@ const QUAD_CORNERS: [u32; 6] = [0, 1, 2, 0, 2, 3];
 /// paper's section 3.2.
 pub const BEHIND: Vec4 = Vec4::new(0.0, 0.0, -1.0, 1.0);
 
+/// A narrow face that looks at the eye by no more than this cosine, 87 degrees
+/// off, is seen edge on and lifts no stroke.
+pub const EDGE_ON_FACING: f32 = 0.05;
+
+/// A face that looks at the eye by this cosine or more, 78 degrees off, lifts the
+/// strokes along it in full.
+pub const LIFTED_FACING: f32 = 0.2;
+
 /// An edge in clip space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClipEdge {
@@ -50,6 +58,9 @@ pub struct ClipEdge {
     pub c2: Vec4,
     /// Third vertex of face B; equal to `c0` where there is none.
     pub c3: Vec4,
+    /// How squarely faces A and B look at the eye, or away from it: the cosine
+    /// of the angle between normal and line of sight, without its sign.
+    pub facing: Vec2,
     /// Vertex normal at the start, taken to clip space as a direction.
     pub n0: Vec4,
     /// Vertex normal at the end, likewise.
@@ -140,9 +151,11 @@ pub fn stroke_vertex(
 /// one side: as much as the higher of the two faces.
 fn quad_rise(edge: &ClipEdge, spine: &Spine, viewport_px: Vec2, side: f32, reach_px: f32) -> f32 {
     let middle = lerp(edge.c0, edge.c1, (spine.t0 + spine.t1) * 0.5);
-    let rise =
-        |apex: Vec4| rise_toward_eye(spine, in_front(middle, apex), viewport_px, side, reach_px);
-    rise(edge.c2).max(rise(edge.c3))
+    let rise = |apex: Vec4, facing: f32| {
+        let apex = in_front(middle, apex);
+        rise_toward_eye(spine, apex, facing, viewport_px, side, reach_px)
+    };
+    rise(edge.c2, edge.facing.x).max(rise(edge.c3, edge.facing.y))
 }
 
 /// A point of the face for its third vertex: the vertex itself, or, where it
@@ -161,11 +174,13 @@ fn in_front(middle: Vec4, apex: Vec4) -> Vec4 {
 ///
 /// `apex` is a point of the face in front of the near plane. Depth is linear on
 /// the screen, so the face's plane gives it exactly; past `apex` it stays what
-/// it was there. Zero where the face falls away or lies on the other side.
+/// it was there. Zero where the face falls away or lies on the other side, less
+/// where it is a narrow wall seen edge on (`facing`, see [`ClipEdge::facing`]).
 #[must_use]
 pub fn rise_toward_eye(
     spine: &Spine,
     apex: Vec4,
+    facing: f32,
     viewport_px: Vec2,
     side: f32,
     reach_px: f32,
@@ -182,7 +197,17 @@ pub fn rise_toward_eye(
     let t = to_apex.dot(along) / along.dot(along);
     let edge_depth = spine.z0 + (spine.z1 - spine.z0) * t;
     let rise = apex.z / apex.w - edge_depth;
-    (rise * (reach_px / distance_px).min(1.0)).max(0.0)
+    let share = lift_share(facing, distance_px / reach_px);
+    (rise * (reach_px / distance_px).min(1.0) * share).max(0.0)
+}
+
+/// How much of a face's rise counts: all of it where the face is seen well or is
+/// wide. A face that is both edge on and as narrow as the stroke is a wall: it
+/// would lift the rim up to its far end, and a hidden edge through what hides it.
+fn lift_share(facing: f32, reaches_wide: f32) -> f32 {
+    let seen = (facing - EDGE_ON_FACING) / (LIFTED_FACING - EDGE_ON_FACING);
+    let wide = 0.5 * reaches_wide - 1.0;
+    seen.max(wide).clamp(0.0, 1.0)
 }
 
 fn on_screen(position_px: Vec2, depth: f32, uv: Vec2, shape: &StrokeShape) -> StrokeVertex {
@@ -203,6 +228,7 @@ mod tests {
             c1: Vec4::new(0.4, 0.0, 0.25, 1.0),
             c2: Vec4::new(0.2, 0.4, 0.2, 1.0),
             c3: Vec4::new(0.2, -0.4, 0.2, 1.0),
+            facing: Vec2::ONE,
             n0: Vec4::new(0.0, 1.0, 0.0, 0.0),
             n1: Vec4::new(0.0, 1.0, 0.0, 0.0),
             r: 0.25,
@@ -245,6 +271,12 @@ mod tests {
         // A face that ends after 1 px rises no further than its end.
         rising.c2 = Vec4::new(0.2, 0.02, 0.385, 1.0);
         assert!((depth(&rising, 5) - 0.51).abs() < 1e-5, "{}", depth(&rising, 5));
+        // Seen edge on, it lifts nothing; half of it in between.
+        rising.facing.x = 0.125;
+        assert!((depth(&rising, 5) - 0.505).abs() < 1e-5, "{}", depth(&rising, 5));
+        rising.facing.x = 0.01;
+        assert!((depth(&rising, 5) - 0.5).abs() < 1e-6, "{}", depth(&rising, 5));
+        rising.facing.x = 1.0;
         // Behind the eye, the part in front of the near plane counts: this face
         // goes up by 0.4 toward w = 0.5, and its depth with it.
         rising.c2 = Vec4::new(0.2, 0.8, 0.5, -1.0);

@@ -4,6 +4,7 @@
 //! be empty or too large, and its first bytes must not be those of something
 //! else. Errors name the file, the line where there is one, and what to do.
 
+mod mtl;
 mod obj;
 mod obj_screen;
 

@@ -1,12 +1,12 @@
 //! OBJ through `tobj`, behind the screen of `obj_screen`.
 
-use std::fs;
-use std::path::{Component, Path};
+use std::path::Path;
 
 use rustc_hash::FxHashMap;
 
+use super::ReadError;
+use super::mtl::{library_names, read_library};
 use super::obj_screen::{Screened, screen_obj};
-use super::{MAX_FILE_BYTES, ReadError};
 use crate::index::{NONE, to_u32};
 use crate::model::{Corner, Material, Model, Polygon};
 use crate::report::{Report, WarningCode};
@@ -137,12 +137,14 @@ fn warn_if_far(screened: &Screened, report: &mut Report) {
 /// The materials that faces use, with what the libraries say of them.
 fn read_materials(path: &Path, screened: &Screened, report: &mut Report) -> Vec<Material> {
     let mut known: Vec<tobj::Material> = Vec::new();
-    for (name, line) in &screened.material_libraries {
-        match read_library(path, name) {
-            Ok(materials) => known.extend(materials),
-            Err(why) => report.warn(WarningCode::Material, Some(*line), || {
-                format!("material library '{name}' {why}; its colours are left out")
-            }),
+    for (rest, line) in &screened.material_libraries {
+        for name in library_names(path, rest) {
+            match read_library(path, &name) {
+                Ok(materials) => known.extend(materials),
+                Err(why) => report.warn(WarningCode::Material, Some(*line), || {
+                    format!("material library '{name}' {why}; its colours are left out")
+                }),
+            }
         }
     }
     let mut by_name = FxHashMap::default();
@@ -171,36 +173,6 @@ fn material_of(material: &tobj::Material) -> Material {
         opacity: material.dissolve,
         diffuse_texture: material.diffuse_texture.clone(),
     }
-}
-
-/// Reads a library that lies in the model's folder or below; the error says
-/// why not, and never what was in the file.
-fn read_library(model_path: &Path, name: &str) -> Result<Vec<tobj::Material>, String> {
-    let relative = name.replace('\\', "/");
-    let relative = Path::new(&relative);
-    let stays_inside =
-        relative.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
-    if !stays_inside {
-        return Err("lies outside the model's folder and was not opened".into());
-    }
-    let folder = match model_path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    let folder = folder.canonicalize().map_err(|error| error.to_string())?;
-    let target = folder.join(relative).canonicalize().map_err(|_| "was not found".to_owned())?;
-    if !target.starts_with(&folder) {
-        return Err("lies outside the model's folder and was not opened".into());
-    }
-    let metadata = fs::metadata(&target).map_err(|error| error.to_string())?;
-    if !metadata.is_file() || metadata.len() > MAX_FILE_BYTES {
-        return Err("is no file of a sensible size".into());
-    }
-    let bytes = fs::read(&target).map_err(|error| error.to_string())?;
-    let text = String::from_utf8_lossy(&bytes);
-    tobj::load_mtl_buf(&mut text.as_bytes())
-        .map(|(materials, _)| materials)
-        .map_err(|_| "is not a sound material library".into())
 }
 
 #[cfg(test)]
@@ -245,14 +217,5 @@ mod tests {
         ] {
             assert_eq!(read(text).1.count(WarningCode::Precision), count, "{text}");
         }
-    }
-
-    #[test]
-    fn libraries_outside_the_folder_are_not_opened() {
-        for name in ["../secret.mtl", "/etc/hostname", "..\\secret.mtl"] {
-            let why = read_library(Path::new("model.obj"), name).unwrap_err();
-            assert!(why.contains("outside"), "{name}: {why}");
-        }
-        assert!(read_library(Path::new("model.obj"), "none.mtl").unwrap_err().contains("found"));
     }
 }

@@ -6,7 +6,8 @@ mod render;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use edgemesh::command::{run, start_logging};
+use edgemesh::command::options::MessageOptions;
+use edgemesh::command::run;
 
 /// Draws 3D models as line art
 #[derive(Debug, Parser)]
@@ -14,12 +15,8 @@ use edgemesh::command::{run, start_logging};
 struct Viewer {
     #[command(subcommand)]
     command: Command,
-    /// No warnings
-    #[arg(short, long, global = true)]
-    quiet: bool,
-    /// More messages; twice for still more
-    #[arg(short, long, global = true, action = clap::ArgAction::Count)]
-    verbose: u8,
+    #[command(flatten)]
+    messages: MessageOptions,
 }
 
 #[derive(Debug, Subcommand)]
@@ -33,9 +30,9 @@ enum Command {
 #[must_use]
 pub fn main() -> ExitCode {
     let arguments = Viewer::parse();
-    start_logging(arguments.verbose, arguments.quiet);
+    arguments.messages.start_logging();
     run(move || match arguments.command {
-        Command::Render(command) => command.run(arguments.quiet),
+        Command::Render(command) => command.run(arguments.messages.quiet),
         Command::Adapters(command) => command.run(),
     })
 }

@@ -7,9 +7,9 @@ use std::thread;
 
 use clap::Args;
 use edgemesh::camera::Camera;
-use edgemesh::command::info::FeaturesInfo;
 use edgemesh::command::options::{CameraOptions, CreaseOptions};
 use edgemesh::command::{ExitStatus, Failure, print_to_stdout, print_warnings, write_file};
+use edgemesh::oracle::FeatureCounts;
 use glam::DQuat;
 use image::RgbaImage;
 use serde::Serialize;
@@ -87,7 +87,7 @@ struct Statistics {
     size: [u32; 2],
     triangles: usize,
     edges: usize,
-    features: FeaturesInfo,
+    features: FeatureCounts,
     strokes: u32,
     passes: Vec<PassTime>,
     frame_ms: f64,
@@ -247,7 +247,7 @@ impl RenderCommand {
             size: self.size,
             triangles: sum(|counts| counts.triangles),
             edges: sum(|counts| counts.edges.edges),
-            features: statistics.tally.features().into(),
+            features: statistics.tally.features(),
             strokes: statistics.tally.instance_count,
             passes: passes.map(|&(name, gpu_ms)| PassTime { name, gpu_ms }).collect(),
             frame_ms: statistics.frame_ms,
