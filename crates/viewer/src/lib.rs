@@ -9,10 +9,12 @@
 //! - [`technique`]: what a picture looks like, by name, with its variables.
 //! - [`render`]: a scene of edge meshes to pictures, without any window.
 //! - [`picture`]: PNG in and out, and the comparison with a reference.
+//! - [`animation`]: several pictures as a GIF or an animated PNG.
 //! - [`command`]: the command line; `main.rs` only calls it.
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
+pub mod animation;
 pub mod command;
 pub mod picture;
 pub mod render;

@@ -21,11 +21,8 @@ pub const DEFAULT_REFERENCE_THRESHOLD: f64 = 0.0004;
 /// # Errors
 /// Where the encoder fails.
 pub fn encode_png(picture: &RgbaImage, is_transparent: bool) -> Result<Vec<u8>, Failure> {
-    let picture = if is_transparent {
-        DynamicImage::ImageRgba8(straight_alpha(picture))
-    } else {
-        DynamicImage::ImageRgba8(picture.clone()).to_rgb8().into()
-    };
+    let straight = DynamicImage::ImageRgba8(straight_alpha(picture));
+    let picture = if is_transparent { straight } else { straight.to_rgb8().into() };
     let mut bytes = Cursor::new(Vec::new());
     picture
         .write_to(&mut bytes, image::ImageFormat::Png)
@@ -33,7 +30,9 @@ pub fn encode_png(picture: &RgbaImage, is_transparent: bool) -> Result<Vec<u8>, 
     Ok(bytes.into_inner())
 }
 
-fn straight_alpha(picture: &RgbaImage) -> RgbaImage {
+/// Divides the colours by their alpha, as files store them.
+#[must_use]
+pub fn straight_alpha(picture: &RgbaImage) -> RgbaImage {
     let mut straight = picture.clone();
     for Rgba([r, g, b, a]) in straight.pixels_mut() {
         if *a != 0 {

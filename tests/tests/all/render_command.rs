@@ -25,6 +25,8 @@ fn wrong_command_lines_exit_with_2_and_say_why() {
         (vec!["render"], "MODEL"),
         (vec!["render", &cube], "--output"),
         (vec!["render", &cube, "-o", "a.jpg"], ".png"),
+        (vec!["render", &cube, "-o", "a.gif"], "--turntable"),
+        (vec!["render", &cube, "-o", "a.jpg", "--turntable", "3"], ".apng"),
         (vec!["render", &cube, "-o", "a.png", "--size", "10"], "1920x1080"),
         (vec!["render", &cube, "-o", "a.png", "--samples", "2"], "samples"),
         (vec!["render", &cube, "-o", "a.png", "--eye", "1,2"], "three numbers"),
@@ -178,6 +180,14 @@ mod with_adapter {
         assert_eq!(output.status.code(), Some(0), "{}", message(&output));
         for step in 0..3 {
             assert!(folder.path().join(format!("turn-{step}.png")).is_file());
+        }
+        for (ending, magic) in [("gif", &b"GIF89a"[..]), ("apng", b"\x89PNG")] {
+            let out = folder.path().join(format!("turn.{ending}"));
+            let path = out.display().to_string();
+            let arguments = ["render", &cube, "-o", &path, "--size", "32x16", "--turntable", "3"];
+            let output = viewer(&arguments);
+            assert_eq!(output.status.code(), Some(0), "{}", message(&output));
+            assert!(std::fs::read(&out).unwrap().starts_with(magic), "{ending}");
         }
         let output = viewer(&["render", &cube, "-o", "-", "--size", "32x16", "--transparent"]);
         let picture = image::load_from_memory(&output.stdout).unwrap();

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 use std::ffi::OsStr;
+use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 use std::thread;
 
@@ -15,7 +16,8 @@ use image::RgbaImage;
 use serde::Serialize;
 use strokes::gpu::{self, Gpu};
 
-use crate::picture::{DEFAULT_REFERENCE_THRESHOLD, compare, encode_png, read_png};
+use crate::animation::{AnimationKind, encode_animation};
+use crate::picture::{DEFAULT_REFERENCE_THRESHOLD, compare, encode_png, read_png, straight_alpha};
 use crate::render::{FrameStatistics, PictureRenderer, Scene, adapter_failure};
 use crate::technique::{TECHNIQUES, Technique, VARIABLES};
 
@@ -47,7 +49,8 @@ pub(super) struct RenderCommand {
     /// No paper behind the model
     #[arg(long)]
     transparent: bool,
-    /// Turn the camera around the target in N steps and write numbered pictures
+    /// Turn the camera around the target in N steps and write numbered pictures,
+    /// or one animated one where OUT ends in .gif or .apng
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     turntable: Option<u32>,
     /// Write counts and times as JSON to a file, or - for standard output
@@ -70,7 +73,7 @@ const EXAMPLES: &str = "Examples:\n  \
     viewer render bunny.obj -o bunny.png\n  \
     viewer render bunny.obj -o bunny.png --technique pen --set strokes.width=4 --size 2048x1024\n  \
     viewer render part.obj -o part.png --eye 3,2,5 --ortho --crease 20 --stats -\n  \
-    viewer render part.obj -o turn.png --turntable 36";
+    viewer render part.obj -o turn.gif --turntable 72 --size 512x512";
 
 fn long_help() -> String {
     let list = |rows: &[(&str, &str)]| {
@@ -143,11 +146,7 @@ impl RenderCommand {
     fn check_outputs(&self) -> Result<(), Failure> {
         let is_stream = |path: &Path| path == Path::new("-");
         if !is_stream(&self.output) {
-            let is_png = self.output.extension().is_some_and(|end| end.eq_ignore_ascii_case("png"));
-            if !is_png {
-                let message = format!("--output {}: must end in .png", self.output.display());
-                return Err(Failure::usage(message));
-            }
+            self.check_ending()?;
             if self.models.contains(&self.output) {
                 return Err(Failure::usage("--output is one of the models; name another file"));
             }
@@ -169,6 +168,18 @@ impl RenderCommand {
             }
         }
         Ok(())
+    }
+
+    fn check_ending(&self) -> Result<(), Failure> {
+        let is_png = self.output.extension().is_some_and(|end| end.eq_ignore_ascii_case("png"));
+        let is_animation = AnimationKind::of(&self.output).is_some();
+        let message = match (is_png || is_animation, self.turntable) {
+            (true, Some(_)) => return Ok(()),
+            (true, None) if is_png => return Ok(()),
+            (_, None) => "must end in .png (.gif and .apng need --turntable)",
+            (false, Some(_)) => "must end in .png, .gif or .apng",
+        };
+        Err(Failure::usage(format!("--output {}: {message}", self.output.display())))
     }
 
     fn write_picture(
@@ -216,12 +227,23 @@ impl RenderCommand {
     ) -> Result<FrameStatistics, Failure> {
         let axis = camera.up.normalize_or_zero();
         let mut last = None;
-        for step in 0..steps {
+        let mut draw = |step: u32| {
             let turn = DQuat::from_axis_angle(axis, TAU * f64::from(step) / f64::from(steps));
             let eye = camera.target + turn * (camera.eye - camera.target);
             let (picture, statistics) = renderer.render(&Camera { eye, ..*camera })?;
-            self.write_png(&numbered(&self.output, step, steps), &picture)?;
             last = Some(statistics);
+            show_progress(step + 1, steps);
+            Ok(picture)
+        };
+        if let Some(kind) = AnimationKind::of(&self.output) {
+            let bytes = encode_animation(kind, steps, self.size, |step| {
+                draw(step).map(|picture| straight_alpha(&picture))
+            })?;
+            write_file(&self.output, &bytes)?;
+        } else {
+            for step in 0..steps {
+                self.write_png(&numbered(&self.output, step, steps), &draw(step)?)?;
+            }
         }
         last.ok_or_else(|| Failure::usage("--turntable needs at least one step"))
     }
@@ -255,6 +277,15 @@ impl RenderCommand {
         let json = serde_json::to_string_pretty(&statistics);
         let json = json.map_err(|error| Failure::fault(error.to_string()))? + "\n";
         write_result(path, json.as_bytes())
+    }
+}
+
+/// Says on a terminal how far a turntable is.
+#[expect(clippy::print_stderr, reason = "progress, on a terminal only")]
+fn show_progress(done: u32, total: u32) {
+    if std::io::stderr().is_terminal() {
+        let end = if done == total { "\n" } else { "" };
+        eprint!("\rpicture {done} of {total}{end}");
     }
 }
 

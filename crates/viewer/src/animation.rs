@@ -1,0 +1,146 @@
+//! Animated pictures: GIF, which everything shows, and animated PNG, which
+//! keeps every colour.
+//!
+//! Frames are encoded as they are drawn; only the encoded bytes stay in memory.
+
+use std::path::Path;
+use std::time::Duration;
+
+use edgemesh::command::Failure;
+use image::codecs::gif::{GifEncoder, Repeat};
+use image::{Delay, Frame, RgbaImage};
+
+/// How long a frame is shown: 25 a second.
+const FRAME_MS: u16 = 40;
+
+/// How hard the GIF encoder looks for its 256 colours, 1 to 30; line drawings
+/// have few, so the library's own middle way is enough.
+const GIF_SPEED: i32 = 10;
+
+/// The kind of an animated picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AnimationKind {
+    /// `.gif`
+    Gif,
+    /// `.apng`
+    Apng,
+}
+
+impl AnimationKind {
+    /// The kind by the ending of `path`; `None` for any other ending.
+    #[must_use]
+    pub fn of(path: &Path) -> Option<Self> {
+        let ending = path.extension()?;
+        if ending.eq_ignore_ascii_case("gif") {
+            Some(Self::Gif)
+        } else if ending.eq_ignore_ascii_case("apng") {
+            Some(Self::Apng)
+        } else {
+            None
+        }
+    }
+}
+
+/// Encodes `count` frames of `size`, which `draw` gives one by one with straight
+/// alpha, as an endless animation.
+///
+/// # Errors
+/// The first failure of `draw`, or one of the encoder.
+pub fn encode_animation(
+    kind: AnimationKind,
+    count: u32,
+    size: [u32; 2],
+    draw: impl FnMut(u32) -> Result<RgbaImage, Failure>,
+) -> Result<Vec<u8>, Failure> {
+    match kind {
+        AnimationKind::Gif => encode_gif(count, draw),
+        AnimationKind::Apng => encode_apng(count, size, draw),
+    }
+}
+
+fn encode_gif(
+    count: u32,
+    mut draw: impl FnMut(u32) -> Result<RgbaImage, Failure>,
+) -> Result<Vec<u8>, Failure> {
+    let mut bytes = Vec::new();
+    {
+        let mut encoder = GifEncoder::new_with_speed(&mut bytes, GIF_SPEED);
+        encoder.set_repeat(Repeat::Infinite).map_err(failed)?;
+        let delay = Delay::from_saturating_duration(Duration::from_millis(FRAME_MS.into()));
+        for index in 0..count {
+            let frame = Frame::from_parts(draw(index)?, 0, 0, delay);
+            encoder.encode_frame(frame).map_err(failed)?;
+        }
+    }
+    Ok(bytes)
+}
+
+fn encode_apng(
+    count: u32,
+    [width, height]: [u32; 2],
+    mut draw: impl FnMut(u32) -> Result<RgbaImage, Failure>,
+) -> Result<Vec<u8>, Failure> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    // Played 0 times means without end.
+    encoder.set_animated(count, 0).map_err(failed)?;
+    encoder.set_frame_delay(FRAME_MS, 1000).map_err(failed)?;
+    let mut writer = encoder.write_header().map_err(failed)?;
+    for index in 0..count {
+        writer.write_image_data(&draw(index)?).map_err(failed)?;
+    }
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
+}
+
+fn failed(error: impl std::fmt::Display) -> Failure {
+    Failure::fault(format!("the animation cannot be encoded: {error}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use image::{AnimationDecoder as _, Rgba};
+
+    use super::*;
+
+    fn encoded(kind: AnimationKind) -> Vec<u8> {
+        encode_animation(kind, 3, [4, 2], |index| {
+            let grey = u8::try_from(index * 100).unwrap();
+            Ok(RgbaImage::from_pixel(4, 2, Rgba([grey, grey, grey, 255])))
+        })
+        .unwrap()
+    }
+
+    #[test]
+    fn gif_frames_come_back() {
+        let bytes = encoded(AnimationKind::Gif);
+        let decoder = image::codecs::gif::GifDecoder::new(std::io::Cursor::new(bytes)).unwrap();
+        let frames = decoder.into_frames().collect_frames().unwrap();
+        assert_eq!(frames.len(), 3);
+        assert_eq!(frames[2].buffer().get_pixel(3, 1), &Rgba([200, 200, 200, 255]));
+    }
+
+    #[test]
+    fn apng_frames_come_back() {
+        let bytes = encoded(AnimationKind::Apng);
+        let decoder = image::codecs::png::PngDecoder::new(std::io::Cursor::new(bytes)).unwrap();
+        let frames = decoder.apng().unwrap().into_frames().collect_frames().unwrap();
+        assert_eq!(frames.len(), 3);
+        assert_eq!(frames[1].buffer().get_pixel(0, 0), &Rgba([100, 100, 100, 255]));
+    }
+
+    #[test]
+    fn a_frame_that_fails_ends_the_animation() {
+        let result = encode_animation(AnimationKind::Gif, 2, [1, 1], |_| Err(Failure::fault("no")));
+        assert_eq!(result.unwrap_err().message, "no");
+    }
+
+    #[test]
+    fn kinds_follow_the_ending() {
+        assert_eq!(AnimationKind::of(Path::new("a.GIF")), Some(AnimationKind::Gif));
+        assert_eq!(AnimationKind::of(Path::new("a.apng")), Some(AnimationKind::Apng));
+        assert_eq!(AnimationKind::of(Path::new("a.png")), None);
+    }
+}
