@@ -45,15 +45,25 @@ fn line_bits(record: EdgeRecord, is_outside: bool) -> u32 {
     return classify_edge(record.flags, has_b, a_faces, b_faces, is_outside);
 }
 
+// Whether the view's eye lies outside of this mesh's box.
+fn is_seen_from_outside() -> bool {
+    return eye_is_outside(frame.eye, mesh.box_min.xyz, mesh.box_max.xyz);
+}
+
+// The first edge of a run, and the one behind its last.
+fn edges_of(run: u32) -> vec2u {
+    let first = run * EDGES_PER_RUN;
+    return vec2u(first, min(first + EDGES_PER_RUN, mesh.edge_count));
+}
+
 @compute @workgroup_size(64)
 fn count_runs(@builtin(global_invocation_id) id: vec3u) {
     let run = id.x;
     if run >= mesh.run_count {
         return;
     }
-    let first = run * EDGES_PER_RUN;
-    let last = min(first + EDGES_PER_RUN, mesh.edge_count);
-    let is_outside = eye_is_outside(frame.eye, mesh.box_min.xyz, mesh.box_max.xyz);
+    let edges = edges_of(run);
+    let is_outside = is_seen_from_outside();
     var live_count = 0u;
     var contour = 0u;
     var ridge = 0u;
@@ -61,7 +71,7 @@ fn count_runs(@builtin(global_invocation_id) id: vec3u) {
     var boundary = 0u;
     var marked = 0u;
     var material = 0u;
-    for (var edge = first; edge < last; edge++) {
+    for (var edge = edges.x; edge < edges.y; edge++) {
         let record = records[edge];
         let bits = line_bits(record, is_outside);
         live_count += u32((bits & DRAWN) != 0u);
@@ -127,11 +137,10 @@ fn write_runs(@builtin(global_invocation_id) id: vec3u) {
     if run >= mesh.run_count {
         return;
     }
-    let first = run * EDGES_PER_RUN;
-    let last = min(first + EDGES_PER_RUN, mesh.edge_count);
-    let is_outside = eye_is_outside(frame.eye, mesh.box_min.xyz, mesh.box_max.xyz);
+    let edges = edges_of(run);
+    let is_outside = is_seen_from_outside();
     var place = runs[run];
-    for (var edge = first; edge < last; edge++) {
+    for (var edge = edges.x; edge < edges.y; edge++) {
         let bits = line_bits(records[edge], is_outside);
         if (bits & DRAWN) != 0u {
             live[place] = edge | (bits & (CONTOUR | A_FACES));

@@ -37,8 +37,8 @@ const CONTOUR: [[bool; 2]; 2] = [
 /// Pairs of a non-manifold edge are drawn in every view and are no contours.
 ///
 /// An edge of a solid with both faces turned away from an eye outside of it is
-/// hidden by the solid itself, and is not drawn: tested against the depth it
-/// would show at its ends, where its width reaches past the faces in front.
+/// hidden by the solid itself, and is not drawn. Left to the depth test it would
+/// show at its ends, where its width reaches past the faces in front.
 #[must_use]
 pub fn classify_edge(
     flags: EdgeFlags,
