@@ -25,6 +25,7 @@ struct Tally {
     boundary: atomic<u32>,
     marked: atomic<u32>,
     material: atomic<u32>,
+    smoothing: atomic<u32>,
 }
 
 @group(2) @binding(0) var<uniform> mesh: MeshUniform;
@@ -35,12 +36,13 @@ struct Tally {
 @group(2) @binding(5) var<storage, read_write> tally: Tally;
 
 fn looks_at_eye(face: u32) -> bool {
-    return (facing[face >> 5u] & (1u << (face & 31u))) != 0u;
+    // A line that is no edge of a face has none that could look anywhere.
+    return face != NONE && (facing[face >> 5u] & (1u << (face & 31u))) != 0u;
 }
 
 fn line_bits(record: EdgeRecord, is_outside: bool) -> u32 {
     let has_b = record.face_b != NONE;
-    let b_faces = has_b && looks_at_eye(record.face_b);
+    let b_faces = looks_at_eye(record.face_b);
     let a_faces = looks_at_eye(record.face_a);
     return classify_edge(record.flags, has_b, a_faces, b_faces, is_outside);
 }
@@ -71,6 +73,7 @@ fn count_runs(@builtin(global_invocation_id) id: vec3u) {
     var boundary = 0u;
     var marked = 0u;
     var material = 0u;
+    var smoothing = 0u;
     for (var edge = edges.x; edge < edges.y; edge++) {
         let record = records[edge];
         let bits = line_bits(record, is_outside);
@@ -84,6 +87,7 @@ fn count_runs(@builtin(global_invocation_id) id: vec3u) {
         boundary += u32((record.flags & BOUNDARY) != 0u);
         marked += u32((record.flags & MARKED) != 0u);
         material += u32((record.flags & MATERIAL) != 0u);
+        smoothing += u32((record.flags & SMOOTHING) != 0u);
     }
     runs[run] = live_count;
     // Sums of whole numbers: the same in any order.
@@ -93,6 +97,7 @@ fn count_runs(@builtin(global_invocation_id) id: vec3u) {
     if boundary > 0u { atomicAdd(&tally.boundary, boundary); }
     if marked > 0u { atomicAdd(&tally.marked, marked); }
     if material > 0u { atomicAdd(&tally.material, material); }
+    if smoothing > 0u { atomicAdd(&tally.smoothing, smoothing); }
 }
 
 const SCAN_WIDTH: u32 = 256u;

@@ -37,13 +37,20 @@ struct StrokeUniform {
 // The cosine between a face's normal and the line of sight to a point of it,
 // without its sign.
 fn facing_at(point: vec3f, face: u32) -> f32 {
+    if face == NONE {
+        return 0.0;
+    }
     let to_eye = frame.eye.xyz - frame.eye.w * point;
     let distance = length(to_eye);
     return select(abs(dot(planes[face].normal.xyz, to_eye)) / distance, 0.0, distance <= 0.0);
 }
 
-// The vertex of a face that is not on the edge.
+// The vertex of a face that is not on the edge; the paper's v3 = v0 where there
+// is no face.
 fn apex(face: u32, record: EdgeRecord) -> u32 {
+    if face == NONE {
+        return record.v0;
+    }
     for (var corner = 0u; corner < 3u; corner++) {
         let vertex = triangles[3u * face + corner];
         if vertex != record.v0 && vertex != record.v1 {
@@ -81,18 +88,12 @@ fn stroke_vertices(
     let record = records[word & EDGE_INDEX_MASK];
     let p0 = position_of(record.v0);
     let p1 = position_of(record.v1);
-    // The paper's v3 = v0 where there is no second face.
-    var v3 = record.v0;
-    var facing = vec2f(facing_at(p0, record.face_a), 0.0);
-    if record.face_b != NONE {
-        v3 = apex(record.face_b, record);
-        facing.y = facing_at(p0, record.face_b);
-    }
+    let facing = vec2f(facing_at(p0, record.face_a), facing_at(p0, record.face_b));
     let edge = ClipEdge(
         frame.clip_from_world * vec4f(p0, 1.0),
         frame.clip_from_world * vec4f(p1, 1.0),
         clip_of(apex(record.face_a, record)),
-        clip_of(v3),
+        clip_of(apex(record.face_b, record)),
         facing,
         frame.clip_from_world * vec4f(normal_of(record.v0), 0.0),
         frame.clip_from_world * vec4f(normal_of(record.v1), 0.0),

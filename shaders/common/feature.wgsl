@@ -11,7 +11,8 @@ const NON_MANIFOLD: u32 = 32u;
 const DIAGONAL: u32 = 64u;
 const CLASH: u32 = 128u;
 const SOLID: u32 = 256u;
-const ALWAYS_DRAWN: u32 = 63u; // all before DIAGONAL
+const SMOOTHING: u32 = 512u;
+const ALWAYS_DRAWN: u32 = 575u; // all before DIAGONAL, and SMOOTHING
 
 // Line bits: what a view says of an edge. The live list carries the first two
 // above the edge's index.

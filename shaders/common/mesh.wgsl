@@ -4,7 +4,8 @@
 
 const NONE: u32 = 0xffffffffu;
 
-// 20 bytes an edge. face_a traverses the edge from v0 to v1; face_b may be NONE.
+// 20 bytes an edge. face_a traverses the edge from v0 to v1; face_b may be NONE,
+// and face_a too, for a line that is no edge of a face.
 struct EdgeRecord {
     v0: u32,
     v1: u32,

@@ -4,6 +4,7 @@ mod adapter;
 mod brushes;
 mod demo;
 mod failure;
+mod mesh;
 mod models;
 mod programs;
 mod test;
@@ -19,6 +20,8 @@ Tasks:
   demo              draw every model in models/ with the ink and the pen technique, into target/demo/
   test [-- ARGS]    run all tests, those that need a Vulkan adapter too; ARGS go to the test programs
   models            write the project's own models to models/
+  mesh --triangles N -o FILE
+                    write a large organic mesh of about N triangles, for benches
   brushes           write the stroke textures to brushes/
   help              print this list
 ";
@@ -46,6 +49,8 @@ fn run(args: &[&str]) -> Result<(), Failure> {
         ["test", "--", rest @ ..] => test::run(rest),
         ["models"] => models::run(),
         ["brushes"] => brushes::run(),
+        ["mesh", "--triangles", count, "-o", path] => mesh::run(count, path),
+        ["mesh", ..] => Err(Failure::usage("use `cargo xtask mesh --triangles N -o FILE`")),
         ["test", ..] => Err(Failure::usage("arguments for the test programs go after `--`")),
         [task @ ("demo" | "models" | "brushes" | "help"), ..] => {
             Err(Failure::usage(&format!("`{task}` takes no arguments")))
@@ -62,7 +67,13 @@ mod tests {
 
     #[test]
     fn a_wrong_command_line_ends_with_status_2() {
-        for args in [&["paint"][..], &["demo", "cube"], &["test", "weld"], &["help", "demo"]] {
+        for args in [
+            &["paint"][..],
+            &["demo", "cube"],
+            &["test", "weld"],
+            &["help", "demo"],
+            &["mesh", "9"],
+        ] {
             let failure = run(args).unwrap_err();
             assert_eq!(failure.status, 2, "{args:?}: {}", failure.message);
         }
@@ -70,7 +81,7 @@ mod tests {
 
     #[test]
     fn help_names_every_task() {
-        for task in ["demo", "test", "models", "brushes", "help"] {
+        for task in ["demo", "test", "models", "mesh", "brushes", "help"] {
             assert!(HELP.contains(&format!("\n  {task} ")), "`{task}` is missing");
         }
     }

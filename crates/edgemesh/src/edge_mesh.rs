@@ -3,27 +3,37 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 
+use crate::build::Frame;
 use crate::index::NONE;
-use crate::record::{EdgeRecord, EdgeVertex};
+use crate::record::{EdgeFlags, EdgeRecord, EdgeVertex, EdgeVertex16};
 use crate::topology::EdgeCounts;
 
 /// A mesh with every undirected edge as a record.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct EdgeMesh {
-    /// Welded positions.
+    /// Where the mesh lies in its file.
+    pub frame: Frame,
+    /// Welded positions; vertices that were split follow the others.
     pub positions: Vec<[f32; 3]>,
-    /// Normals of the welded vertices, weighted by angle, of unit length; zero
+    /// The vertex that each of those was split from, in order; empty where none
+    /// was.
+    pub split_from: Vec<u32>,
+    /// Normals of the vertices, weighted by angle, of unit length; zero
     /// where the faces cancel out.
     pub vertex_normals: Vec<[f32; 3]>,
     /// Welded triangles, winding repaired.
     pub triangles: Vec<[u32; 3]>,
     /// One a triangle: what decides whether it faces the eye.
     pub face_planes: Vec<FacePlane>,
-    /// The edges, sorted by (min, max) vertex.
+    /// The edges, sorted by (min, max) welded vertex; behind them the lines that
+    /// are no edge of a face.
     pub records: Vec<EdgeRecord>,
-    /// The same triangles with the corner attributes that shading needs.
+    /// The edges that no view changes, as polylines.
+    pub chains: Chains,
+    /// The same triangles with the corner attributes that shading needs; empty
+    /// where none was asked for.
     pub fill: FillMesh,
-    /// The box around all vertices that faces use.
+    /// The box around all vertices that faces and lines use.
     pub bounds: Bounds,
     /// Counts from before any repair.
     pub counts: MeshCounts,
@@ -43,9 +53,56 @@ pub struct FacePlane {
     pub point: [f32; 4],
 }
 
+/// Polylines of edges that no view changes.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Chains {
+    /// The polylines, in the order of their first records.
+    pub chains: Vec<Chain>,
+    /// The edges of all polylines, polyline by polyline.
+    pub links: Vec<ChainLink>,
+}
+
+/// A polyline of edges of one class: 20 bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Chain {
+    /// Its first link in [`Chains::links`].
+    pub first_link: u32,
+    /// How many links it has.
+    pub link_count: u32,
+    /// Its length, in units of the mesh.
+    pub length: f32,
+    /// 1 where its end is its start, else 0.
+    pub is_loop: u32,
+    /// The one class that it is chained by.
+    pub class: EdgeFlags,
+}
+
+impl Chain {
+    /// The range of its links in [`Chains::links`].
+    #[must_use]
+    pub const fn link_range(&self) -> std::ops::Range<usize> {
+        self.first_link as usize..(self.first_link + self.link_count) as usize
+    }
+}
+
+/// An edge of a polyline: 16 bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct ChainLink {
+    /// Index into [`EdgeMesh::records`].
+    pub record: u32,
+    /// Index into [`Chains::chains`].
+    pub chain: u32,
+    /// The length of the polyline before this edge, in units of the mesh.
+    pub arc_start: f32,
+    /// 1 where the polyline runs from the record's `v1` to its `v0`, else 0.
+    pub is_reversed: u32,
+}
+
 /// Triangles for shading: vertices split where normals or texture coordinates
 /// differ.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct FillMesh {
     /// The split vertices.
     pub vertices: Vec<FillVertex>,
@@ -152,6 +209,9 @@ pub struct SourceCounts {
 /// Bytes that the edge mesh takes in each layout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LayoutBytes {
+    /// The mesh that it is made from: a position and a normal of 12 bytes each a
+    /// vertex, three indices of 4 bytes a triangle.
+    pub input: usize,
     /// Positions, normals, triangles and 20 bytes an edge record.
     pub indexed: usize,
     /// Four edge vertices of 80 bytes an edge.
@@ -161,12 +221,70 @@ pub struct LayoutBytes {
 }
 
 impl EdgeMesh {
-    /// The vertex of `face` that is not on `record`'s edge.
+    /// The vertex of `face` that is not on `record`'s edge; the edge's start
+    /// where there is no face.
     #[must_use]
     pub fn apex(&self, face: u32, record: &EdgeRecord) -> u32 {
+        if face == NONE {
+            return record.v0;
+        }
         let triangle = self.triangles[face as usize];
         let off_edge = |vertex: &u32| *vertex != record.v0 && *vertex != record.v1;
         triangle.into_iter().find(off_edge).unwrap_or(NONE)
+    }
+
+    /// The welded vertex that a vertex is, or was split from.
+    #[must_use]
+    pub fn welded_vertex(&self, vertex: u32) -> u32 {
+        let first_split = self.positions.len() - self.split_from.len();
+        match (vertex as usize).checked_sub(first_split) {
+            Some(split) => self.split_from[split],
+            None => vertex,
+        }
+    }
+
+    /// The corners of the box around the mesh, in the units of its file; infinite
+    /// and turned around where there are no vertices.
+    #[must_use]
+    pub fn box_in_file(&self) -> (DVec3, DVec3) {
+        if self.positions.is_empty() {
+            return (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        }
+        let corner = |corner: [f32; 3]| self.frame.to_file(Vec3::from(corner).as_dvec3());
+        (corner(self.bounds.min), corner(self.bounds.max))
+    }
+
+    /// Moves the mesh to another frame, so that it lies at the same place of the
+    /// file; lengths are scaled, directions stay.
+    pub fn set_frame(&mut self, frame: Frame) {
+        if frame == self.frame {
+            return;
+        }
+        let old = std::mem::replace(&mut self.frame, frame);
+        let moved = |[x, y, z]: [f32; 3]| {
+            let in_file = old.to_file(DVec3::new(x.into(), y.into(), z.into()));
+            frame.to_mesh(in_file).as_vec3().to_array()
+        };
+        for position in &mut self.positions {
+            *position = moved(*position);
+        }
+        for plane in &mut self.face_planes {
+            let [x, y, z, w] = plane.point;
+            let [x, y, z] = moved([x, y, z]);
+            plane.point = [x, y, z, w];
+        }
+        for vertex in &mut self.fill.vertices {
+            vertex.position = moved(vertex.position);
+        }
+        self.bounds = Bounds::of(&self.positions);
+        #[expect(clippy::cast_possible_truncation, reason = "lengths are in 32 bits")]
+        let scaled = |length: f32| (f64::from(length) * (frame.scale / old.scale)) as f32;
+        for chain in &mut self.chains.chains {
+            chain.length = scaled(chain.length);
+        }
+        for link in &mut self.chains.links {
+            link.arc_start = scaled(link.arc_start);
+        }
     }
 
     /// Sizes of the layouts.
@@ -174,12 +292,13 @@ impl EdgeMesh {
     pub fn layout_bytes(&self) -> LayoutBytes {
         let edges = self.records.len();
         LayoutBytes {
+            input: self.positions.len() * 24 + size_of_val(&*self.triangles),
             indexed: size_of_val(&*self.positions)
                 + size_of_val(&*self.vertex_normals)
                 + size_of_val(&*self.triangles)
                 + size_of_val(&*self.records),
             replicated_f32: edges * 4 * size_of::<EdgeVertex>(),
-            replicated_i16: edges * 4 * 40,
+            replicated_i16: edges * 4 * size_of::<EdgeVertex16>(),
         }
     }
 }

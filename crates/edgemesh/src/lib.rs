@@ -13,6 +13,8 @@
 //!
 //! - [`read`]: files in, [`model::Model`] out, every error with file and line.
 //! - [`build`]: weld, repair, classify; one stage a file.
+//! - [`export`]: the mesh and its edges for other programs: glTF, PLY, OBJ, JSON.
+//! - [`mod@file`]: edge meshes on disk, with a checksum, used where they lie.
 //! - [`oracle`]: the CPU twin of the shaders, and the reference they are held to.
 //! - [`camera`]: the eye and the clip-space matrix, the same for every command.
 //!
@@ -35,10 +37,14 @@ pub mod camera;
 #[cfg(feature = "command")]
 pub mod command;
 pub mod edge_mesh;
+pub mod export;
+pub mod file;
 pub mod index;
 pub mod model;
 pub mod oracle;
 pub mod read;
 pub mod record;
+pub mod replicate;
 pub mod report;
+pub mod rig;
 pub mod topology;

@@ -2,10 +2,14 @@
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, Parser, Subcommand};
+use edgemesh::command::build::BuildCommand;
+use edgemesh::command::export::ExportCommand;
 use edgemesh::command::info::InfoCommand;
+use edgemesh::command::manual::{CompletionsCommand, ManCommand};
 use edgemesh::command::options::MessageOptions;
 use edgemesh::command::run;
+use edgemesh::command::validate::ValidateCommand;
 
 /// Turns triangle meshes into edge meshes and says what is in them
 #[derive(Debug, Parser)]
@@ -20,12 +24,25 @@ struct Edgemesh {
 #[derive(Debug, Subcommand)]
 enum Command {
     Info(InfoCommand),
+    Build(BuildCommand),
+    Export(ExportCommand),
+    Validate(ValidateCommand),
+    #[command(hide = true)]
+    Completions(CompletionsCommand),
+    #[command(hide = true)]
+    Man(ManCommand),
 }
 
 fn main() -> ExitCode {
     let arguments = Edgemesh::parse();
     arguments.messages.start_logging();
+    let is_quiet = arguments.messages.quiet;
     run(move || match arguments.command {
-        Command::Info(command) => command.run(arguments.messages.quiet),
+        Command::Info(command) => command.run(is_quiet),
+        Command::Build(command) => command.run(is_quiet),
+        Command::Export(command) => command.run(is_quiet),
+        Command::Validate(command) => command.run(is_quiet),
+        Command::Completions(command) => command.run(Edgemesh::command()),
+        Command::Man(command) => command.run(Edgemesh::command()),
     })
 }

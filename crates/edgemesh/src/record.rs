@@ -1,10 +1,12 @@
-//! The two layouts of an edge mesh's records.
+//! The layouts of an edge mesh's records.
 //!
 //! 1. The **indexed edge record**, 20 bytes an edge: indices into positions and
 //!    faces that the fill shares. This is what the paper's section 6 says will
 //!    be possible once vertex programs can read memory.
 //! 2. The **replicated edge vertex**, the paper's own (section 3): four
-//!    successive copies of `<v0, v1, v2, v3, n0, n1, r, i>`, 80 bytes each.
+//!    successive copies of `<v0, v1, v2, v3, n0, n1, r, i>`, 80 bytes each in
+//!    32-bit floats ([`crate::replicate`] makes them).
+//! 3. The same at 16 bits: 37 bytes, padded to 40 with the classes.
 //!
 //! ```text
 //!            v1              face A = <v0, v1, v2>, left of v0 -> v1
@@ -18,9 +20,6 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-
-use crate::edge_mesh::EdgeMesh;
-use crate::index::NONE;
 
 bitflags::bitflags! {
     /// What is known of an edge before there is a view.
@@ -53,6 +52,8 @@ bitflags::bitflags! {
         /// (A surface that passes through itself can enclose a part inside out;
         /// edges there count as hidden as well.)
         const SOLID = 1 << 8;
+        /// The two faces are of different smoothing groups.
+        const SMOOTHING = 1 << 9;
     }
 }
 
@@ -63,7 +64,28 @@ impl EdgeFlags {
         .union(Self::VALLEY)
         .union(Self::MARKED)
         .union(Self::MATERIAL)
-        .union(Self::NON_MANIFOLD);
+        .union(Self::NON_MANIFOLD)
+        .union(Self::SMOOTHING);
+}
+
+/// The classes by the words that files and messages have for them.
+const CLASS_NAMES: [(EdgeFlags, &str); 10] = [
+    (EdgeFlags::BOUNDARY, "boundary"),
+    (EdgeFlags::RIDGE, "ridge"),
+    (EdgeFlags::VALLEY, "valley"),
+    (EdgeFlags::MARKED, "marked"),
+    (EdgeFlags::MATERIAL, "material"),
+    (EdgeFlags::NON_MANIFOLD, "non_manifold"),
+    (EdgeFlags::DIAGONAL, "diagonal"),
+    (EdgeFlags::CLASH, "clash"),
+    (EdgeFlags::SOLID, "solid"),
+    (EdgeFlags::SMOOTHING, "smoothing"),
+];
+
+/// The words for all that `flags` have, in the order of their bits.
+pub fn class_names(flags: EdgeFlags) -> impl Iterator<Item = &'static str> {
+    let is_set = move |(flag, _): &&(EdgeFlags, &str)| flags.contains(*flag);
+    CLASS_NAMES.iter().filter(is_set).map(|(_, name)| *name)
 }
 
 /// The indexed edge record: 20 bytes. WGSL twin: `EdgeRecord` in
@@ -75,12 +97,61 @@ pub struct EdgeRecord {
     pub v0: u32,
     /// End vertex.
     pub v1: u32,
-    /// The face that traverses the edge from `v0` to `v1`.
+    /// The face that traverses the edge from `v0` to `v1`; [`crate::index::NONE`] for a line
+    /// that is no edge of a face.
     pub face_a: u32,
-    /// The face across, or [`NONE`].
+    /// The face across, or [`crate::index::NONE`].
     pub face_b: u32,
     /// Static classes.
     pub flags: EdgeFlags,
+}
+
+/// The paper's edge vertex at 16 bits: 37 bytes (section 3.1), and the class
+/// bits in the three bytes that pad it to 40.
+///
+/// Positions are whole steps from the middle of the mesh's box, normals are in
+/// units of 1 / 32767; [`crate::replicate::Quantization`] has the steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct EdgeVertex16 {
+    /// Start of the edge.
+    pub v0: [i16; 3],
+    /// End of the edge.
+    pub v1: [i16; 3],
+    /// Third vertex of face A.
+    pub v2: [i16; 3],
+    /// Third vertex of face B; equal to `v0` for boundary and marked edges.
+    pub v3: [i16; 3],
+    /// Welded vertex normal at `v0`.
+    pub n0: [i16; 3],
+    /// Welded vertex normal at `v1`.
+    pub n1: [i16; 3],
+    /// The corner index i, 0 to 3, in the low two bits; the edge's random
+    /// scalar in the six above, in steps of 1 / 64.
+    pub corner_and_random: u8,
+    /// [`EdgeFlags`], the lowest byte first.
+    pub flags: [u8; 3],
+}
+
+impl EdgeVertex16 {
+    /// The corner index i.
+    #[must_use]
+    pub const fn corner(&self) -> u32 {
+        (self.corner_and_random & 3) as u32
+    }
+
+    /// The edge's random scalar, rounded down to steps of 1 / 64.
+    #[must_use]
+    pub fn random(&self) -> f32 {
+        f32::from(self.corner_and_random >> 2) / 64.0
+    }
+
+    /// The class bits.
+    #[must_use]
+    pub const fn flags(&self) -> EdgeFlags {
+        let [low, middle, high] = self.flags;
+        EdgeFlags::from_bits_truncate(u32::from_le_bytes([low, middle, high, 0]))
+    }
 }
 
 /// The paper's edge vertex in 32-bit floats: 80 bytes, four in a row an edge.
@@ -123,32 +194,6 @@ impl EdgeVertex {
     }
 }
 
-/// Writes out the paper's edge mesh: four edge vertices a record, in order.
-#[must_use]
-pub fn replicate(mesh: &EdgeMesh) -> Vec<EdgeVertex> {
-    let position = |vertex: u32| mesh.positions[vertex as usize];
-    let normal = |vertex: u32| mesh.vertex_normals[vertex as usize];
-    mesh.records
-        .iter()
-        .flat_map(|record| {
-            let v0 = position(record.v0);
-            let hides_b = record.flags.intersects(EdgeFlags::BOUNDARY | EdgeFlags::MARKED)
-                || record.face_b == NONE;
-            let v3 = if hides_b { v0 } else { position(mesh.apex(record.face_b, record)) };
-            [0, 1, 2, 3].map(|corner| EdgeVertex {
-                v0,
-                v1: position(record.v1),
-                v2: position(mesh.apex(record.face_a, record)),
-                v3,
-                n0: normal(record.v0),
-                n1: normal(record.v1),
-                r: edge_random(v0.into(), position(record.v1).into()),
-                corner_and_flags: corner | record.flags.bits() << EdgeVertex::FLAGS_SHIFT,
-            })
-        })
-        .collect()
-}
-
 /// The edge's random scalar r in [0, 1): a hash of its two end positions, the
 /// same whichever end comes first, so it needs no room in the indexed record
 /// and survives any renumbering of the mesh.
@@ -178,42 +223,23 @@ const fn pcg(value: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::build::{BuildOptions, build_edge_mesh};
-    use crate::model::Model;
-    use crate::report::Report;
 
     #[test]
     fn sizes_are_the_papers() {
         assert_eq!(size_of::<EdgeRecord>(), 20);
         assert_eq!(size_of::<EdgeVertex>(), 80);
+        assert_eq!(size_of::<EdgeVertex16>(), 40);
+        assert_eq!(std::mem::offset_of!(EdgeVertex16, flags), 37, "the payload");
     }
 
     #[test]
-    fn four_copies_differ_in_i_and_boundaries_repeat_v0() {
-        let positions = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [1., 1., 1.]];
-        let model = Model::from_polygons(&positions, &[&[0, 1, 2], &[1, 3, 2]]);
-        let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
-        let vertices = replicate(&mesh);
-        assert_eq!(vertices.len(), 4 * mesh.records.len());
-        for (index, vertex) in vertices.iter().enumerate() {
-            assert_eq!(vertex.corner() as usize, index % 4);
-            let is_boundary = vertex.flags().contains(EdgeFlags::BOUNDARY);
-            assert_eq!(vertex.v3 == vertex.v0, is_boundary, "{vertex:?}");
-        }
-        let inner = vertices.iter().find(|v| !v.flags().contains(EdgeFlags::BOUNDARY)).unwrap();
-        assert_eq!((inner.v0, inner.v1), ([1., 0., 0.], [0., 1., 0.]), "as face A runs");
-        assert_eq!((inner.v2, inner.v3), ([0., 0., 0.], [1., 1., 1.]));
-    }
-
-    #[test]
-    fn a_marked_edge_hides_its_second_face() {
-        let positions = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [1., 1., 1.]];
-        let model = Model::from_polygons(&positions, &[&[0, 1, 2], &[1, 3, 2]]);
-        let mut mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
-        for record in &mut mesh.records {
-            record.flags |= EdgeFlags::MARKED;
-        }
-        assert!(replicate(&mesh).iter().all(|vertex| vertex.v3 == vertex.v0));
+    fn every_class_has_its_word() {
+        let words: Vec<&str> = class_names(EdgeFlags::all()).collect();
+        let names = EdgeFlags::all().iter_names();
+        assert!(names.map(|(name, _)| name.to_lowercase()).eq(words), "in order");
+        let some = EdgeFlags::SMOOTHING | EdgeFlags::RIDGE;
+        assert!(class_names(some).eq(["ridge", "smoothing"]));
+        assert_eq!(class_names(EdgeFlags::empty()).count(), 0);
     }
 
     #[test]

@@ -1,10 +1,48 @@
 //! What was repaired, dropped or not understood, as data beside the result.
 //!
-//! Input that can be repaired is neither an error nor a log line: the loader
+//! Input that can be repaired is neither an error nor a log line: the readers
 //! and the builder count it here, with the first place in the file, and the
-//! commands print each kind once.
+//! commands print each kind once. A *warning* is something lost or doubtful; a
+//! *repair* loses nothing and is only counted.
 
 use std::fmt;
+
+/// Where in a file something stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Place {
+    /// A line of text, counted from 1.
+    Line(u32),
+    /// An offset in bytes.
+    Byte(u64),
+    /// A face, counted from 1.
+    Face(u64),
+    /// A vertex, counted from 1.
+    Vertex(u64),
+    /// A part by its path in the file's own structure: `meshes[0].primitives[2]`.
+    Part(String),
+}
+
+impl Place {
+    /// The place as it stands behind a file's name: `model.obj:12`,
+    /// `model.stl: face 7`.
+    #[must_use]
+    pub fn behind(&self, file: &str) -> String {
+        match self {
+            Self::Line(line) => format!("{file}:{line}"),
+            Self::Byte(offset) => format!("{file}: byte {offset}"),
+            Self::Face(face) => format!("{file}: face {face}"),
+            Self::Vertex(vertex) => format!("{file}: vertex {vertex}"),
+            Self::Part(path) => format!("{file}: {path}"),
+        }
+    }
+}
+
+/// Writes `place` behind the name of its file; the name alone where there is
+/// none.
+#[must_use]
+pub fn place_in(file: &str, place: Option<&Place>) -> String {
+    place.map_or_else(|| file.to_owned(), |place| place.behind(file))
+}
 
 /// The kind of a [`Warning`]; its text form is the `code` of `--json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -23,13 +61,42 @@ pub enum WarningCode {
     Orientation,
     /// A material library is missing, unreadable, or outside the folder.
     Material,
-    /// A statement of the file is not read.
+    /// Another file that the model names is missing, unreadable, or outside the
+    /// folder.
+    Uri,
+    /// A statement, node or extension of the file is not read.
     Unsupported,
-    /// Coordinates are so far from the origin that 32 bits lose detail.
-    Precision,
+    /// The file ends too early or goes on too long; what was whole is kept.
+    Truncated,
+    /// The file breaks a rule of its format, harmlessly.
+    Syntax,
+    /// A marked edge is no edge of the mesh.
+    Mark,
 }
 
 impl WarningCode {
+    /// All codes, in order.
+    pub const ALL: [Self; 12] = [
+        Self::NonFinite,
+        Self::Index,
+        Self::Degenerate,
+        Self::Duplicate,
+        Self::NonManifold,
+        Self::Orientation,
+        Self::Material,
+        Self::Uri,
+        Self::Unsupported,
+        Self::Truncated,
+        Self::Syntax,
+        Self::Mark,
+    ];
+
+    /// The code whose [`Self::as_str`] is `word`.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|code| code.as_str() == word)
+    }
+
     /// The word that scripts see.
     #[must_use]
     pub const fn as_str(self) -> &'static str {
@@ -41,8 +108,11 @@ impl WarningCode {
             Self::NonManifold => "nonmanifold",
             Self::Orientation => "orientation",
             Self::Material => "material",
+            Self::Uri => "uri",
             Self::Unsupported => "unsupported",
-            Self::Precision => "precision",
+            Self::Truncated => "truncated",
+            Self::Syntax => "syntax",
+            Self::Mark => "mark",
         }
     }
 }
@@ -60,11 +130,75 @@ pub struct Warning {
     pub code: WarningCode,
     /// How many elements it concerns.
     pub count: usize,
-    /// The line of the first one, counted from 1; `None` where the file as a
-    /// whole is meant.
-    pub line: Option<u32>,
+    /// The first one; `None` where the file as a whole is meant.
+    pub place: Option<Place>,
     /// What was found at the first place, and what was done.
     pub message: String,
+}
+
+/// What the builder mends without loss; its text form is the key of `--json`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum RepairKind {
+    /// Faces turned around so that their component winds one way.
+    FlippedFaces,
+    /// Polygons cut by ear clipping, because a fan would overlap itself.
+    EarClippedPolygons,
+    /// Triangles without area that were kept; they take their facing from the
+    /// face across their longest edge.
+    ZeroAreaTriangles,
+    /// Edges of more than two faces that were split into pairs.
+    SplitEdges,
+    /// Vertices added because fans of faces met in one point only.
+    SplitVertices,
+    /// Vertices moved onto others by a weld with a tolerance.
+    SnappedVertices,
+    /// Models moved and scaled, because 32 bits would lose their detail; at
+    /// most 1.
+    Recentred,
+}
+
+impl RepairKind {
+    /// All kinds, in order.
+    pub const ALL: [Self; 7] = [
+        Self::FlippedFaces,
+        Self::EarClippedPolygons,
+        Self::ZeroAreaTriangles,
+        Self::SplitEdges,
+        Self::SplitVertices,
+        Self::SnappedVertices,
+        Self::Recentred,
+    ];
+
+    /// The kind whose [`Self::as_str`] is `word`.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.as_str() == word)
+    }
+
+    /// The word that scripts see.
+    #[must_use]
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::FlippedFaces => "flipped_faces",
+            Self::EarClippedPolygons => "ear_clipped_polygons",
+            Self::ZeroAreaTriangles => "zero_area_triangles",
+            Self::SplitEdges => "split_edges",
+            Self::SplitVertices => "split_vertices",
+            Self::SnappedVertices => "snapped_vertices",
+            Self::Recentred => "recentred",
+        }
+    }
+}
+
+/// One kind of repair, with how often it was made and where first.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Repair {
+    /// The kind.
+    pub kind: RepairKind,
+    /// How many elements it concerns.
+    pub count: usize,
+    /// The first one; `None` where the file as a whole is meant.
+    pub place: Option<Place>,
 }
 
 /// Everything that was repaired or dropped on the way to an edge mesh.
@@ -72,38 +206,84 @@ pub struct Warning {
 pub struct Report {
     /// One entry a code, ordered by code.
     warnings: Vec<Warning>,
-    /// Faces that were turned around so that their component winds one way.
-    pub flipped_faces: usize,
-    /// Polygons cut by ear clipping, because a fan would overlap itself.
-    pub ear_clipped_polygons: usize,
-    /// Triangles without area that were kept; they take their facing from the
-    /// face across their longest edge.
-    pub zero_area_triangles: usize,
+    /// One entry a kind, ordered by kind.
+    repairs: Vec<Repair>,
 }
 
 impl Report {
-    /// Counts one more `code`; the first call of a code gives line and message.
-    pub fn warn(&mut self, code: WarningCode, line: Option<u32>, message: impl FnOnce() -> String) {
-        self.warn_many(code, 1, line, message);
+    /// The report of warnings and repairs that were stored; those of the same
+    /// code or kind become one.
+    pub(crate) fn from_parts(
+        warnings: impl IntoIterator<Item = Warning>,
+        repairs: impl IntoIterator<Item = Repair>,
+    ) -> Self {
+        let mut report = Self::default();
+        for Warning { code, count, place, message } in warnings {
+            report.warn_many(code, count, place, || message);
+        }
+        for Repair { kind, count, place } in repairs {
+            report.repair(kind, count, place);
+        }
+        report
     }
 
-    /// Counts `count` more of `code`; the first call of a code gives line and
+    /// Counts one more `code`; the first call of a code gives place and message.
+    pub fn warn(
+        &mut self,
+        code: WarningCode,
+        place: Option<Place>,
+        message: impl FnOnce() -> String,
+    ) {
+        self.warn_many(code, 1, place, message);
+    }
+
+    /// Counts `count` more of `code`; the first call of a code gives place and
     /// message.
     pub fn warn_many(
         &mut self,
         code: WarningCode,
         count: usize,
-        line: Option<u32>,
+        place: Option<Place>,
         message: impl FnOnce() -> String,
     ) {
         if count == 0 {
             return;
         }
         match self.warnings.binary_search_by_key(&code, |warning| warning.code) {
-            Ok(found) => self.warnings[found].count += count,
-            Err(place) => {
-                self.warnings.insert(place, Warning { code, count, line, message: message() });
+            Ok(found) => {
+                let sum = &mut self.warnings[found].count;
+                *sum = sum.saturating_add(count);
             }
+            Err(at) => {
+                self.warnings.insert(at, Warning { code, count, place, message: message() });
+            }
+        }
+    }
+
+    /// Counts `count` repairs of `kind`; the first call of a kind gives the
+    /// place.
+    pub fn repair(&mut self, kind: RepairKind, count: usize, place: Option<Place>) {
+        if count == 0 {
+            return;
+        }
+        match self.repairs.binary_search_by_key(&kind, |repair| repair.kind) {
+            Ok(found) => {
+                let sum = &mut self.repairs[found].count;
+                *sum = sum.saturating_add(count);
+            }
+            Err(at) => self.repairs.insert(at, Repair { kind, count, place }),
+        }
+    }
+
+    /// Adds what was found in a later part of the file, whose lines begin
+    /// behind `lines_before`.
+    pub(crate) fn append(&mut self, later: Self, lines_before: u32) {
+        for Warning { code, count, place, message } in later.warnings {
+            let place = place.map(|place| match place {
+                Place::Line(line) => Place::Line(line.saturating_add(lines_before)),
+                other => other,
+            });
+            self.warn_many(code, count, place, || message);
         }
     }
 
@@ -113,10 +293,22 @@ impl Report {
         &self.warnings
     }
 
+    /// The repairs, one a kind, ordered by kind.
+    #[must_use]
+    pub fn repairs(&self) -> &[Repair] {
+        &self.repairs
+    }
+
     /// How many elements `code` concerns.
     #[must_use]
     pub fn count(&self, code: WarningCode) -> usize {
         self.warnings.iter().find(|warning| warning.code == code).map_or(0, |warning| warning.count)
+    }
+
+    /// How many repairs of `kind` were made.
+    #[must_use]
+    pub fn repair_count(&self, kind: RepairKind) -> usize {
+        self.repairs.iter().find(|repair| repair.kind == kind).map_or(0, |repair| repair.count)
     }
 }
 
@@ -127,12 +319,53 @@ mod tests {
     #[test]
     fn first_place_is_kept_and_all_are_counted() {
         let mut report = Report::default();
-        report.warn(WarningCode::Unsupported, Some(9), || "curve".into());
-        report.warn(WarningCode::Degenerate, Some(3), || "first".into());
-        report.warn(WarningCode::Degenerate, Some(5), || "second".into());
+        report.warn(WarningCode::Unsupported, Some(Place::Line(9)), || "curve".into());
+        report.warn(WarningCode::Degenerate, Some(Place::Line(3)), || "first".into());
+        report.warn(WarningCode::Degenerate, Some(Place::Line(5)), || "second".into());
         assert_eq!(report.count(WarningCode::Degenerate), 2);
-        assert_eq!(report.warnings()[0].line, Some(3), "ordered by code, first place kept");
+        assert_eq!(report.warnings()[0].place, Some(Place::Line(3)), "ordered, first place kept");
         assert_eq!(report.warnings()[0].message, "first");
         assert_eq!(report.count(WarningCode::Material), 0);
+    }
+
+    #[test]
+    fn repairs_are_no_warnings() {
+        let mut report = Report::default();
+        report.repair(RepairKind::SplitVertices, 0, None);
+        report.repair(RepairKind::FlippedFaces, 2, Some(Place::Face(4)));
+        report.repair(RepairKind::FlippedFaces, 1, Some(Place::Face(1)));
+        assert!(report.warnings().is_empty());
+        let [only] = report.repairs() else { panic!("{report:?}") };
+        assert_eq!((only.count, only.place.clone()), (3, Some(Place::Face(4))));
+        assert_eq!(report.repair_count(RepairKind::SplitVertices), 0);
+    }
+
+    #[test]
+    fn codes_and_kinds_are_known_by_their_words() {
+        for code in WarningCode::ALL {
+            assert_eq!(WarningCode::from_word(code.as_str()), Some(code));
+        }
+        for kind in RepairKind::ALL {
+            assert_eq!(RepairKind::from_word(kind.as_str()), Some(kind));
+        }
+        assert!(WarningCode::ALL.is_sorted() && RepairKind::ALL.is_sorted());
+        assert_eq!(WarningCode::from_word("Index"), None);
+    }
+
+    #[test]
+    fn stored_parts_become_the_report_that_they_were() {
+        let mut report = Report::default();
+        report.warn_many(WarningCode::Index, 3, Some(Place::Line(2)), || "one".into());
+        report.warn(WarningCode::NonFinite, None, || "two".into());
+        report.repair(RepairKind::SplitEdges, 4, None);
+        let warnings = report.warnings().iter().rev().cloned();
+        assert_eq!(Report::from_parts(warnings, report.repairs().to_vec()), report);
+    }
+
+    #[test]
+    fn places_stand_behind_the_file() {
+        assert_eq!(place_in("a.obj", Some(&Place::Line(3))), "a.obj:3");
+        assert_eq!(place_in("a.stl", Some(&Place::Byte(84))), "a.stl: byte 84");
+        assert_eq!(place_in("a.glb", None), "a.glb");
     }
 }

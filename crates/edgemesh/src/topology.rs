@@ -1,29 +1,60 @@
-//! Undirected edges and who uses them, in linear time.
+//! Undirected edges and who uses them, in linear time and in parallel.
 //!
-//! Idea: each face side is a directed pair of vertices. Two stable counting
-//! sorts, by the larger vertex and then by the smaller, bring the sides of one
-//! undirected edge together, in the order of their faces. No hash map, so the
-//! edges come out sorted by (min, max) whatever the machine.
+//! Idea: each face side is a directed pair of vertices. A counting sort brings
+//! the sides of one smaller vertex together; these few are sorted by their
+//! larger vertex and by side. Each thread does so for a range of smaller
+//! vertices of its own, so that nothing is shared, and the ranges follow each
+//! other. The edges come out sorted by (min, max), the sides of an edge in the
+//! order of their faces, whatever the number of threads.
 //!
 //! Rejected: a hash map of pairs, whose order must be mended afterwards; a
-//! half-edge structure, which refuses edges of three faces.
+//! half-edge structure, which refuses edges of three faces; two counting sorts
+//! over all sides, which touch memory twice as often.
 //!
 //! ```text
 //!   sides   (2,0) (0,1) (1,2) (1,0) ...
+//!   by min  0: (0,1)1 (1,0)3 (2,0)0      1: (1,2)2 ...
 //!   edges   {0,1}: sides 1, 3    {0,2}: side 0    {1,2}: side 2
 //! ```
+
+use std::ops::Range;
+
+use rayon::prelude::*;
 
 use crate::index::to_u32;
 
 /// All undirected edges of some faces, with the sides that use each.
 #[derive(Debug, Clone)]
 pub struct EdgeTable {
+    /// Parts by ascending smaller vertex.
+    parts: Vec<EdgePart>,
+    /// The number of the first edge of each part, and of all edges at the end.
+    first_edges: Vec<usize>,
+}
+
+/// The edges of a range of smaller vertices.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct EdgePart {
     /// The vertices of each edge, smaller first; sorted.
     edges: Vec<[u32; 2]>,
     /// Where each edge's sides begin in `sides`; one entry more than edges.
     first_side: Vec<u32>,
     /// Side indices, edge by edge, ascending within an edge.
     sides: Vec<u32>,
+}
+
+impl EdgePart {
+    /// Each edge's vertices, smaller first, with its sides, ascending.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = ([u32; 2], &[u32])> {
+        self.edges
+            .iter()
+            .zip(self.first_side.windows(2))
+            .map(|(&ends, range)| (ends, &self.sides[range[0] as usize..range[1] as usize]))
+    }
+
+    pub(crate) const fn edge_count(&self) -> usize {
+        self.edges.len()
+    }
 }
 
 impl EdgeTable {
@@ -33,67 +64,164 @@ impl EdgeTable {
     /// All vertices must be below `vertex_count`.
     #[must_use]
     pub fn from_sides(vertex_count: usize, sides: &[[u32; 2]]) -> Self {
-        let proper: Vec<u32> = (0..to_u32(sides.len()))
-            .filter(|&side| sides[side as usize][0] != sides[side as usize][1])
-            .collect();
-        let larger = |side: u32| sides[side as usize][0].max(sides[side as usize][1]);
-        let smaller = |side: u32| sides[side as usize][0].min(sides[side as usize][1]);
-        let by_larger = counting_sort(vertex_count, &proper, larger);
-        let sorted = counting_sort(vertex_count, &by_larger, smaller);
-
-        let mut edges: Vec<[u32; 2]> = Vec::with_capacity(sorted.len() / 2);
-        let mut first_side = Vec::with_capacity(sorted.len() / 2 + 1);
-        for (place, &side) in sorted.iter().enumerate() {
-            let ends = [smaller(side), larger(side)];
-            if edges.last() != Some(&ends) {
-                edges.push(ends);
-                first_side.push(to_u32(place));
-            }
-        }
-        first_side.push(to_u32(sorted.len()));
-        Self { edges, first_side, sides: sorted }
+        Self::build(vertex_count, sides.len(), |side| sides[side])
     }
 
     /// Builds the table of a triangle mesh: side `3 f + k` of the table runs
     /// from corner k to corner k+1 of triangle f.
     #[must_use]
     pub fn from_triangles(vertex_count: usize, triangles: &[[u32; 3]]) -> Self {
-        let sides: Vec<[u32; 2]> =
-            triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
-        Self::from_sides(vertex_count, &sides)
+        let corners = triangles.as_flattened();
+        Self::build(vertex_count, corners.len(), |side| {
+            let next = if side % 3 == 2 { side - 2 } else { side + 1 };
+            [corners[side], corners[next]]
+        })
+    }
+
+    fn build(
+        vertex_count: usize,
+        side_count: usize,
+        side: impl Fn(usize) -> [u32; 2] + Sync,
+    ) -> Self {
+        let ranges = even_ranges(vertex_count, side_count, &side);
+        let parts: Vec<EdgePart> =
+            ranges.into_par_iter().map(|range| edges_of(range, side_count, &side)).collect();
+        let mut first_edges = vec![0];
+        for part in &parts {
+            first_edges.push(first_edges[first_edges.len() - 1] + part.edge_count());
+        }
+        Self { parts, first_edges }
     }
 
     /// How many undirected edges there are.
     #[must_use]
-    pub const fn edge_count(&self) -> usize {
-        self.edges.len()
+    pub fn edge_count(&self) -> usize {
+        self.first_edges.last().copied().unwrap_or_default()
     }
 
     /// Each edge's vertices, smaller first, with its sides, ascending.
     pub fn iter(&self) -> impl Iterator<Item = ([u32; 2], &[u32])> {
-        self.edges
-            .iter()
-            .zip(self.first_side.windows(2))
-            .map(|(&ends, range)| (ends, &self.sides[range[0] as usize..range[1] as usize]))
+        self.parts.iter().flat_map(EdgePart::iter)
+    }
+
+    /// The parts, each with the number of its first edge.
+    pub(crate) fn parts(&self) -> impl IndexedParallelIterator<Item = (usize, &EdgePart)> {
+        self.parts.par_iter().enumerate().map(|(part, edges)| (self.first_edges[part], edges))
+    }
+
+    /// The sides of edge number `edge`.
+    pub(crate) fn sides(&self, edge: usize) -> &[u32] {
+        let part = self.first_edges.partition_point(|&first| first <= edge) - 1;
+        let at = edge - self.first_edges[part];
+        let EdgePart { first_side, sides, .. } = &self.parts[part];
+        &sides[first_side[at] as usize..first_side[at + 1] as usize]
+    }
+
+    /// The number of the edge between two vertices.
+    pub(crate) fn find(&self, a: u32, b: u32) -> Option<usize> {
+        let ends = [a.min(b), a.max(b)];
+        let behind = |part: &EdgePart| part.edges.last().is_none_or(|last| *last < ends);
+        let part = self.parts.partition_point(behind);
+        let at = self.parts.get(part)?.edges.binary_search(&ends).ok()?;
+        Some(self.first_edges[part] + at)
     }
 }
 
-/// Sorts `items` stably by a key below `key_count`.
-fn counting_sort(key_count: usize, items: &[u32], key: impl Fn(u32) -> u32) -> Vec<u32> {
-    let mut next = vec![0_u32; key_count + 1];
-    for &item in items {
-        next[key(item) as usize + 1] += 1;
+/// Cuts the vertices into as many ranges as there are threads, with about as
+/// many sides each; a sample of the sides tells.
+fn even_ranges(
+    vertex_count: usize,
+    side_count: usize,
+    side: impl Fn(usize) -> [u32; 2],
+) -> Vec<Range<u32>> {
+    const CELLS: usize = 1024;
+    const SAMPLES: usize = 1 << 16;
+    let threads = rayon::current_num_threads();
+    if threads == 1 || side_count < SAMPLES {
+        return std::iter::once(0..to_u32(vertex_count)).collect();
+    }
+    let cell = vertex_count.div_ceil(CELLS).max(1);
+    let mut counts = [0_usize; CELLS];
+    let mut samples = 0;
+    for at in (0..side_count).step_by(side_count / SAMPLES) {
+        let [a, b] = side(at);
+        counts[a.min(b) as usize / cell] += 1;
+        samples += 1;
+    }
+    let mut ends = Vec::with_capacity(threads);
+    let mut sum = 0;
+    for (index, count) in counts.iter().enumerate() {
+        sum += count;
+        if sum * threads >= (ends.len() + 1) * samples {
+            ends.push(vertex_count.min((index + 1) * cell));
+        }
+    }
+    let mut start = 0;
+    let mut ranges = Vec::with_capacity(threads);
+    for end in ends.into_iter().chain([vertex_count]) {
+        if end > start {
+            ranges.push(to_u32(start)..to_u32(end));
+            start = end;
+        }
+    }
+    ranges
+}
+
+/// The edges whose smaller vertex is within `range`.
+fn edges_of(range: Range<u32>, side_count: usize, side: impl Fn(usize) -> [u32; 2]) -> EdgePart {
+    let own = |at: usize| {
+        let [a, b] = side(at);
+        let smaller = a.min(b);
+        (a != b && range.contains(&smaller)).then(|| ((smaller - range.start) as usize, a.max(b)))
+    };
+    let mut next = vec![0_u32; range.len() + 1];
+    for (vertex, _) in (0..side_count).filter_map(own) {
+        next[vertex + 1] += 1;
     }
     for slot in 1..next.len() {
         next[slot] += next[slot - 1];
     }
-    let mut sorted = vec![0; items.len()];
-    for &item in items {
-        let place = &mut next[key(item) as usize];
-        sorted[*place as usize] = item;
-        *place += 1;
+    // The larger vertex above the side: sorts by both at once.
+    let mut keys = vec![0_u64; next[range.len()] as usize];
+    for at in 0..side_count {
+        if let Some((vertex, larger)) = own(at) {
+            let place = &mut next[vertex];
+            keys[*place as usize] = u64::from(larger) << 32 | at as u64;
+            *place += 1;
+        }
     }
-    sorted
+    // `next` now has each vertex's end, which is the start of the one behind.
+    let mut part = EdgePart {
+        edges: Vec::with_capacity(keys.len() / 2 + 1),
+        first_side: Vec::with_capacity(keys.len() / 2 + 2),
+        sides: Vec::with_capacity(keys.len()),
+    };
+    let mut start = 0;
+    for (smaller, &end) in range.zip(&next) {
+        let bucket = &mut keys[start..end as usize];
+        bucket.sort_unstable();
+        part.push_bucket(smaller, bucket);
+        start = end as usize;
+    }
+    part.first_side.push(to_u32(part.sides.len()));
+    part
+}
+
+impl EdgePart {
+    /// Adds the edges of one smaller vertex, given its sorted keys.
+    fn push_bucket(&mut self, smaller: u32, keys: &[u64]) {
+        let mut last = None;
+        for &key in keys {
+            let larger = (key >> 32) as u32;
+            if last != Some(larger) {
+                last = Some(larger);
+                self.edges.push([smaller, larger]);
+                self.first_side.push(to_u32(self.sides.len()));
+            }
+            #[expect(clippy::cast_possible_truncation, reason = "the lower half is the side")]
+            self.sides.push(key as u32);
+        }
+    }
 }
 
 /// Counts of a face set's edges, before anything is repaired.
@@ -112,16 +240,32 @@ pub struct EdgeCounts {
 impl EdgeCounts {
     /// Counts the edges of `table`, whose sides are `sides`.
     #[must_use]
-    pub fn of(table: &EdgeTable, sides: impl Fn(u32) -> [u32; 2]) -> Self {
-        let mut counts = Self { edges: table.edge_count(), ..Self::default() };
-        for (_, users) in table.iter() {
-            match *users {
-                [_] => counts.boundary += 1,
-                [a, b] => counts.inconsistent += usize::from(sides(a)[0] == sides(b)[0]),
-                _ => counts.non_manifold += 1,
+    pub fn of(table: &EdgeTable, sides: impl Fn(u32) -> [u32; 2] + Sync) -> Self {
+        let of_part = |(_, part): (usize, &EdgePart)| {
+            let mut counts = Self { edges: part.edge_count(), ..Self::default() };
+            for (_, users) in part.iter() {
+                match *users {
+                    [_] => counts.boundary += 1,
+                    [a, b] => counts.inconsistent += usize::from(sides(a)[0] == sides(b)[0]),
+                    _ => counts.non_manifold += 1,
+                }
             }
+            counts
+        };
+        table.parts().map(of_part).reduce(Self::default, |a, b| a + b)
+    }
+}
+
+impl std::ops::Add for EdgeCounts {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            edges: self.edges + other.edges,
+            boundary: self.boundary + other.boundary,
+            non_manifold: self.non_manifold + other.non_manifold,
+            inconsistent: self.inconsistent + other.inconsistent,
         }
-        counts
     }
 }
 
@@ -174,5 +318,39 @@ mod tests {
     #[test]
     fn a_side_of_one_vertex_is_no_edge() {
         assert_eq!(EdgeTable::from_sides(2, &[[1, 1], [0, 1]]).edge_count(), 1);
+    }
+
+    #[test]
+    fn edges_are_found_by_their_ends() {
+        let table = EdgeTable::from_triangles(4, &[[0, 1, 2], [1, 3, 2]]);
+        assert_eq!(
+            (table.find(2, 1), table.find(3, 2), table.find(0, 3)),
+            (Some(2), Some(4), None)
+        );
+        assert_eq!(table.sides(2), [1, 5]);
+        assert_eq!(table.find(7, 9), None);
+    }
+
+    #[test]
+    fn the_number_of_threads_makes_no_difference() {
+        // A sheet, large enough to be cut, with its vertices shuffled.
+        let at = |x: u32, y: u32| (x + 200 * y) * 7919 % 40_000;
+        let triangles: Vec<[u32; 3]> = (0..199 * 199)
+            .flat_map(|k| {
+                let (x, y) = (k % 199, k / 199);
+                let [a, b, c, d] = [at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)];
+                [[a, b, c], [b, d, c]]
+            })
+            .collect();
+        let with_threads = |count| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap();
+            let table = pool.install(|| EdgeTable::from_triangles(40_000, &triangles));
+            table.iter().map(|(ends, sides)| (ends, sides.to_vec())).collect::<Vec<_>>()
+        };
+        let one = with_threads(1);
+        assert_eq!(one.len(), 199 * 200 * 2 + 199 * 199);
+        for count in [2, 3, 8] {
+            assert_eq!(with_threads(count), one, "{count} threads");
+        }
     }
 }

@@ -10,7 +10,7 @@
 //! | edge records | 20 an edge | detection, strokes |
 //! | live edges | 4 an edge | strokes |
 //! | runs | 4 for 64 edges | detection |
-//! | tally | 40 | the indirect draw, the counts |
+//! | tally | 44 | the indirect draw, the counts |
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh::edge_mesh::EdgeMesh;
@@ -69,6 +69,8 @@ pub struct Tally {
     pub marked: u32,
     /// Edges between two materials.
     pub material: u32,
+    /// Edges between two smoothing groups.
+    pub smoothing: u32,
 }
 
 impl Tally {
@@ -82,6 +84,7 @@ impl Tally {
             boundary: self.boundary,
             marked: self.marked,
             material: self.material,
+            smoothing: self.smoothing,
         }
     }
 }

@@ -3,12 +3,11 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use edgemesh::build::{BuildOptions, build_edge_mesh};
+use edgemesh::build::Frame;
 use edgemesh::camera::Camera;
+use edgemesh::command::input::{InputOptions, Loaded};
 use edgemesh::command::{ExitStatus, Failure};
-use edgemesh::edge_mesh::{Bounds, EdgeMesh};
-use edgemesh::read::read_model;
-use edgemesh::report::Report;
+use edgemesh::edge_mesh::Bounds;
 use glam::Vec2;
 use image::RgbaImage;
 use strokes::frame::FrameUniform;
@@ -23,9 +22,11 @@ use strokes::targets::Targets;
 #[derive(Debug)]
 pub struct Scene {
     /// Each model with its name and what was repaired in it.
-    pub models: Vec<(String, EdgeMesh, Report)>,
+    pub models: Vec<Loaded>,
     /// The box around all of them.
     pub bounds: Bounds,
+    /// Where the scene lies in the files, the same for all models.
+    pub frame: Frame,
 }
 
 impl Scene {
@@ -33,22 +34,19 @@ impl Scene {
     ///
     /// # Errors
     /// The first model that cannot be read.
-    pub fn load(paths: &[PathBuf], options: &BuildOptions) -> Result<Self, Failure> {
-        let models = paths
-            .iter()
-            .map(|path| {
-                let (model, mut report) = read_model(path)?;
-                let mesh = build_edge_mesh(&model, options, &mut report);
-                Ok((model.name, mesh, report))
-            })
-            .collect::<Result<Vec<_>, Failure>>()?;
-        let mut boxes = models
-            .iter()
-            .filter(|(_, mesh, _)| !mesh.positions.is_empty())
-            .map(|(_, mesh, _)| mesh.bounds);
+    pub fn load(paths: &[PathBuf], input: &InputOptions, is_quiet: bool) -> Result<Self, Failure> {
+        Ok(Self::of(input.load_scene(paths, is_quiet)?))
+    }
+
+    /// A scene of models that are in one frame.
+    #[must_use]
+    pub fn of(models: Vec<Loaded>) -> Self {
+        let meshes = || models.iter().map(|model| &model.mesh);
+        let mut boxes = meshes().filter(|mesh| !mesh.positions.is_empty()).map(|mesh| mesh.bounds);
         let first = boxes.next().unwrap_or_default();
         let bounds = boxes.fold(first, |bounds, other| bounds.union(&other));
-        Ok(Self { models, bounds })
+        let frame = meshes().next().map(|mesh| mesh.frame).unwrap_or_default();
+        Self { models, bounds, frame }
     }
 }
 
@@ -105,9 +103,9 @@ impl<'a> PictureRenderer<'a> {
         let meshes = scene
             .models
             .iter()
-            .map(|(name, mesh, _)| {
-                let buffers = MeshBuffers::new(&gpu.device, mesh)
-                    .map_err(|error| Failure::fault(format!("{name}: {error}")))?;
+            .map(|model| {
+                let buffers = MeshBuffers::new(&gpu.device, &model.mesh)
+                    .map_err(|error| Failure::fault(format!("{}: {error}", model.name)))?;
                 Ok(renderer.mesh_draw(&gpu.device, buffers))
             })
             .collect::<Result<Vec<_>, Failure>>()?;
@@ -161,6 +159,7 @@ impl<'a> PictureRenderer<'a> {
             sum.boundary += tally.boundary;
             sum.marked += tally.marked;
             sum.material += tally.material;
+            sum.smoothing += tally.smoothing;
         }
         Ok(sum)
     }

@@ -49,7 +49,7 @@ fn assert_refused(path: &Path, part: &str) {
 #[test]
 fn wrong_command_lines_end_with_2_and_say_why() {
     let (_folder, cube) = file("cube.obj", CUBE.as_bytes());
-    let cases: [(&[&str], &str); 10] = [
+    let cases: [(&[&str], &str); 12] = [
         (&["--eye", "1,2"], "--eye"),
         (&["--eye", "1,2,x"], "--eye"),
         (&["--eye", "1,nan,0"], "--eye"),
@@ -59,7 +59,9 @@ fn wrong_command_lines_end_with_2_and_say_why() {
         (&["--crease", "-1"], "-1"),
         (&["--crease", "20", "--ridge", "20"], "--ridge"),
         (&["--frobnicate"], "--frobnicate"),
-        (&["another.obj"], "another.obj"),
+        (&["--weld=-1"], "--weld"),
+        (&["--weld", "1", "--no-weld"], "--no-weld"),
+        (&["--format", "dxf"], "--format"),
     ];
     for (arguments, part) in cases {
         let output = info_with(&cube, arguments);
@@ -84,9 +86,12 @@ fn a_command_line_without_a_command_is_wrong() {
 
 #[test]
 fn help_and_version_go_to_standard_output() {
-    let cases: [(&[&str], &str); 5] = [
-        (&["--help"], "info"),
-        (&["-h"], "info"),
+    let cases: [(&[&str], &str); 8] = [
+        (&["--help"], "validate"),
+        (&["build", "--help"], "--layout"),
+        (&["export", "--help"], "--to"),
+        (&["validate", "--help"], "--strict"),
+        (&["-h"], "export"),
         (&["info", "--help"], "--crease"),
         (&["help", "info"], "--crease"),
         (&["--version"], "edgemesh "),
@@ -110,11 +115,10 @@ fn what_is_no_model_is_named() {
 
 #[test]
 fn other_formats_under_obj_are_named() {
-    let cases: [(&[u8], &str); 6] = [
+    let cases: [(&[u8], &str); 5] = [
         (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "a PNG picture"),
         (b"<!DOCTYPE html>\n<html><body>404</body></html>\n", "HTML"),
         (b"\x1f\x8b\x08\0\0\0\0\0", "gzip"),
-        (b"glTF\x02\0\0\0", "glTF"),
         (b"version https://git-lfs.github.com/spec/v1\noid sha256:00\n", "Git LFS"),
         (b"v 0 0 0\nv 1 0 0\0\n", "binary data"),
     ];
@@ -175,12 +179,16 @@ fn a_byte_order_mark_is_no_part_of_the_first_line() {
 }
 
 #[test]
-fn only_models_far_from_the_origin_lose_precision() {
-    for (offset, codes) in [(0, ""), (1000, ""), (1_000_000, "precision")] {
-        let text = format!("v {offset} 0 0\nv {} 0 0\nv {offset} 1 0\nf 1 2 3\n", offset + 1);
+fn models_far_from_the_origin_are_recentred_and_keep_their_place() {
+    for (offset, is_recentred) in [(0, 0), (1000, 0), (4_000_000_000_u32, 1)] {
+        let text = format!("v {offset}.5 0 0\nv {} 0 0\nv {offset}.5 1 0\nf 1 2 3\n", offset + 1);
         let (_folder, path) = file("far.obj", text.as_bytes());
-        let warnings = json(&info_with(&path, &["--json"]))["warnings"].clone();
-        assert_eq!(warnings[0]["code"].as_str().unwrap_or(""), codes, "{offset}: {warnings}");
+        let info = json(&info_with(&path, &["--json"]));
+        assert_eq!(info["warnings"].as_array().unwrap().len(), 0, "{info}");
+        assert_eq!(info["repairs"]["recentred"].as_u64(), Some(is_recentred), "{info}");
+        let bounds = &info["bounds"];
+        assert_eq!(bounds["min"][0].as_f64(), Some(f64::from(offset) + 0.5), "{bounds}");
+        assert_eq!(bounds["max"][0].as_f64(), Some(f64::from(offset) + 1.0), "{bounds}");
     }
 }
 
@@ -203,7 +211,8 @@ fn json_has_the_keys_that_scripts_rely_on() {
         "records",
     ];
     assert_counts(&info, &counts);
-    assert_counts(&info["bytes"], &["indexed", "replicated_f32", "replicated_i16"]);
+    assert_counts(&info["bytes"], &["input", "indexed", "replicated_f32", "replicated_i16"]);
+    assert_counts(&info["chains"], &["count", "loops", "edges", "longest"]);
     let source = [
         "vertices",
         "polygons",
@@ -214,7 +223,7 @@ fn json_has_the_keys_that_scripts_rely_on() {
         "inconsistent_edges",
     ];
     assert_counts(&info["source"], &source);
-    let features = ["contour", "ridge", "valley", "boundary", "marked", "material"];
+    let features = ["contour", "ridge", "valley", "boundary", "marked", "material", "smoothing"];
     assert_counts(&info["features"], &features);
     assert_eq!(info["file"].as_str(), broken.to_str());
     for corner in ["min", "max"] {

@@ -1,5 +1,4 @@
-//! What broken and odd OBJ files must give: `malformed/gen/EXPECT.tsv` row by
-//! row, and the rest of the corpus without a crash.
+//! What broken and odd files must give: `malformed/gen/EXPECT.tsv` row by row.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -10,29 +9,13 @@ use std::process::Output;
 use serde_json::Value;
 use testkit::locate::{left_out, shared};
 
-use crate::child::{info, json, one_error, stderr};
+use crate::child::{edgemesh, info, json, one_error, stderr};
 
-/// How many rows of the table are about stored OBJ files.
-const STORED_ROWS: usize = 42;
+/// How many rows of the table are about stored files.
+const STORED_ROWS: usize = 69;
 
-/// How many rows are about large OBJ files, which are made here.
+/// How many rows are about large files, which are made here.
 const BIG_ROWS: usize = 4;
-
-/// Files of the corpus that are called sound and do not load, and why.
-const REFUSED: [(&str, &str); 6] = [
-    ("assimp/box_UTF16BE.obj", "UTF-16 is named, not read"),
-    ("assimp/number_formats.obj", "3.1+e2 is no number"),
-    ("assimp/point_cloud.obj", "points without faces"),
-    ("assimp/testpoints.obj", "points without faces"),
-    ("tinyobjloader/issue-356-leading-spaces-newmtl.obj", "no geometry at all"),
-    ("tinyobjloader/points-prim.obj", "points without faces"),
-];
-
-/// At least this many files of the corpus are called sound.
-const SOUND_FILES: usize = 50;
-
-/// At least this many files broke other parsers.
-const BROKEN_FILES: usize = 50;
 
 /// A row of the table.
 struct Row {
@@ -46,6 +29,8 @@ struct Row {
     counts: BTreeMap<char, u64>,
     /// Counts after welding equal positions.
     welded: BTreeMap<char, u64>,
+    /// The same with a tolerance of 1e-6.
+    welded_within: BTreeMap<char, u64>,
     why: String,
 }
 
@@ -55,7 +40,9 @@ impl Row {
         let [file, stored, expect, why] = columns[..] else { panic!("four columns in {text:?}") };
         let (verdict, rest) = expect.split_once(' ').unwrap_or((expect, ""));
         // What a tolerance would weld is not for exact welding to say.
-        let exact = rest.split("welding with a tolerance:").next().unwrap_or(rest);
+        let mut parts = rest.splitn(2, "welding with a tolerance:");
+        let exact = parts.next().unwrap_or(rest);
+        let tolerant = parts.next().unwrap_or_default();
         let (own, welded) = exact.split_once("welded:").unwrap_or((exact, ""));
         let line = own.strip_prefix("line ").and_then(|rest| rest.split(' ').next()?.parse().ok());
         Self {
@@ -65,6 +52,7 @@ impl Row {
             line,
             counts: counts_in(own),
             welded: counts_in(welded),
+            welded_within: counts_in(tolerant),
             why: why.into(),
         }
     }
@@ -78,11 +66,6 @@ impl Row {
     fn allowed_warning(&self) -> Option<&str> {
         let (_, rest) = self.why.split_once("or warn(")?;
         rest.split(')').next()
-    }
-
-    /// Whether the row may be an error that says what is not read.
-    fn may_be_refused_as_lines(&self) -> bool {
-        self.why.contains("or a clear word that l is not read")
     }
 }
 
@@ -107,19 +90,20 @@ fn rows_are_understood() {
     assert_eq!((row.code("error"), row.code("warn"), row.line), (Some("index"), None, Some(4)));
     let row = Row::parse("obj/a.obj\tstored\tok; welding with a tolerance: V=8 E=12 B=0\twhy");
     assert_eq!((row.verdict.as_str(), row.counts.len()), ("ok", 0));
+    assert_eq!(row.welded_within, BTreeMap::from([('V', 8), ('E', 12), ('B', 0)]));
 }
 
-/// The folder of the table and its rows about OBJ.
+/// The folder of the table and its rows about files.
 fn rows(shared: &Path) -> (PathBuf, Vec<Row>) {
     let folder = shared.join("corpus/malformed/gen");
     let table = fs::read_to_string(folder.join("EXPECT.tsv")).unwrap();
     let rows = table.lines().skip(1).map(Row::parse);
-    (folder, rows.filter(|row| row.file.starts_with("obj/")).collect())
+    (folder, rows.filter(|row| row.stored != "special").collect())
 }
 
 #[test]
 fn stored_rows_give_what_the_table_says() {
-    let Some(shared) = shared() else { return left_out("broken OBJ files", STORED_ROWS) };
+    let Some(shared) = shared() else { return left_out("broken files", STORED_ROWS) };
     let (folder, rows) = rows(&shared);
     let stored: Vec<&Row> = rows.iter().filter(|row| row.stored == "stored").collect();
     assert!(stored.len() >= STORED_ROWS, "{} rows in the table", stored.len());
@@ -145,12 +129,10 @@ fn check_row(row: &Row, path: &Path) -> Result<(), String> {
     }
     match (row.verdict.as_str(), status) {
         ("either", _) => check_any(&output),
-        ("ok", Some(1)) if row.may_be_refused_as_lines() => {
-            one_error(&output, &["'l'", "not read"])
-        }
         (_, Some(0)) => {
             let info = json(&output);
             check_counts(row, &info)?;
+            check_welded_within(row, path)?;
             check_warnings(row, &info, &stderr(&output))
         }
         _ => Err(format!("{:?}: {}", output.status, stderr(&output))),
@@ -168,8 +150,10 @@ fn check_error(row: &Row, path: &Path, output: &Output, code: &str) -> Result<()
     one_error(output, &[&place])?;
     // The message does not print its code; the library has it.
     match edgemesh::read::read_model(path) {
-        Err(error) if error.code() == code => Ok(()),
-        Err(error) => Err(format!("error({}) instead of error({code}): {error}", error.code())),
+        Err(error) if error.kind.as_str() == code => Ok(()),
+        Err(error) => {
+            Err(format!("error({}) instead of error({code}): {error}", error.kind.as_str()))
+        }
         Ok(_) => Err("the library reads it".into()),
     }
 }
@@ -191,7 +175,21 @@ fn check_counts(row: &Row, info: &Value) -> Result<(), String> {
             return Err(format!("{letter}={count} is {} in {source}", own(letter)));
         }
     }
-    for (&letter, &count) in &row.welded {
+    check_welded(&row.welded, info)
+}
+
+/// What a weld with a tolerance makes of the file, where the row says so.
+fn check_welded_within(row: &Row, path: &Path) -> Result<(), String> {
+    if row.welded_within.is_empty() {
+        return Ok(());
+    }
+    let path = path.to_str().ok_or("no UTF-8")?;
+    let output = edgemesh(&["info", "--json", "--weld", "1e-6", path]);
+    check_welded(&row.welded_within, &json(&output))
+}
+
+fn check_welded(welded: &BTreeMap<char, u64>, info: &Value) -> Result<(), String> {
+    for (&letter, &count) in welded {
         let number = |key: &str| info[key].as_u64();
         let found = match letter {
             'V' => number("welded_vertices"),
@@ -220,59 +218,11 @@ fn check_warnings(row: &Row, info: &Value, stderr: &str) -> Result<(), String> {
 }
 
 /// Loads, or is refused with one message; nothing else.
-fn check_any(output: &Output) -> Result<(), String> {
+pub(crate) fn check_any(output: &Output) -> Result<(), String> {
     match output.status.code() {
         Some(0) => Ok(()),
         Some(1) => one_error(output, &[]),
         _ => Err(format!("{:?}: {}", output.status, stderr(output))),
-    }
-}
-
-/// All OBJ files under `folder`, sorted.
-fn obj_files(folder: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            files.extend(obj_files(&path));
-        } else if path.extension().is_some_and(|extension| extension == "obj") {
-            files.push(path);
-        }
-    }
-    files.sort();
-    files
-}
-
-#[test]
-fn sound_files_load() {
-    let Some(shared) = shared() else { return left_out("sound OBJ files", SOUND_FILES) };
-    let folder = shared.join("corpus/obj");
-    let files = obj_files(&folder);
-    assert!(files.len() >= SOUND_FILES, "only {} files in {}", files.len(), folder.display());
-    let mut refused = Vec::new();
-    for file in &files {
-        let output = info(file);
-        assert_eq!(check_any(&output), Ok(()), "{}", file.display());
-        if output.status.code() != Some(0) {
-            let name = file.strip_prefix(&folder).unwrap().to_str().unwrap().to_owned();
-            eprintln!("not read: {name}: {}", stderr(&output).trim_end());
-            refused.push(name);
-        }
-    }
-    eprintln!("{} of {} sound files load", files.len() - refused.len(), files.len());
-    let expected: Vec<&str> = REFUSED.iter().map(|(name, _)| *name).collect();
-    assert_eq!(refused, expected, "these files do not load; the list has the known ones");
-}
-
-#[test]
-fn broken_files_of_others_end_in_order() {
-    let Some(shared) = shared() else {
-        return left_out("other parsers' broken OBJ files", BROKEN_FILES);
-    };
-    let files = obj_files(&shared.join("corpus/malformed/obj"));
-    assert!(files.len() >= BROKEN_FILES, "only {} files", files.len());
-    for file in &files {
-        assert_eq!(check_any(&info(file)), Ok(()), "{}", file.display());
     }
 }
 
@@ -318,10 +268,10 @@ pub(crate) fn write_cone(out: &mut impl Write, count: u32) {
 
 #[test]
 fn big_rows_give_what_the_table_says() {
-    let Some(shared) = shared() else { return left_out("large OBJ files", BIG_ROWS) };
+    let Some(shared) = shared() else { return left_out("large files", BIG_ROWS) };
     let (_, rows) = rows(&shared);
     let big: Vec<&Row> = rows.iter().filter(|row| row.stored == "big").collect();
-    assert_eq!(big.len(), BIG_ROWS, "large OBJ files of the table");
+    assert_eq!(big.len(), BIG_ROWS, "large files of the table");
     let folder = tempfile::tempdir().unwrap();
     for row in big {
         let path = folder.path().join("big.obj");

@@ -2,6 +2,7 @@
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::camera::Camera;
+use edgemesh::command::input::Loaded;
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::model::Model;
 use edgemesh::report::Report;
@@ -29,10 +30,8 @@ pub(crate) fn picture(
     size_px: u32,
     samples: u32,
 ) -> RgbaImage {
-    let scene = Scene {
-        models: vec![("test".into(), mesh.clone(), Report::default())],
-        bounds: mesh.bounds,
-    };
+    let (name, report) = ("test".into(), Report::default());
+    let scene = Scene::of(vec![Loaded { name, mesh: mesh.clone(), report }]);
     let size = [size_px, size_px];
     let renderer = PictureRenderer::new(gpu(), &scene, &technique.look(), size, samples).unwrap();
     renderer.render(camera).unwrap().0

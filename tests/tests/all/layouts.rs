@@ -47,7 +47,8 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
             valley,
             boundary,
             marked,
-            material
+            material,
+            smoothing
         }),
         layout!(FillUniform { color }),
         layout!(StrokeUniform { color, width_px, brush_aspect, padding }),

@@ -4,6 +4,7 @@
 
 mod child;
 mod commands;
+mod corpus;
 mod dependencies;
 mod expectations;
 #[cfg(feature = "gpu")]
@@ -18,5 +19,6 @@ mod hostile;
 mod layouts;
 mod models;
 mod noop;
+mod preprocess_commands;
 mod render_command;
 mod shaders;

@@ -118,6 +118,7 @@ impl Plain {
         for (face, &[a, b, c]) in mesh.triangles.iter().enumerate() {
             let [p, q, r] = [a, b, c].map(|v| Vec3::from(mesh.positions[v as usize]).as_dvec3());
             faces.push(((q - p).cross(r - p), p));
+            let [a, b, c] = [a, b, c].map(|vertex| mesh.welded_vertex(vertex));
             for (v, w) in [(a, b), (b, c), (c, a)] {
                 users.entry((v.min(w), v.max(w))).or_default().push(face);
             }

@@ -9,7 +9,7 @@ mod cylinder;
 mod plane_with_hole;
 mod polygon_mesh;
 mod torus_knot;
-mod vector;
+pub(crate) mod vector;
 mod wave_blob;
 
 use std::path::PathBuf;

@@ -13,11 +13,14 @@
 use glam::{DVec3, Vec3};
 use rustc_hash::FxHashMap;
 
-use super::normals::{corner_angles, corners_of};
-use super::triangulate::PolygonTriangle;
-use crate::edge_mesh::{FillMesh, FillVertex};
+use super::FaceAttributes;
+use super::components::Sets;
+use super::faces::FaceSources;
+use super::fans::angle;
+use super::planes::{corners_of, has_area};
+use crate::edge_mesh::{FacePlane, FillMesh, FillVertex};
 use crate::index::{NONE, to_u32};
-use crate::model::Model;
+use crate::model::{Model, Smoothing};
 use crate::record::{EdgeFlags, EdgeRecord};
 
 /// What the fill is made from; all lists are by triangle.
@@ -26,21 +29,29 @@ pub(crate) struct CornerInput<'a> {
     pub(crate) model: &'a Model,
     pub(crate) positions: &'a [[f32; 3]],
     pub(crate) triangles: &'a [[u32; 3]],
-    pub(crate) sources: &'a [PolygonTriangle],
-    pub(crate) normals: &'a [Option<DVec3>],
+    pub(crate) sources: &'a FaceSources,
+    /// Planes before any were lent.
+    pub(crate) planes: &'a [FacePlane],
     pub(crate) records: &'a [EdgeRecord],
+    pub(crate) attributes: &'a FaceAttributes,
     pub(crate) smoothing_angle_rad: f64,
+    /// Whether anybody wants the fill at all.
+    pub(crate) is_wanted: bool,
 }
 
-/// Builds the fill's vertices and indices.
+/// Builds the fill's vertices and indices; none where none are wanted.
 pub(crate) fn build_fill(input: &CornerInput) -> FillMesh {
+    if !input.is_wanted {
+        return FillMesh::default();
+    }
     let normals = smooth_normals(input);
     let mut fill = FillMesh::default();
     fill.indices.reserve(input.triangles.len() * 3);
     let mut index_of = FxHashMap::default();
     for (face, triangle) in input.triangles.iter().enumerate() {
+        let sources = input.sources.corners(face);
         for (corner, &vertex) in triangle.iter().enumerate() {
-            let source = input.model.corners[input.sources[face].corners[corner] as usize];
+            let source = input.model.corner(sources[corner] as usize);
             let own_normal = (source.normal != NONE)
                 .then(|| Vec3::from(input.model.normals[source.normal as usize]).try_normalize())
                 .flatten();
@@ -63,7 +74,7 @@ pub(crate) fn build_fill(input: &CornerInput) -> FillMesh {
 
 /// One unit normal for each corner (3 f + k), shared over smooth edges.
 fn smooth_normals(input: &CornerInput) -> Vec<[f32; 3]> {
-    let mut sets = UnionFind::new(input.triangles.len() * 3);
+    let sets = Sets::new(input.triangles.len() * 3);
     for record in input.records {
         if record.face_b == NONE || !is_smooth(input, record) {
             continue;
@@ -72,24 +83,35 @@ fn smooth_normals(input: &CornerInput) -> Vec<[f32; 3]> {
             let corner = |face: u32| {
                 let triangle = input.triangles[face as usize];
                 let place = triangle.iter().position(|&other| other == vertex);
-                place.map(|place| 3 * face as usize + place)
+                place.map(|place| 3 * face + to_u32(place))
             };
             if let (Some(a), Some(b)) = (corner(record.face_a), corner(record.face_b)) {
                 sets.join(a, b);
             }
         }
     }
-    let mut sums = vec![DVec3::ZERO; input.triangles.len() * 3];
-    for (face, &triangle) in input.triangles.iter().enumerate() {
-        let Some(normal) = input.normals[face] else { continue };
-        let angles = corner_angles(corners_of(input.positions, triangle));
-        for (corner, angle) in angles.into_iter().enumerate() {
-            sums[sets.root(3 * face + corner)] += normal * angle;
+    let corner_count = to_u32(input.triangles.len() * 3);
+    let mut sums = vec![DVec3::ZERO; corner_count as usize];
+    for corner in 0..corner_count {
+        let plane = &input.planes[corner as usize / 3];
+        if has_area(plane) {
+            let [x, y, z, _] = plane.normal;
+            let weight = f64::from(corner_angle(input, corner as usize));
+            sums[sets.root(corner) as usize] += Vec3::new(x, y, z).as_dvec3() * weight;
         }
     }
-    (0..sums.len())
-        .map(|corner| sums[sets.root(corner)].normalize_or_zero().as_vec3().to_array())
+    (0..corner_count)
+        .map(|corner| sums[sets.root(corner) as usize].normalize_or_zero().as_vec3().to_array())
         .collect()
+}
+
+/// The angle of a face at a corner, in radians.
+fn corner_angle(input: &CornerInput, corner: usize) -> f32 {
+    let points = corners_of(input.positions, input.triangles[corner / 3]);
+    let at = points[corner % 3];
+    let [to_next, to_previous] =
+        [1, 2].map(|step| (points[(corner + step) % 3] - at).normalize_or_zero().as_vec3());
+    angle(to_next.dot(to_previous))
 }
 
 fn is_smooth(input: &CornerInput, record: &EdgeRecord) -> bool {
@@ -99,51 +121,24 @@ fn is_smooth(input: &CornerInput, record: &EdgeRecord) -> bool {
     if record.flags.intersects(EdgeFlags::NON_MANIFOLD | EdgeFlags::CLASH) {
         return false;
     }
-    let (a, b) = (record.face_a as usize, record.face_b as usize);
-    if input.model.has_smoothing_groups {
-        let group = |face: usize| {
-            input.model.polygons[input.sources[face].polygon as usize].smoothing_group
-        };
-        return group(a) != 0 && group(a) == group(b);
-    }
-    match (input.normals[a], input.normals[b]) {
-        (Some(a), Some(b)) => a.dot(b) >= input.smoothing_angle_rad.cos(),
-        _ => true,
-    }
-}
-
-/// Disjoint sets with path halving; the smaller index becomes the root, so the
-/// result does not depend on the order of joins.
-#[derive(Debug)]
-pub(crate) struct UnionFind {
-    parent: Vec<u32>,
-}
-
-impl UnionFind {
-    pub(crate) fn new(count: usize) -> Self {
-        Self { parent: (0..to_u32(count)).collect() }
-    }
-
-    pub(crate) fn root(&mut self, mut item: usize) -> usize {
-        while self.parent[item] as usize != item {
-            let grandparent = self.parent[self.parent[item] as usize];
-            self.parent[item] = grandparent;
-            item = grandparent as usize;
-        }
-        item
-    }
-
-    pub(crate) fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.parent[a.max(b)] = to_u32(a.min(b));
-    }
+    let limit = match (
+        input.attributes.smoothing(record.face_a),
+        input.attributes.smoothing(record.face_b),
+    ) {
+        (Smoothing::Group(a), Smoothing::Group(b)) => return a != 0 && a == b,
+        (Smoothing::Angle(a), Smoothing::Angle(b)) => f64::from(a.min(b)),
+        _ => input.smoothing_angle_rad,
+    };
+    let [a, b] = [record.face_a, record.face_b].map(|face| &input.planes[face as usize]);
+    let cosine: f32 = a.normal.iter().zip(b.normal).map(|(x, y)| x * y).sum();
+    !has_area(a) || !has_area(b) || f64::from(cosine) >= limit.cos()
 }
 
 #[cfg(test)]
 mod tests {
     use crate::build::{BuildOptions, build_edge_mesh};
     use crate::edge_mesh::FillMesh;
-    use crate::model::Model;
+    use crate::model::{Attributes, Model, PolygonRun, Smoothing};
     use crate::report::Report;
 
     const CUBE: [[f32; 3]; 8] = [
@@ -177,11 +172,12 @@ mod tests {
     #[test]
     fn one_smoothing_group_rounds_the_cube() {
         let mut model = Model::from_polygons(&CUBE, &SIDES);
-        model.has_smoothing_groups = true;
-        for polygon in &mut model.polygons {
-            polygon.smoothing_group = 1;
-        }
+        let attributes = Attributes { smoothing: Smoothing::Group(1), ..Attributes::default() };
+        model.runs = vec![PolygonRun { first_polygon: 0, attributes }];
         assert_eq!(fill_of(&model).vertices.len(), 8);
+        let attributes = Attributes { smoothing: Smoothing::Angle(1.6), ..attributes };
+        model.runs = vec![PolygonRun { first_polygon: 0, attributes }];
+        assert_eq!(fill_of(&model).vertices.len(), 8, "a right angle is 1.57");
     }
 
     #[test]
@@ -189,10 +185,8 @@ mod tests {
         let mut model = Model::from_polygons(&CUBE, &SIDES);
         model.normals = vec![[0., 0., 2.]];
         model.texcoords = vec![[0., 0.], [1., 0.]];
-        for (index, corner) in model.corners.iter_mut().enumerate() {
-            corner.normal = 0;
-            corner.texcoord = u32::from(index >= 12);
-        }
+        model.corner_normals = vec![0; 24];
+        model.corner_texcoords = (0..24).map(|index| u32::from(index >= 12)).collect();
         let fill = fill_of(&model);
         assert!(fill.vertices.iter().all(|vertex| vertex.normal == [0., 0., 1.]));
         assert!(fill.vertices.len() > 8, "a seam runs where the texture coordinates differ");

@@ -1,31 +1,54 @@
 //! From a [`Model`] to an [`EdgeMesh`], stage by stage:
 //!
 //! ```text
-//! polygons --triangulate--> triangles --weld--> drop degenerate --> count
-//!     --> drop duplicates --> edge table --orient--> records, normals, planes, fill
+//! positions --frame--> 32 bits --weld--.
+//! polygons  --triangulate-------------> triangles --> edge table --> counts
+//!                                           |
+//!        duplicates dropped, winding repaired (only where there are any)
+//!                                           |
+//!     planes --> records --> components --> fans (split, normals) --> chains --> fill
 //! ```
 //!
-//! Every stage takes linear time, and nothing depends on hash order or threads:
-//! the same model gives the same bytes.
+//! Every stage takes linear time. Stages that touch every face or edge share
+//! their work among threads, and none of them depends on how many there are or
+//! which is first: the same model gives the same bytes.
 
+mod attributes;
+mod chains;
+mod components;
 mod corners;
-mod normals;
+mod duplicates;
+mod faces;
+mod fans;
+mod frame;
+mod marks;
 mod orient;
+mod planes;
 mod records;
 mod triangulate;
 mod weld;
 
-use rustc_hash::FxHashSet;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-use self::corners::{CornerInput, UnionFind, build_fill};
-use self::orient::orient;
-use self::records::{RecordInput, build_records, is_diagonal_edge, mark_solids};
-use self::triangulate::{PolygonTriangle, triangulate};
-use self::weld::weld;
+use glam::DVec3;
+use rayon::prelude::*;
+
+pub(crate) use self::attributes::FaceAttributes;
+pub use self::chains::{CLASSES, DEFAULT_CHAIN_TURN_RAD, class_of};
+use self::components::Components;
+use self::corners::{CornerInput, build_fill};
+use self::faces::{FaceSources, keep_items};
+use self::fans::{FanInput, Split, apply_splits, walk_fans};
+pub use self::frame::Frame;
+use self::marks::Marks;
+use self::records::{RecordInput, Surface, build_records};
+pub use self::weld::Welding;
+use self::weld::{Weld, weld};
 use crate::edge_mesh::{Bounds, EdgeMesh, MeshCounts, SourceCounts};
+use crate::index::NONE;
 use crate::model::Model;
-use crate::report::{Report, WarningCode};
-use crate::topology::{EdgeCounts, EdgeTable, triangle_side};
+use crate::report::{RepairKind, Report, WarningCode};
+use crate::topology::{EdgeCounts, EdgePart, EdgeTable, triangle_side};
 
 /// The angle between face normals above which an edge is a crease: 30 degrees,
 /// that is, an internal angle of 150 degrees in the paper's terms. Enough to
@@ -33,7 +56,7 @@ use crate::topology::{EdgeCounts, EdgeTable, triangle_side};
 pub const DEFAULT_CREASE_ANGLE_RAD: f64 = std::f64::consts::FRAC_PI_6;
 
 /// How the edge mesh is made.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct BuildOptions {
     /// A convex edge is a ridge where its face normals differ by more than
     /// this. Default: [`DEFAULT_CREASE_ANGLE_RAD`].
@@ -45,6 +68,16 @@ pub struct BuildOptions {
     /// neither normals nor smoothing groups. Default:
     /// [`DEFAULT_CREASE_ANGLE_RAD`].
     pub smoothing_angle_rad: f64,
+    /// The largest turn within a chain. Default: [`DEFAULT_CHAIN_TURN_RAD`].
+    pub chain_turn_rad: f64,
+    /// Which vertices become one. Default: those at the same position.
+    pub welding: Welding,
+    /// Pairs of the file's vertices, counted from 0, whose edges are marked.
+    pub marks: Vec<[u32; 2]>,
+    /// Where the mesh lies in its file. Default: [`Frame::of_box`] decides.
+    pub frame: Option<Frame>,
+    /// Whether the fill is built, which only shading needs. Default: yes.
+    pub with_fill: bool,
 }
 
 impl Default for BuildOptions {
@@ -53,7 +86,19 @@ impl Default for BuildOptions {
             ridge_angle_rad: DEFAULT_CREASE_ANGLE_RAD,
             valley_angle_rad: DEFAULT_CREASE_ANGLE_RAD,
             smoothing_angle_rad: DEFAULT_CREASE_ANGLE_RAD,
+            chain_turn_rad: DEFAULT_CHAIN_TURN_RAD,
+            welding: Welding::Exact,
+            marks: Vec::new(),
+            frame: None,
+            with_fill: true,
         }
+    }
+}
+
+impl BuildOptions {
+    /// The cosines of the ridge and the valley threshold.
+    fn crease_cosines(&self) -> [f64; 2] {
+        [self.ridge_angle_rad.cos(), self.valley_angle_rad.cos()]
     }
 }
 
@@ -63,212 +108,218 @@ impl Default for BuildOptions {
 /// and a warning, not an error.
 #[must_use]
 pub fn build_edge_mesh(model: &Model, options: &BuildOptions, report: &mut Report) -> EdgeMesh {
-    let source = count_source(model);
-    let welded = weld(&model.positions, model.corners.iter().map(|corner| corner.position));
-    let mut sources = triangulate(model, report);
-    let triangle_total = sources.len();
-    let mut triangles = drop_degenerate(model, &welded.welded_from_input, &mut sources, report);
-
-    let mut table = EdgeTable::from_triangles(welded.positions.len(), &triangles);
-    let mut counts = count_mesh(&triangles, &table, &sources);
-    counts.vertices = model.vertex_count_in_file;
-    counts.welded_vertices = welded.positions.len();
-    counts.degenerate_triangles = triangle_total - triangles.len();
-    counts.source = source;
-    warn_non_manifold(model, &sources, &table, report);
-
-    counts.duplicate_triangles = drop_duplicates(model, &mut triangles, &mut sources, report);
-    if counts.duplicate_triangles > 0 {
-        table = EdgeTable::from_triangles(welded.positions.len(), &triangles);
-    }
-    let clashes = repair_winding(model, &mut triangles, &mut sources, &table, report);
-    if report.flipped_faces > 0 {
-        // Flipped triangles number their sides anew.
-        table = EdgeTable::from_triangles(welded.positions.len(), &triangles);
-    }
-    finish(
-        model,
-        options,
-        report,
-        Parts { positions: welded.positions, triangles, sources, table, clashes, counts },
-    )
-}
-
-/// What the first stages leave for the last ones.
-struct Parts {
-    positions: Vec<[f32; 3]>,
-    triangles: Vec<[u32; 3]>,
-    sources: Vec<PolygonTriangle>,
-    table: EdgeTable,
-    clashes: Vec<u32>,
-    counts: MeshCounts,
-}
-
-fn finish(model: &Model, options: &BuildOptions, report: &mut Report, parts: Parts) -> EdgeMesh {
-    let Parts { positions, triangles, sources, table, clashes, counts } = parts;
-    let face_normals = normals::face_normals(&positions, &triangles);
-    report.zero_area_triangles = face_normals.iter().filter(|normal| normal.is_none()).count();
-    let materials: Vec<u32> =
-        sources.iter().map(|source| model.polygons[source.polygon as usize].material).collect();
-    let is_diagonal = diagonal_sides(&sources);
-    let input = RecordInput {
-        positions: &positions,
-        triangles: &triangles,
-        normals: &face_normals,
-        materials: &materials,
-        is_diagonal: &is_diagonal,
-        clashes: &clashes,
+    let (frame, welded) = weld_model(model, options, report);
+    let mut sources = FaceSources::of(model, report);
+    let mut counts = MeshCounts {
+        vertices: model.positions.len(),
+        welded_vertices: count_face_vertices(model, &welded),
+        degenerate_triangles: sources.len(),
+        ..MeshCounts::default()
     };
-    let mut records = build_records(&input, &table, options);
-    mark_solids(&positions, &triangles, &mut records);
-    let fill = build_fill(&CornerInput {
-        model,
-        positions: &positions,
-        triangles: &triangles,
-        sources: &sources,
-        normals: &face_normals,
-        records: &records,
-        smoothing_angle_rad: options.smoothing_angle_rad,
+    let mut triangles = weld_triangles(model, &welded.welded_from_input, &mut sources, report);
+    counts.triangles = triangles.len();
+    counts.degenerate_triangles -= triangles.len();
+    let mut table = EdgeTable::from_triangles(welded.positions.len(), &triangles);
+    count_edges(&mut counts, &triangles, &table, &sources);
+    counts.source = count_source(model, &welded, &counts);
+    warn_non_manifold(model, &sources, &table, &counts, report);
+    let clashes = repair(model, &mut triangles, &mut sources, &mut table, &mut counts, report);
+    let parts = Parts { positions: welded.positions, triangles, sources, table, clashes, counts };
+    let marks = Marks::find(model, &options.marks, &welded.welded_from_input, &parts.table, report);
+    EdgeMesh { frame, ..finish(model, options, report, parts, &marks) }
+}
+
+/// Finds the creases of a finished mesh by other thresholds, and chains anew.
+pub fn reclassify(mesh: &mut EdgeMesh, options: &BuildOptions) {
+    // The planes that were lent must not make creases.
+    let planes = planes::face_planes(&mesh.positions, &mesh.triangles);
+    let surface =
+        Surface { positions: &mesh.positions, triangles: &mesh.triangles, planes: &planes };
+    records::reclassify(&surface, &mut mesh.records, options);
+    mesh.chains = chains::chain(&mesh.positions, &mesh.records, options.chain_turn_rad);
+}
+
+/// Moves the vertices that are used into the mesh's frame and welds them.
+fn weld_model(model: &Model, options: &BuildOptions, report: &mut Report) -> (Frame, Weld) {
+    let is_used = used_vertices(model);
+    let frame = options.frame.unwrap_or_else(|| {
+        let (low, high) = used_box(model, &is_used);
+        Frame::of_box(low, high)
     });
-    EdgeMesh {
-        vertex_normals: normals::vertex_normals(&positions, &triangles, &face_normals),
-        face_planes: normals::face_planes(&positions, &triangles, &face_normals, &table),
-        bounds: Bounds::of(&positions),
-        positions,
-        triangles,
-        records,
-        fill,
-        counts,
+    report.repair(RepairKind::Recentred, usize::from(!frame.is_identity()), None);
+    let to_mesh = |&point: &[f64; 3]| frame.to_mesh(point.into()).as_vec3().to_array();
+    let positions: Vec<[f32; 3]> = if frame.is_identity() {
+        #[expect(clippy::cast_possible_truncation, reason = "a mesh is in 32 bits")]
+        let rounded = |point: &[f64; 3]| point.map(|coordinate| coordinate as f32);
+        model.positions.par_iter().with_min_len(1 << 14).map(rounded).collect()
+    } else {
+        model.positions.par_iter().with_min_len(1 << 14).map(to_mesh).collect()
+    };
+    let welding = match options.welding {
+        Welding::Within(tolerance) => Welding::Within(tolerance * frame.scale),
+        other => other,
+    };
+    let welded = weld(&positions, &is_used, welding);
+    report.repair(RepairKind::SnappedVertices, welded.moved, None);
+    (frame, welded)
+}
+
+/// Whether faces or lines use each vertex.
+fn used_vertices(model: &Model) -> Vec<bool> {
+    let is_used: Vec<AtomicBool> = model.positions.iter().map(|_| AtomicBool::new(false)).collect();
+    let mark = |&vertex: &u32| is_used[vertex as usize].store(true, Ordering::Relaxed);
+    model.corner_positions.par_iter().with_min_len(1 << 14).for_each(mark);
+    model.segments.iter().flat_map(|segment| &segment.ends).for_each(mark);
+    is_used.into_iter().map(AtomicBool::into_inner).collect()
+}
+
+/// The corners of the box around the vertices that a model uses, in its own
+/// units; infinite and turned around where it uses none.
+#[must_use]
+pub fn box_of(model: &Model) -> (DVec3, DVec3) {
+    used_box(model, &used_vertices(model))
+}
+
+fn used_box(model: &Model, is_used: &[bool]) -> (DVec3, DVec3) {
+    let nothing = || (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let used = model.positions.par_iter().with_min_len(1 << 14).zip(is_used);
+    used.filter(|(_, used)| **used)
+        .fold(nothing, |(low, high), (&point, _)| (low.min(point.into()), high.max(point.into())))
+        .reduce(nothing, |a, b| (a.0.min(b.0), a.1.max(b.1)))
+}
+
+/// Different positions that faces use.
+fn count_face_vertices(model: &Model, welded: &Weld) -> usize {
+    if model.segments.is_empty() {
+        return welded.positions.len();
+    }
+    let mut is_used = vec![false; welded.positions.len()];
+    for &corner in &model.corner_positions {
+        is_used[welded.welded_from_input[corner as usize] as usize] = true;
+    }
+    is_used.iter().filter(|&&used| used).count()
+}
+
+/// Makes welded triangles and drops those that name a vertex twice.
+fn weld_triangles(
+    model: &Model,
+    welded_from_input: &[u32],
+    sources: &mut FaceSources,
+    report: &mut Report,
+) -> Vec<[u32; 3]> {
+    let welded = |corner: u32| welded_from_input[model.corner_positions[corner as usize] as usize];
+    let mut triangles: Vec<[u32; 3]> = (0..sources.len())
+        .into_par_iter()
+        .with_min_len(1 << 12)
+        .map(|face| sources.corners(face).map(welded))
+        .collect();
+    let is_proper = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
+    if triangles.par_iter().with_min_len(1 << 14).all(is_proper) {
+        return triangles;
+    }
+    let is_kept: Vec<bool> = triangles.iter().map(is_proper).collect();
+    let first = duplicates::left_out(&is_kept).next();
+    let place = first.map(|face| sources.place(model, face));
+    report.warn_many(
+        WarningCode::Degenerate,
+        duplicates::left_out(&is_kept).count(),
+        place,
+        || "a triangle with two corners in one place was dropped".into(),
+    );
+    keep_items(&mut triangles, &is_kept);
+    sources.keep(&is_kept);
+    triangles
+}
+
+fn count_edges(
+    counts: &mut MeshCounts,
+    triangles: &[[u32; 3]],
+    table: &EdgeTable,
+    sources: &FaceSources,
+) {
+    counts.edges = EdgeCounts::of(table, |side| triangle_side(triangles, side));
+    if !sources.has_no_diagonals() {
+        let of_part = |(_, part): (usize, &EdgePart)| {
+            part.iter().filter(|(_, sides)| sources.is_diagonal_edge(sides)).count()
+        };
+        counts.diagonal_edges = table.parts().map(of_part).sum();
     }
 }
 
 /// Counts the file's own polygons, by the file's own vertices.
-fn count_source(model: &Model) -> SourceCounts {
-    let sides: Vec<[u32; 2]> = model
-        .polygons
-        .iter()
-        .flat_map(|polygon| {
-            let corners = &model.corners[polygon.corner_range()];
-            (0..corners.len())
-                .map(|k| [corners[k].position, corners[(k + 1) % corners.len()].position])
-        })
-        .collect();
-    let table = EdgeTable::from_sides(model.positions.len(), &sides);
-    SourceCounts {
-        vertices: model.vertex_count_in_file,
-        polygons: model.polygons.len(),
-        triangles: model.polygons.iter().map(|polygon| polygon.corner_count as usize - 2).sum(),
-        edges: EdgeCounts::of(&table, |side| sides[side as usize]),
-    }
-}
-
-fn line_of(model: &Model, source: &PolygonTriangle) -> Option<u32> {
-    Some(model.polygons[source.polygon as usize].line).filter(|&line| line > 0)
-}
-
-/// Makes welded triangles and drops those that name a vertex twice.
-fn drop_degenerate(
-    model: &Model,
-    welded_from_input: &[u32],
-    sources: &mut Vec<PolygonTriangle>,
-    report: &mut Report,
-) -> Vec<[u32; 3]> {
-    let mut triangles = Vec::with_capacity(sources.len());
-    sources.retain(|source| {
-        let [a, b, c] = source
-            .corners
-            .map(|corner| welded_from_input[model.corners[corner as usize].position as usize]);
-        let is_sound = a != b && b != c && c != a;
-        if is_sound {
-            triangles.push([a, b, c]);
-        } else {
-            report.warn(WarningCode::Degenerate, line_of(model, source), || {
-                "a triangle with two corners in one place was dropped".into()
-            });
+fn count_source(model: &Model, welded: &Weld, counts: &MeshCounts) -> SourceCounts {
+    let mut source = SourceCounts {
+        vertices: model.positions.len(),
+        polygons: model.polygon_count(),
+        triangles: model.corner_positions.len() - 2 * model.polygon_count(),
+        edges: counts.edges,
+    };
+    let used = welded.welded_from_input.iter().filter(|&&vertex| vertex != NONE).count();
+    let is_welded = used != welded.positions.len();
+    // Where nothing was welded, cut or dropped, the mesh is the file's own.
+    if is_welded || !model.is_triangles() || counts.degenerate_triangles > 0 {
+        let mut sides = Vec::with_capacity(model.corner_positions.len());
+        for polygon in 0..model.polygon_count() {
+            let corners = &model.corner_positions[model.corner_range(polygon)];
+            sides
+                .extend((0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]]));
         }
-        is_sound
-    });
-    triangles
-}
-
-fn count_mesh(
-    triangles: &[[u32; 3]],
-    table: &EdgeTable,
-    sources: &[PolygonTriangle],
-) -> MeshCounts {
-    let is_diagonal = diagonal_sides(sources);
-    let mut sets = UnionFind::new(triangles.len());
-    let mut diagonal_edges = 0;
-    for (_, sides) in table.iter() {
-        diagonal_edges += usize::from(is_diagonal_edge(sides, &is_diagonal));
-        for pair in sides.windows(2) {
-            sets.join(pair[0] as usize / 3, pair[1] as usize / 3);
-        }
+        let table = EdgeTable::from_sides(model.positions.len(), &sides);
+        source.edges = EdgeCounts::of(&table, |side| sides[side as usize]);
     }
-    MeshCounts {
-        triangles: triangles.len(),
-        edges: EdgeCounts::of(table, |side| triangle_side(triangles, side)),
-        diagonal_edges,
-        components: (0..triangles.len()).filter(|&face| sets.root(face) == face).count(),
-        ..MeshCounts::default()
-    }
-}
-
-/// Whether each side (3 f + k) is a diagonal of its polygon.
-fn diagonal_sides(sources: &[PolygonTriangle]) -> Vec<bool> {
-    sources
-        .iter()
-        .flat_map(|source| [0, 1, 2].map(|side| source.diagonals & (1 << side) != 0))
-        .collect()
+    source
 }
 
 fn warn_non_manifold(
     model: &Model,
-    sources: &[PolygonTriangle],
+    sources: &FaceSources,
     table: &EdgeTable,
+    counts: &MeshCounts,
     report: &mut Report,
 ) {
-    for (_, sides) in table.iter().filter(|(_, sides)| sides.len() > 2) {
-        let line = line_of(model, &sources[sides[2] as usize / 3]);
-        report.warn(WarningCode::NonManifold, line, || {
-            format!("an edge is shared by {} faces; they are drawn in pairs", sides.len())
-        });
+    if counts.edges.non_manifold == 0 {
+        return;
     }
+    let first = table.iter().map(|(_, sides)| sides).find(|sides| sides.len() > 2);
+    let sides = first.unwrap_or_default();
+    let place = sides.get(2).map(|&side| sources.place(model, side as usize / 3));
+    report.warn_many(WarningCode::NonManifold, counts.edges.non_manifold, place, || {
+        format!("an edge is shared by {} faces; they are drawn in pairs", sides.len())
+    });
 }
 
-/// Drops triangles that name the same vertices in the same cyclic order as an
-/// earlier one; a reversed twin stays, as the back of a two-sided sheet.
-fn drop_duplicates(
+/// Drops faces that repeat others and makes the winding consistent; returns the
+/// edges that clash nevertheless. A sound mesh is left as it is, at no cost.
+fn repair(
     model: &Model,
     triangles: &mut Vec<[u32; 3]>,
-    sources: &mut Vec<PolygonTriangle>,
+    sources: &mut FaceSources,
+    table: &mut EdgeTable,
+    counts: &mut MeshCounts,
     report: &mut Report,
-) -> usize {
-    let mut seen = FxHashSet::with_capacity_and_hasher(triangles.len(), rustc_hash::FxBuildHasher);
-    let is_first: Vec<bool> = triangles
-        .iter()
-        .map(|&[a, b, c]| {
-            seen.insert(match a.min(b).min(c) {
-                smallest if smallest == a => [a, b, c],
-                smallest if smallest == b => [b, c, a],
-                _ => [c, a, b],
-            })
-        })
-        .collect();
-    let total = triangles.len();
-    for (source, _) in sources.iter().zip(&is_first).filter(|(_, is_first)| !**is_first) {
-        report.warn(WarningCode::Duplicate, line_of(model, source), || {
+) -> Vec<u32> {
+    let EdgeCounts { non_manifold, mut inconsistent, .. } = counts.edges;
+    let vertex_count = |triangles: &[[u32; 3]]| {
+        triangles.as_flattened().iter().max().map_or(0, |&largest| largest as usize + 1)
+    };
+    if non_manifold + inconsistent > 0
+        && let Some(is_kept) = duplicates::keep_first_of_each(triangles, table)
+    {
+        counts.duplicate_triangles = duplicates::left_out(&is_kept).count();
+        let first = duplicates::left_out(&is_kept).next();
+        let place = first.map(|face| sources.place(model, face));
+        report.warn_many(WarningCode::Duplicate, counts.duplicate_triangles, place, || {
             "a face that repeats another was dropped".into()
         });
+        keep_items(triangles, &is_kept);
+        sources.keep(&is_kept);
+        *table = EdgeTable::from_triangles(vertex_count(triangles), triangles);
+        inconsistent = EdgeCounts::of(table, |side| triangle_side(triangles, side)).inconsistent;
     }
-    keep(triangles, &is_first);
-    keep(sources, &is_first);
-    total - triangles.len()
-}
-
-fn keep<T>(items: &mut Vec<T>, mask: &[bool]) {
-    let mut kept = mask.iter();
-    items.retain(|_| kept.next() == Some(&true));
+    if inconsistent == 0 {
+        return Vec::new();
+    }
+    repair_winding(model, triangles, sources, table, report)
 }
 
 /// Flips the minority of every component that winds two ways; returns the
@@ -276,18 +327,140 @@ fn keep<T>(items: &mut Vec<T>, mask: &[bool]) {
 fn repair_winding(
     model: &Model,
     triangles: &mut [[u32; 3]],
-    sources: &mut [PolygonTriangle],
-    table: &EdgeTable,
+    sources: &mut FaceSources,
+    table: &mut EdgeTable,
     report: &mut Report,
 ) -> Vec<u32> {
-    let orientation = orient(triangles, table, |face| sources[face].flip());
-    report.flipped_faces = orientation.flipped;
+    let orientation = orient::orient(triangles, table);
+    let place = orientation.flipped.first().map(|&face| sources.place(model, face));
+    report.repair(RepairKind::FlippedFaces, orientation.flipped.len(), place);
     if let Some(&edge) = orientation.clashes.first() {
-        let sides = table.iter().nth(edge as usize).map_or(&[][..], |(_, sides)| sides);
-        let line = sides.last().and_then(|side| line_of(model, &sources[*side as usize / 3]));
-        report.warn_many(WarningCode::Orientation, orientation.clashes.len(), line, || {
+        let last = table.sides(edge as usize).last();
+        let place = last.map(|&side| sources.place(model, side as usize / 3));
+        report.warn_many(WarningCode::Orientation, orientation.clashes.len(), place, || {
             "the surface has no two sides; it is cut along edges where its faces clash".into()
         });
     }
+    if !orientation.flipped.is_empty() {
+        for &face in &orientation.flipped {
+            sources.turn(face);
+        }
+        // Flipped triangles number their sides anew; the edges stay the same.
+        let vertices = triangles.as_flattened().iter().max().map_or(0, |&v| v as usize + 1);
+        *table = EdgeTable::from_triangles(vertices, triangles);
+    }
     orientation.clashes
+}
+
+/// What the first stages leave for the last ones.
+struct Parts {
+    positions: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    sources: FaceSources,
+    table: EdgeTable,
+    clashes: Vec<u32>,
+    counts: MeshCounts,
+}
+
+fn finish(
+    model: &Model,
+    options: &BuildOptions,
+    report: &mut Report,
+    parts: Parts,
+    marks: &Marks,
+) -> EdgeMesh {
+    let Parts { mut positions, mut triangles, sources, table, clashes, mut counts } = parts;
+    let mut planes = planes::face_planes(&positions, &triangles);
+    let attributes = FaceAttributes::of(model, &sources);
+    let mut built = build_records(
+        &RecordInput {
+            positions: &positions,
+            triangles: &triangles,
+            planes: &planes,
+            sources: &sources,
+            attributes: &attributes,
+            marks,
+            clashes: &clashes,
+            options,
+        },
+        &table,
+    );
+    report.repair(RepairKind::SplitEdges, built.split_edges, None);
+    let components = Components::of_records(triangles.len(), &built.records);
+    counts.components = components.count_joined_by_edges(&table);
+    components.mark_solids(&positions, &triangles, &mut built.records);
+    let fans = walk_fans(&FanInput {
+        positions: &positions,
+        triangles: &triangles,
+        planes: &planes,
+        twins: &built.twins,
+        clashing: &clashing_vertices(&triangles, &table, &clashes),
+    });
+    drop(built.twins);
+    let (mut records, mut vertex_normals) = (built.records, fans.normals);
+    let fill = build_fill(&CornerInput {
+        model,
+        positions: &positions,
+        triangles: &triangles,
+        sources: &sources,
+        planes: &planes,
+        records: &records,
+        attributes: &attributes,
+        smoothing_angle_rad: options.smoothing_angle_rad,
+        is_wanted: options.with_fill,
+    });
+    lend_planes(model, &sources, &positions, &triangles, &table, &mut planes, report);
+    drop(table);
+    report_splits(model, &sources, &fans.splits, report);
+    let vertices = (&mut positions, &mut vertex_normals);
+    let split_from = apply_splits(&fans.splits, vertices, &mut triangles, &mut records);
+    records.extend(marks.loose_records());
+    EdgeMesh {
+        chains: chains::chain(&positions, &records, options.chain_turn_rad),
+        bounds: Bounds::of(&positions),
+        frame: Frame::default(),
+        positions,
+        split_from,
+        vertex_normals,
+        triangles,
+        face_planes: planes,
+        records,
+        fill,
+        counts,
+    }
+}
+
+fn report_splits(model: &Model, sources: &FaceSources, splits: &[Split], report: &mut Report) {
+    let corner = splits.first().and_then(|split| split.corners.first());
+    let place = corner.map(|&corner| sources.place(model, corner as usize / 3));
+    report.repair(RepairKind::SplitVertices, splits.len(), place);
+}
+
+/// The vertices of edges where the winding clashes, ascending.
+fn clashing_vertices(triangles: &[[u32; 3]], table: &EdgeTable, clashes: &[u32]) -> Vec<u32> {
+    let sides = clashes.iter().filter_map(|&edge| table.sides(edge as usize).first());
+    let mut vertices: Vec<u32> = sides.flat_map(|&side| triangle_side(triangles, side)).collect();
+    vertices.sort_unstable();
+    vertices.dedup();
+    vertices
+}
+
+/// Gives faces without area the planes of their neighbours, and counts them.
+fn lend_planes(
+    model: &Model,
+    sources: &FaceSources,
+    positions: &[[f32; 3]],
+    triangles: &[[u32; 3]],
+    table: &EdgeTable,
+    planes: &mut [crate::edge_mesh::FacePlane],
+    report: &mut Report,
+) {
+    let flat: Vec<usize> = (0..planes.len())
+        .into_par_iter()
+        .with_min_len(1 << 14)
+        .filter(|&face| !planes::has_area(&planes[face]))
+        .collect();
+    let place = flat.first().map(|&face| sources.place(model, face));
+    report.repair(RepairKind::ZeroAreaTriangles, flat.len(), place);
+    planes::lend_planes(positions, triangles, &flat, table, planes);
 }

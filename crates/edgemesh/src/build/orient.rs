@@ -10,84 +10,92 @@
 //! Rejected: turning components outwards by their signed volume. An open
 //! surface has none, and a file that is consistent is left as it is.
 
-use crate::index::to_u32;
+use crate::index::{NONE, to_u32};
 use crate::topology::{EdgeTable, triangle_side};
 
 /// What was found and done.
 #[derive(Debug, Default)]
 pub(crate) struct Orientation {
-    /// Faces that were flipped in place.
-    pub(crate) flipped: usize,
-    /// Edges (indices of the table) whose faces clash whatever is flipped.
+    /// Faces that were flipped in place, ascending.
+    pub(crate) flipped: Vec<usize>,
+    /// Edges (numbers of the table) whose faces clash whatever is flipped,
+    /// ascending.
     pub(crate) clashes: Vec<u32>,
 }
 
 /// Flips triangles of `triangles` in place until their winding agrees across
 /// every edge of two faces, where that is possible. A flip swaps corners 1 and
-/// 2 and is told to `on_flip`.
-pub(crate) fn orient(
-    triangles: &mut [[u32; 3]],
-    table: &EdgeTable,
-    mut on_flip: impl FnMut(usize),
-) -> Orientation {
+/// 2.
+pub(crate) fn orient(triangles: &mut [[u32; 3]], table: &EdgeTable) -> Orientation {
     let neighbours = neighbours_over_edges(triangles, table);
-    let mut is_turned = vec![None; triangles.len()];
-    let mut patch = Vec::new();
-    for seed in 0..triangles.len() {
-        if is_turned[seed].is_some() {
-            continue;
-        }
-        patch.clear();
-        patch.push(seed);
-        is_turned[seed] = Some(false);
-        let mut next = 0;
-        while let Some(&face) = patch.get(next) {
-            next += 1;
-            for &(neighbour, disagrees) in &neighbours[3 * face..3 * face + 3] {
-                if let Some(neighbour) = neighbour
-                    && is_turned[neighbour].is_none()
-                {
-                    is_turned[neighbour] = is_turned[face].map(|turned| turned != disagrees);
-                    patch.push(neighbour);
-                }
-            }
-        }
-        let turned = patch.iter().filter(|&&face| is_turned[face] == Some(true)).count();
-        if turned * 2 > patch.len() {
-            for &face in &patch {
-                is_turned[face] = is_turned[face].map(|turned| !turned);
-            }
-        }
-    }
+    let is_turned = turn_the_minority(&neighbours);
     let mut orientation = Orientation::default();
-    for (face, turned) in is_turned.iter().enumerate() {
-        if *turned == Some(true) {
-            triangles[face].swap(1, 2);
-            orientation.flipped += 1;
-            on_flip(face);
-        }
-    }
     for (edge, (_, sides)) in table.iter().enumerate() {
         if let [a, b] = *sides {
-            let disagrees = neighbours[a as usize].1;
+            let disagrees = neighbours[a as usize].disagrees;
             let turned_apart = is_turned[a as usize / 3] != is_turned[b as usize / 3];
             if disagrees != turned_apart {
                 orientation.clashes.push(to_u32(edge));
             }
         }
     }
+    for (face, _) in is_turned.iter().enumerate().filter(|(_, turned)| **turned) {
+        triangles[face].swap(1, 2);
+        orientation.flipped.push(face);
+    }
     orientation
 }
 
-/// For each side of each face: the face across, where the edge has exactly two,
-/// and whether the two traverse the edge in the same direction.
-fn neighbours_over_edges(triangles: &[[u32; 3]], table: &EdgeTable) -> Vec<(Option<usize>, bool)> {
-    let mut neighbours = vec![(None, false); triangles.len() * 3];
+/// Walks over each component and decides which of its faces are turned; of the
+/// two ways the one that turns fewer.
+fn turn_the_minority(neighbours: &[Neighbour]) -> Vec<bool> {
+    let face_count = neighbours.len() / 3;
+    let mut is_turned = vec![false; face_count];
+    let mut is_seen = vec![false; face_count];
+    let mut patch = Vec::new();
+    for seed in 0..face_count {
+        if std::mem::replace(&mut is_seen[seed], true) {
+            continue;
+        }
+        patch.clear();
+        patch.push(seed);
+        let mut next = 0;
+        while let Some(&face) = patch.get(next) {
+            next += 1;
+            for neighbour in neighbours[3 * face..3 * face + 3].iter().filter(|n| n.face != NONE) {
+                let other = neighbour.face as usize;
+                if !std::mem::replace(&mut is_seen[other], true) {
+                    is_turned[other] = is_turned[face] != neighbour.disagrees;
+                    patch.push(other);
+                }
+            }
+        }
+        let turned = patch.iter().filter(|&&face| is_turned[face]).count();
+        if turned * 2 > patch.len() {
+            for &face in &patch {
+                is_turned[face] = !is_turned[face];
+            }
+        }
+    }
+    is_turned
+}
+
+/// The face across a side, where the edge has exactly two.
+#[derive(Debug, Clone, Copy)]
+struct Neighbour {
+    /// The face, or [`NONE`].
+    face: u32,
+    /// Whether the two traverse the edge in the same direction.
+    disagrees: bool,
+}
+
+fn neighbours_over_edges(triangles: &[[u32; 3]], table: &EdgeTable) -> Vec<Neighbour> {
+    let mut neighbours = vec![Neighbour { face: NONE, disagrees: false }; triangles.len() * 3];
     for (_, sides) in table.iter() {
         if let [a, b] = *sides {
             let disagrees = triangle_side(triangles, a) == triangle_side(triangles, b);
-            neighbours[a as usize] = (Some(b as usize / 3), disagrees);
-            neighbours[b as usize] = (Some(a as usize / 3), disagrees);
+            neighbours[a as usize] = Neighbour { face: b / 3, disagrees };
+            neighbours[b as usize] = Neighbour { face: a / 3, disagrees };
         }
     }
     neighbours
@@ -100,7 +108,7 @@ mod tests {
     fn oriented(triangles: &[[u32; 3]], vertex_count: usize) -> (Vec<[u32; 3]>, Orientation) {
         let mut triangles = triangles.to_vec();
         let table = EdgeTable::from_triangles(vertex_count, &triangles);
-        let orientation = orient(&mut triangles, &table, |_| ());
+        let orientation = orient(&mut triangles, &table);
         (triangles, orientation)
     }
 
@@ -108,7 +116,7 @@ mod tests {
     fn the_minority_is_flipped() {
         // A tetrahedron whose last face is turned.
         let (triangles, orientation) = oriented(&[[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 2, 3]], 4);
-        assert_eq!(orientation.flipped, 1);
+        assert_eq!(orientation.flipped, [3]);
         assert!(orientation.clashes.is_empty());
         assert_eq!(triangles[3], [0, 3, 2]);
     }
@@ -116,7 +124,7 @@ mod tests {
     #[test]
     fn what_agrees_is_left_alone() {
         let (_, orientation) = oriented(&[[0, 1, 2], [1, 3, 2]], 4);
-        assert_eq!(orientation.flipped, 0);
+        assert!(orientation.flipped.is_empty());
     }
 
     #[test]

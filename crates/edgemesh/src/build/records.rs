@@ -6,6 +6,10 @@
 //! that bounds it on its near side. Two cubes that touch along an edge become
 //! two plain edges of a cube.
 //!
+//! The cosine of a crease is first taken from the 32-bit normals of the planes,
+//! and only within their rounding of a threshold from the positions in 64 bits:
+//! the answer is that of 64 bits, at the cost of 32.
+//!
 //! Rejected: refusing such meshes, as half-edge structures do; pairing in file
 //! order, which joins faces through one another.
 //!
@@ -16,90 +20,143 @@
 //!        a | d
 //! ```
 
-use glam::{DVec3, Vec3};
+use std::sync::atomic::{AtomicU32, Ordering};
 
-use super::BuildOptions;
-use super::corners::UnionFind;
-use super::normals::corners_of;
-use crate::index::NONE;
+use bytemuck::Zeroable;
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+use super::faces::FaceSources;
+use super::marks::Marks;
+use super::planes::{corners_of, face_normal, has_area};
+use super::{BuildOptions, FaceAttributes};
+use crate::edge_mesh::FacePlane;
+use crate::index::{NONE, to_u32};
 use crate::record::{EdgeFlags, EdgeRecord};
-use crate::topology::{EdgeTable, triangle_side};
+use crate::topology::{EdgePart, EdgeTable, triangle_side};
+
+/// The cosine of two normals that were rounded to 32 bits errs by less.
+const COSINE_ERROR: f64 = 1e-6;
 
 /// What the records are made from.
 #[derive(Debug)]
 pub(crate) struct RecordInput<'a> {
     pub(crate) positions: &'a [[f32; 3]],
     pub(crate) triangles: &'a [[u32; 3]],
-    pub(crate) normals: &'a [Option<DVec3>],
-    /// Material index of each face.
-    pub(crate) materials: &'a [u32],
-    /// Whether each side (3 f + k) is a polygon's diagonal.
-    pub(crate) is_diagonal: &'a [bool],
+    /// Planes before any were lent: faces without area have no normal.
+    pub(crate) planes: &'a [FacePlane],
+    pub(crate) sources: &'a FaceSources,
+    pub(crate) attributes: &'a FaceAttributes,
+    pub(crate) marks: &'a Marks,
     /// Edges whose two faces clash, ascending.
     pub(crate) clashes: &'a [u32],
+    pub(crate) options: &'a BuildOptions,
+}
+
+/// The records, and how faces hang together by them.
+#[derive(Debug)]
+pub(crate) struct RecordTable {
+    /// In the order of the edges of the table.
+    pub(crate) records: Vec<EdgeRecord>,
+    /// For each side the side across, of the face that its record pairs it
+    /// with; [`NONE`] at boundaries and where the winding clashes.
+    pub(crate) twins: Vec<AtomicU32>,
+    /// Edges of more than two faces.
+    pub(crate) split_edges: usize,
 }
 
 /// Builds the records of all edges in the order of `table`.
-pub(crate) fn build_records(
-    input: &RecordInput,
+pub(crate) fn build_records(input: &RecordInput, table: &EdgeTable) -> RecordTable {
+    let twins: Vec<AtomicU32> =
+        (0..input.triangles.len() * 3).into_par_iter().map(|_| AtomicU32::new(NONE)).collect();
+    // Edges of more than two faces are rare; how many records they make is
+    // known only when they are split.
+    let splits = input.split_edges(table, &twins);
+    let count = table.edge_count() + splits.iter().map(|s| s.records.len() - 1).sum::<usize>();
+    let mut records = vec![EdgeRecord::zeroed(); count];
+    let targets = targets(table, &splits, &mut records);
+    table.parts().zip(targets).for_each(|((first_edge, part), (records, splits))| {
+        input.fill_part(first_edge, part, splits, records, &twins);
+    });
+    RecordTable { records, twins, split_edges: splits.len() }
+}
+
+/// An edge of more than two faces, in pairs.
+struct SplitEdge {
+    edge: usize,
+    records: Vec<EdgeRecord>,
+}
+
+/// Cuts the list of records, and that of the split edges, into those of each
+/// part.
+fn targets<'a>(
     table: &EdgeTable,
-    options: &BuildOptions,
-) -> Vec<EdgeRecord> {
-    let mut records = Vec::with_capacity(table.edge_count());
-    for (edge, (ends, sides)) in table.iter().enumerate() {
-        match *sides {
-            [only] => records.push(input.single(only, EdgeFlags::BOUNDARY)),
-            [a, b] => {
-                let clashes = input.clashes.binary_search(&crate::index::to_u32(edge)).is_ok();
-                records.push(input.pair(a, b, clashes, options));
-            }
-            _ => input.split(ends, sides, &mut records),
-        }
+    mut splits: &'a [SplitEdge],
+    mut records: &'a mut [EdgeRecord],
+) -> Vec<(&'a mut [EdgeRecord], &'a [SplitEdge])> {
+    let sizes: Vec<(usize, usize)> =
+        table.parts().map(|(first, part)| (first + part.edge_count(), part.edge_count())).collect();
+    let mut targets = Vec::with_capacity(sizes.len());
+    for (end, edges) in sizes {
+        let (own, behind) = splits.split_at(splits.partition_point(|split| split.edge < end));
+        let extra: usize = own.iter().map(|split| split.records.len() - 1).sum();
+        let (target, rest) = records.split_at_mut(edges + extra);
+        targets.push((target, own));
+        (splits, records) = (behind, rest);
     }
-    records
-}
-
-/// Marks the edges of closed components whose faces look outwards.
-///
-/// A component is closed where each of its edges has two faces that wind the
-/// same way, and looks outwards where the volume it encloses is positive.
-pub(crate) fn mark_solids(
-    positions: &[[f32; 3]],
-    triangles: &[[u32; 3]],
-    records: &mut [EdgeRecord],
-) {
-    let opens = EdgeFlags::BOUNDARY | EdgeFlags::NON_MANIFOLD | EdgeFlags::CLASH;
-    let mut sets = UnionFind::new(triangles.len());
-    for record in records.iter().filter(|record| record.face_b != NONE) {
-        sets.join(record.face_a as usize, record.face_b as usize);
-    }
-    // Six times the volume between each component and the first vertex.
-    let origin = positions.first().map_or(DVec3::ZERO, |&first| Vec3::from(first).as_dvec3());
-    let mut volumes = vec![0.0; triangles.len()];
-    for (face, &triangle) in triangles.iter().enumerate() {
-        let [a, b, c] = corners_of(positions, triangle).map(|corner| corner - origin);
-        volumes[sets.root(face)] += a.dot(b.cross(c));
-    }
-    let mut is_closed = vec![true; triangles.len()];
-    for record in records.iter().filter(|record| record.flags.intersects(opens)) {
-        is_closed[sets.root(record.face_a as usize)] = false;
-        if record.face_b != NONE {
-            is_closed[sets.root(record.face_b as usize)] = false;
-        }
-    }
-    for record in records {
-        let component = sets.root(record.face_a as usize);
-        let is_solid = is_closed[component] && volumes[component] > 0.0;
-        record.flags.set(EdgeFlags::SOLID, is_solid);
-    }
-}
-
-/// Whether an edge is nothing but a polygon's diagonal: both of its faces say so.
-pub(crate) fn is_diagonal_edge(sides: &[u32], is_diagonal: &[bool]) -> bool {
-    matches!(sides, [a, b] if is_diagonal[*a as usize] && is_diagonal[*b as usize])
+    targets
 }
 
 impl RecordInput<'_> {
+    fn split_edges(&self, table: &EdgeTable, twins: &[AtomicU32]) -> Vec<SplitEdge> {
+        let of_part = |(first, part): (usize, &EdgePart)| {
+            part.iter()
+                .enumerate()
+                .filter(|(_, (_, sides))| sides.len() > 2)
+                .map(|(at, (ends, sides))| {
+                    let edge = first + at;
+                    let mut records = Vec::new();
+                    self.split(ends, sides, twins, &mut records);
+                    let marked = self.marks.is_marked(edge);
+                    for record in &mut records {
+                        record.flags.set(EdgeFlags::MARKED, marked);
+                    }
+                    SplitEdge { edge, records }
+                })
+                .collect::<Vec<_>>()
+        };
+        table.parts().flat_map_iter(of_part).collect()
+    }
+
+    fn fill_part(
+        &self,
+        first_edge: usize,
+        part: &EdgePart,
+        splits: &[SplitEdge],
+        records: &mut [EdgeRecord],
+        twins: &[AtomicU32],
+    ) {
+        let mut splits = splits.iter();
+        let mut at = 0;
+        for (local, (_, sides)) in part.iter().enumerate() {
+            let edge = first_edge + local;
+            match *sides {
+                [only] => records[at] = self.single(only, EdgeFlags::BOUNDARY),
+                [a, b] => records[at] = self.pair(edge, a, b, twins),
+                _ => {
+                    let split = splits.next().map_or(&[][..], |split| &split.records);
+                    records[at..at + split.len()].copy_from_slice(split);
+                    at += split.len();
+                    continue;
+                }
+            }
+            if self.marks.is_marked(edge) {
+                records[at].flags |= EdgeFlags::MARKED;
+            }
+            at += 1;
+        }
+    }
+
     fn single(&self, side: u32, flags: EdgeFlags) -> EdgeRecord {
         let [v0, v1] = triangle_side(self.triangles, side);
         EdgeRecord { v0, v1, face_a: side / 3, face_b: NONE, flags }
@@ -107,45 +164,31 @@ impl RecordInput<'_> {
 
     /// The record of an edge with two faces; A is the one that runs from the
     /// smaller vertex to the larger.
-    fn pair(&self, first: u32, second: u32, clashes: bool, options: &BuildOptions) -> EdgeRecord {
+    fn pair(&self, edge: usize, first: u32, second: u32, twins: &[AtomicU32]) -> EdgeRecord {
         let [start, end] = triangle_side(self.triangles, first);
+        let clashes = self.clashes.binary_search(&to_u32(edge)).is_ok();
         let (a, b) = if start < end || clashes { (first, second) } else { (second, first) };
         let mut record = self.single(a, EdgeFlags::empty());
         record.face_b = b / 3;
-        record.flags.set(EdgeFlags::CLASH, clashes);
-        if is_diagonal_edge(&[a, b], self.is_diagonal) {
+        if clashes {
+            record.flags |= EdgeFlags::CLASH;
+        } else {
+            join(twins, a, b);
+        }
+        if self.sources.is_diagonal_edge(&[a, b]) || self.marks.is_hidden(edge) {
             record.flags |= EdgeFlags::DIAGONAL;
             return record;
         }
-        record.flags |= self.crease(&record, b, options);
-        let differs =
-            self.materials[record.face_a as usize] != self.materials[record.face_b as usize];
-        record.flags.set(EdgeFlags::MATERIAL, differs);
+        record.flags |= self.crease(&record, b);
+        record.flags |= self.attributes.borders(record.face_a, record.face_b);
         record
     }
 
-    /// Ridge or valley by Equation 1, the thresholds read as angles between
-    /// the face normals: `n_A . n_B < cos(threshold)`.
-    fn crease(&self, record: &EdgeRecord, side_b: u32, options: &BuildOptions) -> EdgeFlags {
-        let (Some(normal_a), Some(mut normal_b)) =
-            (self.normals[record.face_a as usize], self.normals[record.face_b as usize])
-        else {
-            return EdgeFlags::empty();
-        };
-        if record.flags.contains(EdgeFlags::CLASH) {
-            normal_b = -normal_b;
-        }
-        // (v3 - v2) . n_A has the sign of (v3 - v0) . n_A, since v2 lies in A.
+    fn crease(&self, record: &EdgeRecord, side_b: u32) -> EdgeFlags {
         let apex_b = self.triangles[record.face_b as usize][(side_b as usize + 2) % 3];
-        let is_concave = (self.position(apex_b) - self.position(record.v0)).dot(normal_a) > 0.0;
-        let cosine = normal_a.dot(normal_b);
-        if is_concave && cosine < options.valley_angle_rad.cos() {
-            EdgeFlags::VALLEY
-        } else if !is_concave && cosine < options.ridge_angle_rad.cos() {
-            EdgeFlags::RIDGE
-        } else {
-            EdgeFlags::empty()
-        }
+        let surface =
+            Surface { positions: self.positions, triangles: self.triangles, planes: self.planes };
+        surface.crease(record, apex_b, self.options)
     }
 
     fn position(&self, vertex: u32) -> DVec3 {
@@ -154,7 +197,13 @@ impl RecordInput<'_> {
 
     /// Splits the faces of one edge into pairs around solid matter; a face that
     /// finds no partner gets a record of its own.
-    fn split(&self, [low, high]: [u32; 2], sides: &[u32], records: &mut Vec<EdgeRecord>) {
+    fn split(
+        &self,
+        [low, high]: [u32; 2],
+        sides: &[u32],
+        twins: &[AtomicU32],
+        records: &mut Vec<EdgeRecord>,
+    ) {
         let around = self.sorted_by_angle(low, high, sides);
         let runs_up = |side: u32| triangle_side(self.triangles, side)[0] == low;
         let count = around.len();
@@ -169,6 +218,7 @@ impl RecordInput<'_> {
                 is_paired[next] = true;
                 let mut record = self.single(around[at], EdgeFlags::NON_MANIFOLD);
                 record.face_b = around[next] / 3;
+                join(twins, around[at], around[next]);
                 records.push(record);
             }
         }
@@ -198,6 +248,68 @@ impl RecordInput<'_> {
         keyed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         keyed.into_iter().map(|(_, side)| side).collect()
     }
+}
+
+/// What creases are worked out from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Surface<'a> {
+    pub(crate) positions: &'a [[f32; 3]],
+    pub(crate) triangles: &'a [[u32; 3]],
+    pub(crate) planes: &'a [FacePlane],
+}
+
+impl Surface<'_> {
+    /// Ridge or valley by Equation 1, the thresholds read as angles between
+    /// the face normals: `n_A . n_B < cos(threshold)`. `apex_b` is the vertex of
+    /// face B that is not on the edge.
+    pub(crate) fn crease(
+        &self,
+        record: &EdgeRecord,
+        apex_b: u32,
+        options: &BuildOptions,
+    ) -> EdgeFlags {
+        let faces = [record.face_a, record.face_b];
+        let [plane_a, plane_b] = faces.map(|face| &self.planes[face as usize]);
+        let sign = if record.flags.contains(EdgeFlags::CLASH) { -1.0 } else { 1.0 };
+        let cosine: f32 = plane_a.normal.iter().zip(plane_b.normal).map(|(a, b)| a * b).sum();
+        let [ridge, valley] = options.crease_cosines();
+        let is_smooth = sign * f64::from(cosine) > ridge.max(valley) + COSINE_ERROR;
+        if is_smooth || !has_area(plane_a) || !has_area(plane_b) {
+            return EdgeFlags::empty();
+        }
+        let [normal_a, normal_b] = faces
+            .map(|face| face_normal(corners_of(self.positions, self.triangles[face as usize])));
+        let cosine = sign * normal_a.dot(normal_b);
+        // (v3 - v2) . n_A has the sign of (v3 - v0) . n_A, since v2 lies in A.
+        let [v0, v3] = [record.v0, apex_b]
+            .map(|vertex| Vec3::from(self.positions[vertex as usize]).as_dvec3());
+        let is_concave = (v3 - v0).dot(normal_a) > 0.0;
+        if is_concave && cosine < valley {
+            EdgeFlags::VALLEY
+        } else if !is_concave && cosine < ridge {
+            EdgeFlags::RIDGE
+        } else {
+            EdgeFlags::empty()
+        }
+    }
+}
+
+/// Finds the creases of records by other thresholds.
+pub(crate) fn reclassify(surface: &Surface, records: &mut [EdgeRecord], options: &BuildOptions) {
+    let never = EdgeFlags::NON_MANIFOLD | EdgeFlags::DIAGONAL;
+    let sound = |record: &&mut EdgeRecord| record.face_b != NONE && !record.flags.intersects(never);
+    records.par_iter_mut().with_min_len(1 << 12).filter(sound).for_each(|record| {
+        let off_edge = |&vertex: &u32| vertex != record.v0 && vertex != record.v1;
+        let apex_b = surface.triangles[record.face_b as usize].into_iter().find(off_edge);
+        record.flags -= EdgeFlags::RIDGE | EdgeFlags::VALLEY;
+        record.flags |= surface.crease(record, apex_b.unwrap_or(record.v0), options);
+    });
+}
+
+/// Makes two sides each other's twins.
+fn join(twins: &[AtomicU32], a: u32, b: u32) {
+    twins[a as usize].store(b, Ordering::Relaxed);
+    twins[b as usize].store(a, Ordering::Relaxed);
 }
 
 #[cfg(test)]
@@ -254,20 +366,6 @@ mod tests {
         for (solid_a, solid_b) in split {
             assert_eq!(solid_a, solid_b, "each pair belongs to one solid");
         }
-    }
-
-    #[test]
-    fn closed_and_outward_is_solid() {
-        let corners = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
-        let outward: [&[u32]; 4] = [&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]];
-        let inward: [&[u32]; 4] = [&[0, 1, 2], &[0, 3, 1], &[1, 3, 2], &[0, 2, 3]];
-        let solid_count = |polygons: &[&[u32]]| {
-            let records = records_of(&corners, polygons);
-            records.iter().filter(|record| record.flags.contains(EdgeFlags::SOLID)).count()
-        };
-        assert_eq!(solid_count(&outward), 6);
-        assert_eq!(solid_count(&inward), 0);
-        assert_eq!(solid_count(&outward[..3]), 0, "open");
     }
 
     #[test]

@@ -20,7 +20,7 @@ use glam::DVec3;
 
 use crate::index::to_u32;
 use crate::model::Model;
-use crate::report::Report;
+use crate::report::{RepairKind, Report};
 
 /// Polygons above this are cut as fans whatever their shape: ear clipping takes
 /// quadratic time. The largest concave face seen in real files has 936 corners.
@@ -29,65 +29,47 @@ const MAX_EAR_CLIPPED_CORNERS: usize = 4096;
 /// A triangle of a polygon.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PolygonTriangle {
-    /// Indices into [`Model::corners`].
+    /// Indices of the model's corners.
     pub(crate) corners: [u32; 3],
-    /// Index into [`Model::polygons`].
+    /// The polygon, by its place in the model.
     pub(crate) polygon: u32,
     /// Bit k is set where the side from corner k to corner k+1 is a diagonal.
     pub(crate) diagonals: u8,
 }
 
-impl PolygonTriangle {
-    /// Turns the triangle around by swapping corners 1 and 2: sides 0 and 2
-    /// change places.
-    pub(crate) fn flip(&mut self) {
-        self.corners.swap(1, 2);
-        self.diagonals = (self.diagonals & 0b010)
-            | (self.diagonals & 0b001) << 2
-            | (self.diagonals & 0b100) >> 2;
-    }
-}
-
 /// Cuts every polygon of `model`; the order of polygons is kept.
 pub(crate) fn triangulate(model: &Model, report: &mut Report) -> Vec<PolygonTriangle> {
-    let mut triangles = Vec::with_capacity(model.polygons.len() * 2);
-    for (index, polygon) in model.polygons.iter().enumerate() {
-        let index = to_u32(index);
-        let count = polygon.corner_count as usize;
-        let first = polygon.first_corner;
-        let push = |local: [usize; 3], triangles: &mut Vec<PolygonTriangle>| {
+    let total = model.corner_positions.len() - 2 * model.polygon_count();
+    let mut triangles = Vec::with_capacity(total);
+    let mut points = Vec::new();
+    for polygon in 0..model.polygon_count() {
+        let range = model.corner_range(polygon);
+        let (first, count) = (to_u32(range.start), range.len());
+        let mut push = |local: [usize; 3]| {
             triangles.push(PolygonTriangle {
                 corners: local.map(|corner| first + to_u32(corner)),
-                polygon: index,
+                polygon: to_u32(polygon),
                 diagonals: diagonal_sides(local, count),
             });
         };
-        if count == 3 {
-            push([0, 1, 2], &mut triangles);
-            continue;
-        }
-        let points: Vec<DVec3> =
-            polygon.corner_range().map(|corner| position_of(model, corner)).collect();
-        if count <= MAX_EAR_CLIPPED_CORNERS
+        points.clear();
+        points.extend(range.map(|corner| position_of(model, corner)));
+        if (4..=MAX_EAR_CLIPPED_CORNERS).contains(&count)
             && fan_overlaps(&points)
             && let Some(ears) = clip_ears(&points)
         {
-            report.ear_clipped_polygons += 1;
-            for ear in ears {
-                push(ear, &mut triangles);
-            }
+            let place = Some(model.polygon_place(polygon));
+            report.repair(RepairKind::EarClippedPolygons, 1, place);
+            ears.into_iter().for_each(push);
         } else {
-            for k in 1..count - 1 {
-                push([0, k, k + 1], &mut triangles);
-            }
+            (1..count - 1).for_each(|k| push([0, k, k + 1]));
         }
     }
     triangles
 }
 
 fn position_of(model: &Model, corner: usize) -> DVec3 {
-    let [x, y, z] = model.positions[model.corners[corner].position as usize];
-    DVec3::new(x.into(), y.into(), z.into())
+    DVec3::from(model.positions[model.corner_positions[corner] as usize])
 }
 
 /// A side is a diagonal unless its ends follow each other in the polygon.
@@ -175,7 +157,7 @@ mod tests {
         assert_eq!(triangles[0].diagonals, 0b100);
         assert_eq!(triangles[1].corners, [0, 2, 3]);
         assert_eq!(triangles[1].diagonals, 0b001);
-        assert_eq!(report.ear_clipped_polygons, 0);
+        assert_eq!(report.repair_count(RepairKind::EarClippedPolygons), 0);
     }
 
     /// ```text
@@ -188,7 +170,7 @@ mod tests {
     fn a_dart_is_cut_by_ears_and_covers_its_area_once() {
         let dart = [[-2., -1., 0.], [0., 0., 0.], [2., -1., 0.], [0., 3., 0.]];
         let (triangles, report) = cut(&dart);
-        assert_eq!(report.ear_clipped_polygons, 1);
+        assert_eq!(report.repair_count(RepairKind::EarClippedPolygons), 1);
         let area: f64 = triangles
             .iter()
             .map(|triangle| {

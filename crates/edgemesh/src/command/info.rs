@@ -4,32 +4,33 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
+use glam::Vec3;
 use serde::Serialize;
 
-use super::options::{CameraOptions, CreaseOptions};
-use super::{Failure, print_to_stdout, print_warnings};
-use crate::build::build_edge_mesh;
-use crate::edge_mesh::EdgeMesh;
+use super::input::{InputOptions, Loaded};
+use super::options::CameraOptions;
+use super::{Failure, print_to_stdout, print_warnings, to_json};
+use crate::edge_mesh::{EdgeMesh, LayoutBytes};
 use crate::oracle::{FeatureCounts, count_features};
-use crate::read::read_model;
-use crate::report::Report;
+use crate::report::{RepairKind, Report, place_in};
 
 /// Prints counts of a model: vertices, edges, what is broken, feature edges
 #[derive(Debug, Clone, Args)]
 #[command(after_help = "Examples:\n  \
     edgemesh info bunny.obj\n  \
     edgemesh info bunny.obj --json --eye 0,0,5 --target 0,0,0\n  \
-    edgemesh info part.obj --ridge 20 --valley 60")]
+    edgemesh info part.stl --ridge 20 --valley 60\n  \
+    edgemesh info part.edgemesh other.glb --json")]
 pub struct InfoCommand {
-    /// The model file (OBJ)
-    #[arg(value_name = "MODEL")]
-    pub model: PathBuf,
-    /// Print JSON
+    /// Models (OBJ, PLY, STL, glTF, VRML) or edge meshes; - is standard input
+    #[arg(value_name = "MODEL", required = true)]
+    pub models: Vec<PathBuf>,
+    /// Print JSON: an object, or an array of them where there are several models
     #[arg(long)]
     pub json: bool,
-    /// Crease thresholds
+    /// How the input is read
     #[command(flatten)]
-    pub creases: CreaseOptions,
+    pub input: InputOptions,
     /// The view that contours are counted in
     #[command(flatten)]
     pub camera: CameraOptions,
@@ -39,24 +40,33 @@ impl InfoCommand {
     /// Reads, builds, counts and prints.
     ///
     /// # Errors
-    /// Where the model cannot be read, the camera is wrong, or standard output
-    /// cannot be written.
+    /// Where a model cannot be read, the camera is wrong, or standard output
+    /// cannot be written; nothing is printed then.
     pub fn run(&self, is_quiet: bool) -> Result<(), Failure> {
-        let (model, mut report) = read_model(&self.model)?;
-        let mesh = build_edge_mesh(&model, &self.creases.build_options(), &mut report);
-        // The aspect does not matter for the eye.
-        let eye = self.camera.camera(&mesh.bounds)?.view(&mesh.bounds, 1.0).eye;
-        let info = Info::of(&model.name, &mesh, &report, count_features(&mesh, eye));
-        if !is_quiet {
-            print_warnings(&model.name, &report);
-        }
-        let text = if self.json {
-            let json = serde_json::to_string_pretty(&info);
-            json.map_err(|error| Failure::fault(error.to_string()))? + "\n"
-        } else {
-            info.to_text()
+        let infos: Vec<Info> = self
+            .models
+            .iter()
+            .map(|model| {
+                let loaded = self.input.load(model, false, is_quiet)?;
+                if !is_quiet {
+                    print_warnings(&loaded.name, &loaded.report);
+                }
+                self.info_of(&loaded)
+            })
+            .collect::<Result<_, Failure>>()?;
+        let text = match &infos[..] {
+            [only] if self.json => to_json(only)?,
+            all if self.json => to_json(&all)?,
+            all => all.iter().map(Info::to_text).collect::<Vec<_>>().join("\n"),
         };
         print_to_stdout(text.as_bytes())
+    }
+
+    fn info_of(&self, loaded: &Loaded) -> Result<Info, Failure> {
+        let Loaded { name, mesh, report } = loaded;
+        // The aspect does not matter for the eye.
+        let eye = self.camera.camera(&mesh.bounds, &mesh.frame)?.view(&mesh.bounds, 1.0).eye;
+        Ok(Info::of(name, mesh, report, count_features(mesh, eye)))
     }
 }
 
@@ -76,25 +86,62 @@ pub struct Info {
     inconsistent_edges: usize,
     components: usize,
     bounds: BoundsInfo,
+    frame: FrameInfo,
     bytes: BytesInfo,
     records: usize,
+    chains: ChainsInfo,
     source: SourceInfo,
     repairs: RepairsInfo,
+    repair_places: Vec<RepairInfo>,
     warnings: Vec<WarningInfo>,
     features: FeatureCounts,
 }
 
+/// The box in the units of the file.
 #[derive(Debug, Clone, Serialize)]
 struct BoundsInfo {
-    min: [f32; 3],
-    max: [f32; 3],
+    min: [f64; 3],
+    max: [f64; 3],
 }
 
+impl BoundsInfo {
+    fn of(mesh: &EdgeMesh) -> Self {
+        let [min, max] = [mesh.bounds.min, mesh.bounds.max].map(|corner| {
+            if mesh.frame.is_identity() {
+                // The decimal digits of 32 bits, not those of 64.
+                corner.map(|x| x.to_string().parse().unwrap_or(f64::from(x)))
+            } else {
+                mesh.frame.to_file(Vec3::from(corner).as_dvec3()).to_array()
+            }
+        });
+        Self { min, max }
+    }
+}
+
+/// Where the mesh lies in its file: `in_mesh = (in_file - origin) * scale`.
+#[derive(Debug, Clone, Serialize)]
+struct FrameInfo {
+    origin: [f64; 3],
+    scale: f64,
+}
+
+/// Bytes of the mesh that goes in, and of the edge mesh in each layout.
 #[derive(Debug, Clone, Serialize)]
 struct BytesInfo {
+    input: usize,
     indexed: usize,
     replicated_f32: usize,
     replicated_i16: usize,
+}
+
+/// Chains of edges that no view changes.
+#[derive(Debug, Clone, Serialize)]
+struct ChainsInfo {
+    count: usize,
+    loops: usize,
+    edges: usize,
+    /// Edges of the longest one.
+    longest: u32,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -113,15 +160,34 @@ struct RepairsInfo {
     flipped_faces: usize,
     ear_clipped_polygons: usize,
     zero_area_triangles: usize,
+    split_edges: usize,
+    split_vertices: usize,
+    snapped_vertices: usize,
+    recentred: usize,
+}
+
+/// A repair as `--json` prints it.
+#[derive(Debug, Clone, Serialize)]
+pub struct RepairInfo {
+    /// The kind.
+    pub kind: &'static str,
+    /// How many elements it concerns.
+    pub count: usize,
+    /// The first one.
+    pub place: String,
 }
 
 /// A warning as `--json` prints it.
 #[derive(Debug, Clone, Serialize)]
 pub struct WarningInfo {
-    code: &'static str,
-    count: usize,
-    place: String,
-    message: String,
+    /// The kind.
+    pub code: &'static str,
+    /// How many elements it concerns.
+    pub count: usize,
+    /// The first one.
+    pub place: String,
+    /// What was found there, and what was done.
+    pub message: String,
 }
 
 impl Info {
@@ -129,7 +195,7 @@ impl Info {
     #[must_use]
     pub fn of(file: &str, mesh: &EdgeMesh, report: &Report, features: FeatureCounts) -> Self {
         let counts = &mesh.counts;
-        let bytes = mesh.layout_bytes();
+        let LayoutBytes { input, indexed, replicated_f32, replicated_i16 } = mesh.layout_bytes();
         Self {
             file: file.into(),
             vertices: counts.vertices,
@@ -143,27 +209,14 @@ impl Info {
             non_manifold_edges: counts.edges.non_manifold,
             inconsistent_edges: counts.edges.inconsistent,
             components: counts.components,
-            bounds: BoundsInfo { min: mesh.bounds.min, max: mesh.bounds.max },
-            bytes: BytesInfo {
-                indexed: bytes.indexed,
-                replicated_f32: bytes.replicated_f32,
-                replicated_i16: bytes.replicated_i16,
-            },
+            bounds: BoundsInfo::of(mesh),
+            frame: FrameInfo { origin: mesh.frame.origin.into(), scale: mesh.frame.scale },
+            bytes: BytesInfo { input, indexed, replicated_f32, replicated_i16 },
             records: mesh.records.len(),
-            source: SourceInfo {
-                vertices: counts.source.vertices,
-                polygons: counts.source.polygons,
-                triangles: counts.source.triangles,
-                edges: counts.source.edges.edges,
-                boundary_edges: counts.source.edges.boundary,
-                non_manifold_edges: counts.source.edges.non_manifold,
-                inconsistent_edges: counts.source.edges.inconsistent,
-            },
-            repairs: RepairsInfo {
-                flipped_faces: report.flipped_faces,
-                ear_clipped_polygons: report.ear_clipped_polygons,
-                zero_area_triangles: report.zero_area_triangles,
-            },
+            chains: ChainsInfo::of(mesh),
+            source: SourceInfo::of(mesh),
+            repairs: RepairsInfo::of(report),
+            repair_places: repairs_of(file, report),
             warnings: warnings_of(file, report),
             features,
         }
@@ -171,7 +224,7 @@ impl Info {
 
     fn to_text(&self) -> String {
         let mut text = String::new();
-        let rows: [(&str, usize, &str); 18] = [
+        let rows: [(&str, usize, &str); 19] = [
             ("vertices", self.vertices, "in the file"),
             ("welded", self.welded_vertices, "different positions that faces use"),
             ("polygons", self.source.polygons, ""),
@@ -190,19 +243,80 @@ impl Info {
             ("boundary", self.features.boundary as usize, ""),
             ("marked", self.features.marked as usize, ""),
             ("material", self.features.material as usize, "between two materials"),
+            ("smoothing", self.features.smoothing as usize, "between two smoothing groups"),
         ];
         let _ = writeln!(text, "{}", self.file);
         for (name, count, note) in rows {
             let _ = writeln!(text, "{}", format!("{name:<16}{count:>10}  {note}").trim_end());
         }
-        let _ = writeln!(
-            text,
-            "bytes           {:>10}  indexed\n                {:>10}  replicated, 32-bit floats\n                {:>10}  replicated, 16-bit",
-            self.bytes.indexed, self.bytes.replicated_f32, self.bytes.replicated_i16
-        );
+        let ChainsInfo { count, loops, edges, .. } = self.chains;
+        let _ = writeln!(text, "chains          {count:>10}  of {edges} edges, {loops} closed");
+        self.write_bytes(&mut text);
         let BoundsInfo { min, max } = &self.bounds;
         let _ = writeln!(text, "bounds          {min:?} to {max:?}");
+        for RepairInfo { kind, count, place } in &self.repair_places {
+            let kind = kind.replace('_', " ");
+            let _ = writeln!(text, "repaired        {count:>10}  {kind}, first at {place}");
+        }
         text
+    }
+
+    /// The layouts with their sizes over that of the mesh that goes in.
+    fn write_bytes(&self, text: &mut String) {
+        #[expect(clippy::cast_precision_loss, reason = "two digits are shown")]
+        let ratio = |bytes: usize| bytes as f64 / self.bytes.input.max(1) as f64;
+        let rows = [
+            ("bytes", self.bytes.input, "input: positions, normals, indices"),
+            ("", self.bytes.indexed, "indexed"),
+            ("", self.bytes.replicated_f32, "replicated, 32-bit floats"),
+            ("", self.bytes.replicated_i16, "replicated, 16-bit"),
+        ];
+        for (name, bytes, note) in rows {
+            let times = ratio(bytes);
+            let _ = writeln!(text, "{name:<16}{bytes:>10}  {note}, {times:.1} times the input");
+        }
+    }
+}
+
+impl ChainsInfo {
+    fn of(mesh: &EdgeMesh) -> Self {
+        let chains = &mesh.chains.chains;
+        Self {
+            count: chains.len(),
+            loops: chains.iter().filter(|chain| chain.is_loop != 0).count(),
+            edges: mesh.chains.links.len(),
+            longest: chains.iter().map(|chain| chain.link_count).max().unwrap_or_default(),
+        }
+    }
+}
+
+impl SourceInfo {
+    const fn of(mesh: &EdgeMesh) -> Self {
+        let source = &mesh.counts.source;
+        Self {
+            vertices: source.vertices,
+            polygons: source.polygons,
+            triangles: source.triangles,
+            edges: source.edges.edges,
+            boundary_edges: source.edges.boundary,
+            non_manifold_edges: source.edges.non_manifold,
+            inconsistent_edges: source.edges.inconsistent,
+        }
+    }
+}
+
+impl RepairsInfo {
+    fn of(report: &Report) -> Self {
+        let count = |kind| report.repair_count(kind);
+        Self {
+            flipped_faces: count(RepairKind::FlippedFaces),
+            ear_clipped_polygons: count(RepairKind::EarClippedPolygons),
+            zero_area_triangles: count(RepairKind::ZeroAreaTriangles),
+            split_edges: count(RepairKind::SplitEdges),
+            split_vertices: count(RepairKind::SplitVertices),
+            snapped_vertices: count(RepairKind::SnappedVertices),
+            recentred: count(RepairKind::Recentred),
+        }
     }
 }
 
@@ -215,8 +329,22 @@ pub fn warnings_of(file: &str, report: &Report) -> Vec<WarningInfo> {
         .map(|warning| WarningInfo {
             code: warning.code.as_str(),
             count: warning.count,
-            place: warning.line.map_or_else(|| file.to_owned(), |line| format!("{file}:{line}")),
+            place: place_in(file, warning.place.as_ref()),
             message: warning.message.clone(),
+        })
+        .collect()
+}
+
+/// The repairs of `report` for JSON, each with its first place.
+#[must_use]
+pub fn repairs_of(file: &str, report: &Report) -> Vec<RepairInfo> {
+    report
+        .repairs()
+        .iter()
+        .map(|repair| RepairInfo {
+            kind: repair.kind.as_str(),
+            count: repair.count,
+            place: place_in(file, repair.place.as_ref()),
         })
         .collect()
 }

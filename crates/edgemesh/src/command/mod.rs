@@ -4,9 +4,17 @@
 //! what is wrong, where, and what to do. Files are written beside their target
 //! and renamed into place.
 
+pub mod build;
+pub mod export;
 pub mod info;
+pub mod input;
+pub mod manual;
+mod marks;
 pub mod options;
 mod output;
+mod progress;
+mod target;
+pub mod validate;
 
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -16,9 +24,11 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag::register_conditional_shutdown;
 
 pub use output::{print_to_stdout, write_file};
+pub use progress::Progress;
+use serde::Serialize;
 
-use crate::read::ReadError;
-use crate::report::Report;
+use crate::read::{ReadError, ReadErrorKind};
+use crate::report::{Report, Warning, place_in};
 
 /// What a command's exit status means; scripts rely on the numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,8 +72,8 @@ impl Failure {
 
 impl From<ReadError> for Failure {
     fn from(error: ReadError) -> Self {
-        let status = match error {
-            ReadError::Internal { .. } => ExitStatus::Internal,
+        let status = match error.kind {
+            ReadErrorKind::Internal => ExitStatus::Internal,
             _ => ExitStatus::Fault,
         };
         Self { message: error.to_string(), status }
@@ -96,16 +106,39 @@ pub fn run(body: impl FnOnce() -> Result<(), Failure> + std::panic::UnwindSafe) 
     }
 }
 
+/// `value` as JSON with a final line end.
+///
+/// # Errors
+/// Where it cannot be written as JSON, which is a fault of ours.
+pub fn to_json(value: &impl Serialize) -> Result<String, Failure> {
+    serde_json::to_string_pretty(value).map(|json| json + "\n").map_err(|error| Failure {
+        message: format!("internal error: no JSON: {error}"),
+        status: ExitStatus::Internal,
+    })
+}
+
+/// The failure that warnings are with `--strict`: one message a kind.
+fn strict_failure(model_name: &str, report: &Report) -> Failure {
+    let lines: Vec<String> =
+        report.warnings().iter().map(|warning| warning_line(model_name, "", warning)).collect();
+    Failure::fault(lines.join("\nerror: "))
+}
+
+/// A warning with its first place, the word for its level, how many more there are, and its code.
+fn warning_line(model_name: &str, level: &str, warning: &Warning) -> String {
+    let Warning { code, count, place, message } = warning;
+    let more = match count {
+        1 => String::new(),
+        count => format!(" (and {} more)", count - 1),
+    };
+    format!("{}: {level}{message}{more} [{code}]", place_in(model_name, place.as_ref()))
+}
+
 /// Prints each kind of warning once, with its first place and how many more
 /// there are.
 #[expect(clippy::print_stderr, reason = "messages go to standard error")]
 pub fn print_warnings(model_name: &str, report: &Report) {
     for warning in report.warnings() {
-        let line = warning.line.map_or_else(String::new, |line| format!("{line}:"));
-        let more = match warning.count {
-            1 => String::new(),
-            count => format!(" (and {} more)", count - 1),
-        };
-        eprintln!("{model_name}:{line} warning: {}{more} [{}]", warning.message, warning.code);
+        eprintln!("{}", warning_line(model_name, "warning: ", warning));
     }
 }

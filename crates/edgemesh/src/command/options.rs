@@ -4,7 +4,7 @@ use clap::Args;
 use glam::DVec3;
 
 use super::Failure;
-use crate::build::BuildOptions;
+use crate::build::{BuildOptions, Frame};
 use crate::camera::Camera;
 use crate::edge_mesh::Bounds;
 
@@ -31,17 +31,18 @@ pub struct CameraOptions {
 }
 
 impl CameraOptions {
-    /// The camera for a model within `bounds`.
+    /// The camera for a mesh within `bounds`, in the mesh's own units; points of
+    /// the command line are in those of its file.
     ///
     /// # Errors
     /// Where the eye lies on the target, or up points along the line of sight.
-    pub fn camera(&self, bounds: &Bounds) -> Result<Camera, Failure> {
+    pub fn camera(&self, bounds: &Bounds, frame: &Frame) -> Result<Camera, Failure> {
         let mut camera = Camera::default_view(bounds);
-        if let Some(target) = self.target {
+        if let Some(target) = self.target.map(|target| frame.to_mesh(target)) {
             camera.eye += target - camera.target;
             camera.target = target;
         }
-        if let Some(eye) = self.eye {
+        if let Some(eye) = self.eye.map(|eye| frame.to_mesh(eye)) {
             camera.eye = eye;
         }
         if camera.eye == camera.target {
@@ -103,6 +104,12 @@ pub struct CreaseOptions {
 }
 
 impl CreaseOptions {
+    /// Whether any threshold was given.
+    #[must_use]
+    pub const fn is_given(&self) -> bool {
+        self.crease.is_some() || self.ridge.is_some() || self.valley.is_some()
+    }
+
     /// The thresholds as the builder takes them.
     #[must_use]
     pub fn build_options(&self) -> BuildOptions {
@@ -162,10 +169,10 @@ mod tests {
     fn a_target_alone_carries_the_eye_along() {
         let bounds = Bounds { min: [-1.0; 3], max: [1.0; 3] };
         let options = CameraOptions { target: Some(DVec3::X), ..CameraOptions::default() };
-        let camera = options.camera(&bounds).unwrap();
+        let camera = options.camera(&bounds, &Frame::default()).unwrap();
         let default = Camera::default_view(&bounds);
         assert!((camera.eye - default.eye - DVec3::X).length() < 1e-12);
         let same = CameraOptions { eye: Some(DVec3::ZERO), ..CameraOptions::default() };
-        assert!(same.camera(&bounds).is_err());
+        assert!(same.camera(&bounds, &Frame::default()).is_err());
     }
 }

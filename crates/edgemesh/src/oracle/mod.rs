@@ -46,6 +46,8 @@ pub struct FeatureCounts {
     pub marked: u32,
     /// Edges between two materials.
     pub material: u32,
+    /// Edges between two smoothing groups.
+    pub smoothing: u32,
 }
 
 /// One facing bit a face: whether it faces `eye` (w = 1), or the direction to
@@ -63,8 +65,8 @@ pub fn classify_edges(mesh: &EdgeMesh, eye: Vec4) -> Vec<LineBits> {
     mesh.records
         .iter()
         .map(|record| {
-            let a_faces = facing[record.face_a as usize];
-            let b_faces = record.face_b != NONE && facing[record.face_b as usize];
+            let faces = |face: u32| face != NONE && facing[face as usize];
+            let (a_faces, b_faces) = (faces(record.face_a), faces(record.face_b));
             classify_edge(record.flags, record.face_b != NONE, a_faces, b_faces, outside)
         })
         .collect()
@@ -85,6 +87,7 @@ pub fn count_features(mesh: &EdgeMesh, eye: Vec4) -> FeatureCounts {
         counts.boundary += has(EdgeFlags::BOUNDARY);
         counts.marked += has(EdgeFlags::MARKED);
         counts.material += has(EdgeFlags::MATERIAL);
+        counts.smoothing += has(EdgeFlags::SMOOTHING);
     }
     counts
 }

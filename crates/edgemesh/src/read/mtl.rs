@@ -4,20 +4,64 @@
 //! for a material without a name, and panics at a colour of fewer than three
 //! numbers. So only the statements that are used reach it, each in sound form.
 
-use std::fs;
-use std::path::{Component, Path};
+use rustc_hash::FxHashMap;
 
-use super::MAX_FILE_BYTES;
+use super::source::Source;
+use crate::model::Material;
+use crate::report::{Place, Report, WarningCode};
+
+/// Gives `materials` the colours that libraries have under their names; the
+/// first one of a name holds. `libraries` are `mtllib` statements with their
+/// lines.
+pub(super) fn read_materials(
+    source: &Source,
+    libraries: &[(String, u32)],
+    materials: &mut [Material],
+    report: &mut Report,
+) {
+    let mut by_name = FxHashMap::default();
+    for (statement, line) in libraries {
+        for name in library_names(source, statement) {
+            match read_library(source, &name) {
+                Ok(known) => {
+                    for material in known {
+                        by_name.entry(material.name.clone()).or_insert(material);
+                    }
+                }
+                Err(why) => report.warn(WarningCode::Material, Some(Place::Line(*line)), || {
+                    format!("material library '{name}' {why}; its colours are left out")
+                }),
+            }
+        }
+    }
+    for material in materials {
+        if let Some(known) = by_name.get(&material.name) {
+            *material = material_of(known);
+        }
+    }
+}
+
+fn material_of(material: &tobj::Material) -> Material {
+    Material {
+        name: material.name.clone(),
+        ambient: material.ambient,
+        diffuse: material.diffuse,
+        specular: material.specular,
+        shininess: material.shininess,
+        opacity: material.dissolve,
+        diffuse_texture: material.diffuse_texture.clone(),
+    }
+}
 
 /// The files that an `mtllib` statement names: a single one, whose name may hold
 /// blanks, or several, where blanks in a name stand behind a backslash.
-pub(super) fn library_names(model_path: &Path, rest: &str) -> Vec<String> {
+fn library_names(source: &Source, rest: &str) -> Vec<String> {
     // No file name holds this, as no text does.
     const ESCAPED_BLANK: &str = "\0";
     let unescaped = rest.replace("\\ ", " ");
     let escaped = rest.replace("\\ ", ESCAPED_BLANK);
     let several = || escaped.split_whitespace().map(|name| name.replace(ESCAPED_BLANK, " "));
-    if several().count() < 2 || read_library(model_path, &unescaped).is_ok() {
+    if several().count() < 2 || source.sidecar_path(&unescaped).is_ok() {
         return vec![unescaped];
     }
     several().collect()
@@ -25,28 +69,8 @@ pub(super) fn library_names(model_path: &Path, rest: &str) -> Vec<String> {
 
 /// Reads a library that lies in the model's folder or below; the error says
 /// why not, and never what was in the file.
-pub(super) fn read_library(model_path: &Path, name: &str) -> Result<Vec<tobj::Material>, String> {
-    let relative = name.replace('\\', "/");
-    let relative = Path::new(&relative);
-    let stays_inside =
-        relative.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
-    if !stays_inside {
-        return Err("lies outside the model's folder and was not opened".into());
-    }
-    let folder = match model_path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    let folder = folder.canonicalize().map_err(|error| error.to_string())?;
-    let target = folder.join(relative).canonicalize().map_err(|_| "was not found".to_owned())?;
-    if !target.starts_with(&folder) {
-        return Err("lies outside the model's folder and was not opened".into());
-    }
-    let metadata = fs::metadata(&target).map_err(|error| error.to_string())?;
-    if !metadata.is_file() || metadata.len() > MAX_FILE_BYTES {
-        return Err("is no file of a sensible size".into());
-    }
-    let bytes = fs::read(&target).map_err(|error| error.to_string())?;
+fn read_library(source: &Source, name: &str) -> Result<Vec<tobj::Material>, String> {
+    let bytes = source.sidecar(name)?;
     let text = screened(&String::from_utf8_lossy(&bytes));
     tobj::load_mtl_buf(&mut text.as_bytes())
         .map(|(materials, _)| materials)
@@ -83,16 +107,25 @@ mod tests {
     #[test]
     fn libraries_with_blanks_several_and_nameless_materials() {
         let folder = tempfile::tempdir().unwrap();
-        let model = folder.path().join("model.obj");
-        let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+        let write =
+            |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
         write("a b.mtl", "newmtl first\nKd 1 0 0\n");
-        write("c.mtl", "newmtl\nKd 0 1 0\nnewmtl second\nKd 0 0 1\n");
-        for (statement, count) in [("a b.mtl", 1), ("a\\ b.mtl", 1), ("a\\ b.mtl c.mtl", 3)] {
-            let names = library_names(&model, statement);
-            let found = names.iter().map(|name| read_library(&model, name).unwrap().len());
+        write("c.mtl", "newmtl\nKd 0 1 0\nnewmtl second\nKd 0 0 1\nnewmtl first\nKd 1 1 1\n");
+        let source = Source { name: "model.obj", folder: Some(folder.path()), bytes: b"" };
+        for (statement, count) in [("a b.mtl", 1), ("a\\ b.mtl", 1), ("a\\ b.mtl c.mtl", 4)] {
+            let names = library_names(&source, statement);
+            let found = names.iter().map(|name| read_library(&source, name).unwrap().len());
             assert_eq!(found.sum::<usize>(), count, "{statement}");
         }
-        assert_eq!(library_names(&model, "x.mtl y.mtl"), ["x.mtl", "y.mtl"]);
+        assert_eq!(library_names(&source, "x.mtl y.mtl"), ["x.mtl", "y.mtl"]);
+        let named = |name: &str| Material { name: name.into(), ..Material::default() };
+        let mut materials = [named("first"), named("third")];
+        let mut report = Report::default();
+        let libraries = [("a\\ b.mtl c.mtl".to_owned(), 3), ("none.mtl".to_owned(), 4)];
+        read_materials(&source, &libraries, &mut materials, &mut report);
+        assert_eq!(materials[0].diffuse, Some([1.0, 0.0, 0.0]), "the first one holds");
+        assert_eq!(materials[1], named("third"));
+        assert_eq!(report.warnings()[0].place, Some(Place::Line(4)));
     }
 
     #[test]
@@ -104,14 +137,5 @@ mod tests {
         assert_eq!(materials[0].diffuse, Some([0.5; 3]));
         assert_eq!((materials[0].ambient, materials[0].specular), (None, None));
         assert_eq!((materials[0].shininess, materials[0].dissolve), (None, Some(0.75)));
-    }
-
-    #[test]
-    fn libraries_outside_the_folder_are_not_opened() {
-        for name in ["../secret.mtl", "/etc/hostname", "..\\secret.mtl"] {
-            let why = read_library(Path::new("model.obj"), name).unwrap_err();
-            assert!(why.contains("outside"), "{name}: {why}");
-        }
-        assert!(read_library(Path::new("model.obj"), "none.mtl").unwrap_err().contains("found"));
     }
 }

@@ -6,8 +6,9 @@ use edgemesh::build::BuildOptions;
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::index::NONE;
 use edgemesh::oracle;
-use edgemesh::record::{EdgeFlags, EdgeRecord, replicate};
-use edgemesh::report::WarningCode;
+use edgemesh::record::{EdgeFlags, EdgeRecord};
+use edgemesh::replicate::replicate;
+use edgemesh::report::{RepairKind, WarningCode};
 use edgemesh::topology::EdgeCounts;
 use proptest::prelude::*;
 
@@ -164,7 +165,8 @@ proptest! {
                 let (from, to) = if flags.contains(EdgeFlags::CLASH) { (v0, v1) } else { (v1, v0) };
                 prop_assert!(runs(&built, face_b, from, to), "face B right of it: {:?}", record);
                 prop_assert!(
-                    v0 < v1 || flags.intersects(EdgeFlags::CLASH | EdgeFlags::NON_MANIFOLD),
+                    built.welded_vertex(v0) < built.welded_vertex(v1)
+                        || flags.intersects(EdgeFlags::CLASH | EdgeFlags::NON_MANIFOLD),
                     "A runs from the smaller vertex to the larger: {:?}",
                     record
                 );
@@ -179,7 +181,10 @@ proptest! {
             .map(|(&ends, faces)| (ends, faces.iter().map(|(face, _)| *face).collect()))
             .collect();
         prop_assert_eq!(found, expected);
-        let vertices = |record: &EdgeRecord| (record.v0.min(record.v1), record.v0.max(record.v1));
+        let vertices = |record: &EdgeRecord| {
+            let [a, b] = [record.v0, record.v1].map(|vertex| built.welded_vertex(vertex));
+            (a.min(b), a.max(b))
+        };
         prop_assert!(built.records.is_sorted_by_key(vertices), "sorted by (min, max) vertex");
         let clashes =
             built.records.iter().filter(|r| r.flags.contains(EdgeFlags::CLASH)).count();
@@ -199,7 +204,7 @@ proptest! {
                 flipped.insert(face);
             }
         }
-        prop_assert_eq!(report.flipped_faces, flipped.len());
+        prop_assert_eq!(report.repair_count(RepairKind::FlippedFaces), flipped.len());
         for set in components(naive.unique.len(), &users(&naive.unique), |faces| faces.len() == 2) {
             prop_assert!(2 * flipped.intersection(&set).count() <= set.len(), "the minority");
         }
@@ -291,7 +296,7 @@ proptest! {
     #[test]
     fn a_minority_of_wrong_faces_is_mended(mesh in oriented_mesh(), seed in any::<u64>()) {
         // Ears may be cut elsewhere when a polygon runs the other way.
-        let is_fan = mesh.build_with(&BuildOptions::default()).1.ear_clipped_polygons == 0;
+        let is_fan = mesh.build_with(&BuildOptions::default()).1.repair_count(RepairKind::EarClippedPolygons) == 0;
         let mesh = if is_fan { mesh } else { mesh.triangulated() };
         let sound = mesh.build();
         let picks = Noise(seed).permutation(mesh.polygons.len());
@@ -306,7 +311,7 @@ proptest! {
         }
         let broken = mesh.turned(|face| is_turned[face]);
         let (mended, report) = broken.build_with(&BuildOptions::default());
-        prop_assert_eq!(report.flipped_faces, minority);
+        prop_assert_eq!(report.repair_count(RepairKind::FlippedFaces), minority);
         prop_assert!(minority == 0 || mended.counts.edges.inconsistent > 0, "it was broken");
         // Corners 1 and 2 of a face may be met in another order.
         let flags = |mesh: &EdgeMesh| -> BTreeMap<_, _> {
@@ -332,7 +337,7 @@ proptest! {
         prop_assert_eq!((edges.boundary, edges.non_manifold, edges.inconsistent), (0, 0, 0));
         prop_assert_eq!(2 * edges.edges, 3 * built.triangles.len());
         prop_assert_eq!(built.counts.components, 1);
-        prop_assert_eq!((report.flipped_faces, report.warnings().len()), (0, 0));
+        prop_assert_eq!((report.repair_count(RepairKind::FlippedFaces), report.warnings().len()), (0, 0));
     }
 }
 

@@ -2,8 +2,14 @@
 //!
 //! - `edges`: each edge once, counted again by plain maps; Euler's formula;
 //!   order and winding do not matter.
+//! - `linked`: chains, fans, welding, frames, threads.
+//! - `files`: what is written is read again.
 //! - `views`: contours and creases under flips, scales and the paper's Equation 1.
+//! - `exports`: what is written reads back as the edge mesh that it is from.
 //! - `readers`: the same polygons as two other OBJ parsers.
+//! - `readers_ply_stl`: the same polygons as other PLY and STL parsers, and what
+//!   sound, broken and cut files give.
+//! - `readers_gltf`: sound and broken glTF files of others.
 //!
 //! `PROPTEST_CASES` (256 for the usual count) makes runs longer,
 //! `PROPTEST_RNG_SEED` gives other cases.
@@ -11,8 +17,14 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod edges;
+mod exports;
+mod files;
+mod gltf_edges;
+mod linked;
 mod meshes;
 mod readers;
+mod readers_gltf;
+mod readers_ply_stl;
 mod views;
 
 use proptest::test_runner::{Config, RngSeed};

@@ -9,13 +9,13 @@ use edgemesh::read::read_model;
 use obj::raw::object::Polygon;
 
 /// The polygons of a file, each as the positions of its corners.
-type Polygons = Vec<Vec<[f32; 3]>>;
+pub(crate) type Polygons = Vec<Vec<[f32; 3]>>;
 
 /// At least this many files are read by both parsers of a comparison.
 const COMPARED: usize = 40;
 
 /// `EDGEMESH_SHARED`, else `../shared` beside the workspace.
-fn corpus() -> Option<PathBuf> {
+pub(crate) fn corpus() -> Option<PathBuf> {
     let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared");
     let folder = env::var_os("EDGEMESH_SHARED").map_or(beside, PathBuf::from);
     Some(folder).filter(|folder| folder.is_dir())
@@ -35,9 +35,13 @@ fn obj_files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-fn ours(model: &Model) -> Polygons {
-    let position = |corner: usize| model.positions[model.corners[corner].position as usize];
-    model.polygons.iter().map(|polygon| polygon.corner_range().map(position).collect()).collect()
+#[expect(clippy::cast_possible_truncation, reason = "the other parsers give 32 bits")]
+pub(crate) fn ours(model: &Model) -> Polygons {
+    let position = |corner: usize| {
+        model.positions[model.corner_positions[corner] as usize].map(|coordinate| coordinate as f32)
+    };
+    let polygons = 0..model.polygon_count();
+    polygons.map(|polygon| model.corner_range(polygon).map(position).collect()).collect()
 }
 
 fn by_tobj(path: &Path) -> Option<Polygons> {
@@ -88,7 +92,7 @@ fn by_obj_rs(path: &Path) -> Option<Polygons> {
 }
 
 /// Says where the two differ first.
-fn compare(ours: &Polygons, theirs: &Polygons) -> Result<(), String> {
+pub(crate) fn compare(ours: &Polygons, theirs: &Polygons) -> Result<(), String> {
     if ours.len() != theirs.len() {
         return Err(format!("{} polygons, there {}", ours.len(), theirs.len()));
     }

@@ -9,7 +9,8 @@ use edgemesh::edge_mesh::{Bounds, EdgeMesh};
 use edgemesh::index::NONE;
 use edgemesh::oracle::classify_edges;
 use edgemesh::oracle::feature::{LineBits, equation_1};
-use edgemesh::record::{EdgeFlags, EdgeRecord, replicate};
+use edgemesh::record::{EdgeFlags, EdgeRecord};
+use edgemesh::replicate::replicate;
 use glam::{DVec3, Vec3, Vec4};
 use proptest::prelude::*;
 
@@ -151,7 +152,8 @@ proptest! {
         prop_assert_eq!(&small.triangles, &large.triangles);
         prop_assert_eq!(&small.vertex_normals, &large.vertex_normals);
         prop_assert_eq!(small.counts, large.counts);
-        let scaled_eye = (eye.truncate() * scale).extend(eye.w);
+        let eye_in_file = eye.truncate().as_dvec3() * f64::from(scale);
+        let scaled_eye = large.frame.to_mesh(eye_in_file).as_vec3().extend(eye.w);
         prop_assert_eq!(classify_edges(&small, eye), classify_edges(&large, scaled_eye));
     }
 

@@ -5,7 +5,8 @@ mod render;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, Parser, Subcommand};
+use edgemesh::command::manual::{CompletionsCommand, ManCommand};
 use edgemesh::command::options::MessageOptions;
 use edgemesh::command::run;
 
@@ -24,6 +25,10 @@ enum Command {
     // Boxed: it has far more options than the others.
     Render(Box<render::RenderCommand>),
     Adapters(adapters::AdaptersCommand),
+    #[command(hide = true)]
+    Completions(CompletionsCommand),
+    #[command(hide = true)]
+    Man(ManCommand),
 }
 
 /// Reads the command line, does what it says, and returns the exit status.
@@ -34,5 +39,7 @@ pub fn main() -> ExitCode {
     run(move || match arguments.command {
         Command::Render(command) => command.run(arguments.messages.quiet),
         Command::Adapters(command) => command.run(),
+        Command::Completions(command) => command.run(Viewer::command()),
+        Command::Man(command) => command.run(Viewer::command()),
     })
 }

@@ -8,7 +8,8 @@ use std::thread;
 
 use clap::Args;
 use edgemesh::camera::Camera;
-use edgemesh::command::options::{CameraOptions, CreaseOptions};
+use edgemesh::command::input::InputOptions;
+use edgemesh::command::options::CameraOptions;
 use edgemesh::command::{ExitStatus, Failure, print_to_stdout, print_warnings, write_file};
 use edgemesh::oracle::FeatureCounts;
 use glam::DQuat;
@@ -25,7 +26,7 @@ use crate::technique::{TECHNIQUES, Technique, VARIABLES};
 #[derive(Debug, Clone, Args)]
 #[command(after_long_help = long_help(), after_help = EXAMPLES)]
 pub(super) struct RenderCommand {
-    /// The model files (OBJ)
+    /// Models (OBJ, PLY, STL, glTF, VRML) or edge meshes; - is standard input
     #[arg(value_name = "MODEL", required = true)]
     models: Vec<PathBuf>,
     /// The picture to write (PNG), or - for standard output
@@ -66,7 +67,7 @@ pub(super) struct RenderCommand {
     #[command(flatten)]
     camera: CameraOptions,
     #[command(flatten)]
-    creases: CreaseOptions,
+    input: InputOptions,
 }
 
 const EXAMPLES: &str = "Examples:\n  \
@@ -113,14 +114,14 @@ impl RenderCommand {
             technique.make_transparent();
         }
         let reference = self.reference.as_deref().map(read_png).transpose()?;
-        let (gpu, scene) = self.open_and_load()?;
+        let (gpu, scene) = self.open_and_load(is_quiet)?;
         if !is_quiet {
-            for (name, _, report) in &scene.models {
-                print_warnings(name, report);
+            for model in &scene.models {
+                print_warnings(&model.name, &model.report);
             }
         }
         log::info!("drawing on {} ({})", gpu.info.name, gpu.info.backend);
-        let camera = self.camera.camera(&scene.bounds)?;
+        let camera = self.camera.camera(&scene.bounds, &scene.frame)?;
         let samples = if self.samples == "1" { 1 } else { 4 };
         let renderer = PictureRenderer::new(&gpu, &scene, &technique.look(), self.size, samples)?;
         let statistics = match self.turntable {
@@ -131,10 +132,10 @@ impl RenderCommand {
     }
 
     /// The device opens while the models are read: each takes its time alone.
-    fn open_and_load(&self) -> Result<(Gpu, Scene), Failure> {
+    fn open_and_load(&self, is_quiet: bool) -> Result<(Gpu, Scene), Failure> {
         thread::scope(|scope| {
             let opening = scope.spawn(|| pollster::block_on(gpu::open(self.adapter.as_deref())));
-            let scene = Scene::load(&self.models, &self.creases.build_options());
+            let scene = Scene::load(&self.models, &self.input, is_quiet);
             let gpu = opening.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
             // What is wrong with the model is told first; it is likelier and nearer.
             let scene = scene?;
@@ -260,7 +261,7 @@ impl RenderCommand {
     ) -> Result<(), Failure> {
         let Some(path) = &self.stats else { return Ok(()) };
         let sum = |count: fn(&edgemesh::edge_mesh::MeshCounts) -> usize| {
-            scene.models.iter().map(|(_, mesh, _)| count(&mesh.counts)).sum()
+            scene.models.iter().map(|model| count(&model.mesh.counts)).sum()
         };
         let passes = statistics.passes.iter();
         let statistics = Statistics {

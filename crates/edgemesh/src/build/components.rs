@@ -1,0 +1,215 @@
+//! Which faces hang together, and which of these components are solids.
+//!
+//! Idea: a union-find over all faces that several threads work on at once: a
+//! root is hung below a smaller one by compare-and-swap, and tried again where
+//! another thread was quicker (Anderson and Woll 1991, "Wait-free Parallel
+//! Algorithms for the Union-Find Problem"). Roots only ever become smaller, so
+//! each set ends with its smallest face as root, whatever the order.
+//!
+//! Rejected: walking from face to face, which one thread does alone.
+
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+use super::planes::corners_of;
+use crate::index::{NONE, to_u32};
+use crate::record::{EdgeFlags, EdgeRecord};
+use crate::topology::EdgeTable;
+
+/// Faces whose volumes one thread sums up in a row.
+const FACES_PER_BLOCK: usize = 1 << 16;
+
+/// Disjoint sets of numbers; the smallest of a set is its root.
+#[derive(Debug)]
+pub(crate) struct Sets {
+    parents: Vec<AtomicU32>,
+}
+
+impl Sets {
+    pub(crate) fn new(count: usize) -> Self {
+        Self { parents: (0..to_u32(count)).into_par_iter().map(AtomicU32::new).collect() }
+    }
+
+    pub(crate) fn root(&self, mut item: u32) -> u32 {
+        loop {
+            let parent = self.parents[item as usize].load(Ordering::Relaxed);
+            if parent == item {
+                return item;
+            }
+            let grandparent = self.parents[parent as usize].load(Ordering::Relaxed);
+            // Halving is only a short cut: losing a race costs nothing.
+            self.parents[item as usize].store(grandparent, Ordering::Relaxed);
+            item = grandparent;
+        }
+    }
+
+    pub(crate) fn join(&self, a: u32, b: u32) {
+        let (mut a, mut b) = (a, b);
+        loop {
+            (a, b) = (self.root(a), self.root(b));
+            if a == b {
+                return;
+            }
+            let (low, high) = (a.min(b), a.max(b));
+            let hung = self.parents[high as usize].compare_exchange(
+                high,
+                low,
+                Ordering::Relaxed,
+                Ordering::Relaxed,
+            );
+            if hung.is_ok() {
+                return;
+            }
+        }
+    }
+}
+
+/// The components of a mesh's faces.
+#[derive(Debug)]
+pub(crate) struct Components {
+    /// The component of each face, counted from 0 in the order of their first
+    /// faces.
+    pub(crate) of_face: Vec<u32>,
+    pub(crate) count: usize,
+}
+
+impl Components {
+    /// Faces that share records.
+    pub(crate) fn of_records(face_count: usize, records: &[EdgeRecord]) -> Self {
+        let sets = Sets::new(face_count);
+        records.par_iter().with_min_len(1 << 12).for_each(|record| {
+            if record.face_b != NONE {
+                sets.join(record.face_a, record.face_b);
+            }
+        });
+        Self::number(&sets, face_count)
+    }
+
+    fn number(sets: &Sets, face_count: usize) -> Self {
+        let mut of_face: Vec<u32> =
+            (0..to_u32(face_count)).into_par_iter().map(|face| sets.root(face)).collect();
+        let mut count = 0;
+        for face in 0..face_count {
+            let root = of_face[face] as usize;
+            // A root is the smallest of its set, and so numbered before.
+            of_face[face] = if root == face {
+                count += 1;
+                count - 1
+            } else {
+                of_face[root]
+            };
+        }
+        Self { of_face, count: count as usize }
+    }
+
+    /// How many components there are where an edge joins all of its faces, also
+    /// more than two.
+    pub(crate) fn count_joined_by_edges(&self, table: &EdgeTable) -> usize {
+        let sets = Sets::new(self.count);
+        for (_, sides) in table.iter().filter(|(_, sides)| sides.len() > 2) {
+            for pair in sides.windows(2) {
+                let [a, b] = [pair[0], pair[1]].map(|side| self.of_face[side as usize / 3]);
+                sets.join(a, b);
+            }
+        }
+        (0..to_u32(self.count)).filter(|&component| sets.root(component) == component).count()
+    }
+
+    /// Marks the edges of closed components whose faces look outwards.
+    ///
+    /// A component is closed where each of its edges has two faces that wind
+    /// the same way, and looks outwards where the volume it encloses is
+    /// positive.
+    pub(crate) fn mark_solids(
+        &self,
+        positions: &[[f32; 3]],
+        triangles: &[[u32; 3]],
+        records: &mut [EdgeRecord],
+    ) {
+        let opens = EdgeFlags::BOUNDARY | EdgeFlags::NON_MANIFOLD | EdgeFlags::CLASH;
+        let is_open: Vec<AtomicBool> = (0..self.count).map(|_| AtomicBool::new(false)).collect();
+        records.par_iter().with_min_len(1 << 12).for_each(|record| {
+            if record.flags.intersects(opens) {
+                for face in [record.face_a, record.face_b].into_iter().filter(|&f| f != NONE) {
+                    is_open[self.of_face[face as usize] as usize].store(true, Ordering::Relaxed);
+                }
+            }
+        });
+        let is_open: Vec<bool> = is_open.into_iter().map(AtomicBool::into_inner).collect();
+        if is_open.iter().all(|&open| open) {
+            return;
+        }
+        let volumes = self.volumes(positions, triangles);
+        records.par_iter_mut().with_min_len(1 << 12).for_each(|record| {
+            let component = self.of_face[record.face_a as usize] as usize;
+            let is_solid = !is_open[component] && volumes[component] > 0.0;
+            record.flags.set(EdgeFlags::SOLID, is_solid);
+        });
+    }
+
+    /// Six times the volume between each component and the first vertex.
+    ///
+    /// Blocks are summed side by side and then in their order, so that the sums
+    /// do not depend on the threads.
+    fn volumes(&self, positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<f64> {
+        let origin = positions.first().map_or(DVec3::ZERO, |&first| Vec3::from(first).as_dvec3());
+        let of_block = |(block, faces): (usize, &[[u32; 3]])| {
+            let mut sums: Vec<(u32, f64)> = Vec::new();
+            for (at, &triangle) in faces.iter().enumerate() {
+                let [a, b, c] = corners_of(positions, triangle).map(|corner| corner - origin);
+                let volume = a.dot(b.cross(c));
+                let component = self.of_face[block * FACES_PER_BLOCK + at];
+                match sums.last_mut() {
+                    Some(last) if last.0 == component => last.1 += volume,
+                    _ => sums.push((component, volume)),
+                }
+            }
+            sums
+        };
+        let blocks: Vec<_> =
+            triangles.par_chunks(FACES_PER_BLOCK).enumerate().map(of_block).collect();
+        let mut volumes = vec![0.0; self.count];
+        for (component, volume) in blocks.into_iter().flatten() {
+            volumes[component as usize] += volume;
+        }
+        volumes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::build::{BuildOptions, build_edge_mesh};
+    use crate::model::Model;
+    use crate::report::Report;
+
+    #[test]
+    fn sets_joined_at_once_have_their_smallest_as_root() {
+        let sets = Sets::new(10_000);
+        (0..9_997_u32).into_par_iter().for_each(|item| sets.join(item + 3, item));
+        for item in 0..10_000 {
+            assert_eq!(sets.root(item), item % 3);
+        }
+    }
+
+    fn records_of(positions: &[[f32; 3]], polygons: &[&[u32]]) -> Vec<EdgeRecord> {
+        let model = Model::from_polygons(positions, polygons);
+        build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default()).records
+    }
+
+    #[test]
+    fn closed_and_outward_is_solid() {
+        let corners = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
+        let outward: [&[u32]; 4] = [&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]];
+        let inward: [&[u32]; 4] = [&[0, 1, 2], &[0, 3, 1], &[1, 3, 2], &[0, 2, 3]];
+        let solid_count = |polygons: &[&[u32]]| {
+            let records = records_of(&corners, polygons);
+            records.iter().filter(|record| record.flags.contains(EdgeFlags::SOLID)).count()
+        };
+        assert_eq!(solid_count(&outward), 6);
+        assert_eq!(solid_count(&inward), 0);
+        assert_eq!(solid_count(&outward[..3]), 0, "open");
+    }
+}

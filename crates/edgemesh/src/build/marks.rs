@@ -1,0 +1,88 @@
+//! Edges that the artist chose: lines in the file, and pairs of vertices from a
+//! side file. A line that runs along no edge of the mesh is kept as a record of
+//! its own, without faces.
+
+use crate::index::{NONE, to_u32};
+use crate::model::Model;
+use crate::record::{EdgeFlags, EdgeRecord};
+use crate::report::{Place, Report, WarningCode};
+use crate::topology::EdgeTable;
+
+/// The marked edges of a mesh.
+#[derive(Debug, Default)]
+pub(crate) struct Marks {
+    /// Numbers of edges of the table, ascending.
+    marked: Vec<u32>,
+    /// Edges that are never creases, ascending.
+    hidden: Vec<u32>,
+    /// Lines that are no edge of the mesh, as welded vertices; ascending.
+    loose: Vec<[u32; 2]>,
+}
+
+impl Marks {
+    /// Finds the edges of the model's lines, and of `pairs` of its vertices
+    /// (counted from 0) with their lines in a side file.
+    pub(crate) fn find(
+        model: &Model,
+        pairs: &[[u32; 2]],
+        welded_from_input: &[u32],
+        table: &EdgeTable,
+        report: &mut Report,
+    ) -> Self {
+        let welded = |[a, b]: [u32; 2]| {
+            let end = |vertex: u32| welded_from_input.get(vertex as usize).copied().unwrap_or(NONE);
+            Some([end(a), end(b)]).filter(|[a, b]| *a != NONE && *b != NONE && a != b)
+        };
+        let mut marks = Self::default();
+        for segment in &model.segments {
+            let Some([a, b]) = welded(segment.ends) else { continue };
+            match table.find(a, b) {
+                Some(edge) => marks.marked.push(to_u32(edge)),
+                None => marks.loose.push([a.min(b), a.max(b)]),
+            }
+        }
+        for pair in pairs {
+            match welded(*pair).and_then(|[a, b]| table.find(a, b)) {
+                Some(edge) => marks.marked.push(to_u32(edge)),
+                None => report.warn(WarningCode::Mark, Some(Place::Vertex(u64::from(pair[0]) + 1)), || {
+                    let [a, b] = pair.map(|vertex| u64::from(vertex) + 1);
+                    format!("vertices {a} and {b} are marked but share no edge; the mark is left out")
+                }),
+            }
+        }
+        let hidden = model.hidden_edges.iter().filter_map(|pair| welded(*pair));
+        marks.hidden.extend(hidden.filter_map(|[a, b]| table.find(a, b)).map(to_u32));
+        marks.sort();
+        marks
+    }
+
+    fn sort(&mut self) {
+        for list in [&mut self.marked, &mut self.hidden] {
+            list.sort_unstable();
+            list.dedup();
+        }
+        self.loose.sort_unstable();
+        self.loose.dedup();
+    }
+
+    /// Whether edge number `edge` is marked.
+    pub(crate) fn is_marked(&self, edge: usize) -> bool {
+        !self.marked.is_empty() && self.marked.binary_search(&to_u32(edge)).is_ok()
+    }
+
+    /// Whether edge number `edge` is never a crease.
+    pub(crate) fn is_hidden(&self, edge: usize) -> bool {
+        !self.hidden.is_empty() && self.hidden.binary_search(&to_u32(edge)).is_ok()
+    }
+
+    /// Records of the lines that are no edge of the mesh.
+    pub(crate) fn loose_records(&self) -> impl Iterator<Item = EdgeRecord> {
+        self.loose.iter().map(|&[v0, v1]| EdgeRecord {
+            v0,
+            v1,
+            face_a: NONE,
+            face_b: NONE,
+            flags: EdgeFlags::MARKED,
+        })
+    }
+}

@@ -1,0 +1,79 @@
+//! `edgemesh build`: models to edge mesh files.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::input::InputOptions;
+use super::progress::Progress;
+use super::target::{Targets, write_target};
+use super::{Failure, print_warnings};
+use crate::file::{Layout, to_bytes};
+
+/// Builds the edge mesh of a model and writes it to a file
+#[derive(Debug, Clone, Args)]
+#[command(after_help = "Examples:\n  \
+    edgemesh build bunny.obj -o bunny.edgemesh\n  \
+    edgemesh build bunny.obj -o bunny.edgemesh --layout replicated-i16\n  \
+    edgemesh build *.stl -o meshes/\n  \
+    zcat part.ply.gz | edgemesh build - --format ply -o part.edgemesh")]
+pub struct BuildCommand {
+    /// The models; - is standard input
+    #[arg(value_name = "MODEL", required = true)]
+    pub models: Vec<PathBuf>,
+    /// The file to write, - for standard output; a folder where there are
+    /// several models
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+    /// Add the edge vertices of a layout to the file, which always has the
+    /// indexed ones; may be given twice
+    #[arg(long = "layout", value_name = "LAYOUT")]
+    pub layouts: Vec<LayoutName>,
+    /// How the input is read
+    #[command(flatten)]
+    pub input: InputOptions,
+}
+
+/// The layouts that `--layout` names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum LayoutName {
+    /// 20 bytes an edge, over shared positions and faces
+    Indexed,
+    /// Four edge vertices of 80 bytes an edge
+    ReplicatedF32,
+    /// Four edge vertices of 40 bytes an edge
+    ReplicatedI16,
+}
+
+impl From<LayoutName> for Layout {
+    fn from(name: LayoutName) -> Self {
+        match name {
+            LayoutName::Indexed => Self::Indexed,
+            LayoutName::ReplicatedF32 => Self::ReplicatedF32,
+            LayoutName::ReplicatedI16 => Self::ReplicatedI16,
+        }
+    }
+}
+
+impl BuildCommand {
+    /// Reads, builds and writes each model.
+    ///
+    /// # Errors
+    /// Where a model cannot be read or a file not be written; those before it
+    /// are written.
+    pub fn run(&self, is_quiet: bool) -> Result<(), Failure> {
+        let layouts: Vec<Layout> = self.layouts.iter().map(|&name| name.into()).collect();
+        let targets = Targets::new(&self.models, &self.output, "edgemesh")?;
+        for (model, target) in targets.pairs() {
+            let loaded = self.input.load(model, true, is_quiet)?;
+            if !is_quiet {
+                print_warnings(&loaded.name, &loaded.report);
+            }
+            let _progress = Progress::start(format!("writing {}", target.display()), is_quiet);
+            let bytes = to_bytes(&loaded.mesh, &loaded.name, &loaded.report, &layouts)
+                .map_err(|error| Failure::fault(format!("{}: {error}", target.display())))?;
+            write_target(target, &bytes)?;
+        }
+        Ok(())
+    }
+}

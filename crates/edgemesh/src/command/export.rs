@@ -1,0 +1,99 @@
+//! `edgemesh export`: edges for other programs.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use super::input::InputOptions;
+use super::progress::Progress;
+use super::target::{Targets, write_target};
+use super::{Failure, print_warnings};
+use crate::export::{ExportFormat, to_bytes};
+
+/// Writes the mesh and its feature edges for other programs
+///
+/// glTF has them in an extension of its own for edge visibility, PLY as edges,
+/// OBJ as lines in a group for each class, JSON as lists.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = "Examples:\n  \
+    edgemesh export bunny.obj -o bunny.glb\n  \
+    edgemesh export part.stl -o part-lines.obj --crease 20\n  \
+    edgemesh export bunny.edgemesh -o - --to json")]
+pub struct ExportCommand {
+    /// Models or edge meshes; - is standard input
+    #[arg(value_name = "IN", required = true)]
+    pub inputs: Vec<PathBuf>,
+    /// The file to write, - for standard output; a folder where there are
+    /// several inputs
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+    /// The format to write [default: told by the ending of OUT]
+    #[arg(long, value_name = "FORMAT")]
+    pub to: Option<ExportName>,
+    /// How the input is read
+    #[command(flatten)]
+    pub input: InputOptions,
+}
+
+/// The formats that `--to` names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ExportName {
+    /// glTF 2.0, binary
+    Glb,
+    /// glTF 2.0, JSON
+    Gltf,
+    /// PLY, binary
+    Ply,
+    /// Wavefront OBJ
+    Obj,
+    /// JSON
+    Json,
+}
+
+impl From<ExportName> for ExportFormat {
+    fn from(name: ExportName) -> Self {
+        match name {
+            ExportName::Glb => Self::Glb,
+            ExportName::Gltf => Self::Gltf,
+            ExportName::Ply => Self::Ply,
+            ExportName::Obj => Self::Obj,
+            ExportName::Json => Self::Json,
+        }
+    }
+}
+
+impl ExportCommand {
+    fn format(&self) -> Result<ExportFormat, Failure> {
+        if let Some(name) = self.to {
+            return Ok(name.into());
+        }
+        ExportFormat::of_name(&self.output).ok_or_else(|| {
+            Failure::usage(format!(
+                "{}: no format has this ending; use .glb, .gltf, .ply, .obj or .json, or --to",
+                self.output.display()
+            ))
+        })
+    }
+
+    /// Reads, builds where needed, and writes each input.
+    ///
+    /// # Errors
+    /// Where an input cannot be read or a file not be written; those before it
+    /// are written.
+    pub fn run(&self, is_quiet: bool) -> Result<(), Failure> {
+        let format = self.format()?;
+        let targets = Targets::new(&self.inputs, &self.output, format.as_str())?;
+        for (input, target) in targets.pairs() {
+            let loaded = self.input.load(input, false, is_quiet)?;
+            if !is_quiet {
+                print_warnings(&loaded.name, &loaded.report);
+            }
+            let _progress = Progress::start(format!("writing {}", target.display()), is_quiet);
+            let name = input.file_stem().unwrap_or_else(|| Path::new("mesh").as_os_str());
+            let bytes = to_bytes(&loaded.mesh, &name.to_string_lossy(), format)
+                .map_err(|error| Failure::fault(format!("{}: {error}", target.display())))?;
+            write_target(target, &bytes)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,257 @@
+//! What commands read: models and edge meshes, from files or standard input.
+
+use std::fs::File;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use glam::DVec3;
+
+use super::marks::read_marks;
+use super::options::CreaseOptions;
+use super::progress::Progress;
+use super::{Failure, strict_failure};
+use crate::build::{BuildOptions, Frame, Welding, box_of, build_edge_mesh, reclassify};
+use crate::edge_mesh::EdgeMesh;
+use crate::file::{FileError, is_edge_mesh, parse};
+use crate::model::Model;
+use crate::read::{Format, read_model_as, read_model_stream};
+use crate::report::Report;
+
+/// How the input is read and what is made of it.
+#[derive(Debug, Clone, Default, Args)]
+#[command(next_help_heading = "Input")]
+pub struct InputOptions {
+    /// The format of the input [default: told by its first bytes]; needed for
+    /// standard input (-)
+    #[arg(long, value_name = "FORMAT")]
+    pub format: Option<InputFormat>,
+    /// Weld vertices that are at most this far apart, in units of the model
+    /// [default: only those in exactly the same place]
+    #[arg(long, value_name = "TOLERANCE", value_parser = parse_tolerance)]
+    pub weld: Option<f64>,
+    /// Weld no vertices
+    #[arg(long, conflicts_with = "weld")]
+    pub no_weld: bool,
+    /// A file with pairs of vertices, one a line, counted from 1, whose edges
+    /// are marked
+    #[arg(long, value_name = "FILE")]
+    pub marks: Option<PathBuf>,
+    /// Warnings are errors
+    #[arg(long)]
+    pub strict: bool,
+    /// Crease thresholds
+    #[command(flatten)]
+    pub creases: CreaseOptions,
+}
+
+/// The formats that `--format` names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum InputFormat {
+    /// Wavefront OBJ
+    Obj,
+    /// PLY
+    Ply,
+    /// STL
+    Stl,
+    /// glTF 2.0, JSON
+    Gltf,
+    /// glTF 2.0, binary
+    Glb,
+    /// VRML 1.0 and 97
+    Wrl,
+    /// An edge mesh
+    Edgemesh,
+}
+
+impl InputFormat {
+    /// The model format; `None` for an edge mesh.
+    const fn of_model(self) -> Option<Format> {
+        match self {
+            Self::Obj => Some(Format::Obj),
+            Self::Ply => Some(Format::Ply),
+            Self::Stl => Some(Format::Stl),
+            Self::Gltf => Some(Format::Gltf),
+            Self::Glb => Some(Format::Glb),
+            Self::Wrl => Some(Format::Wrl),
+            Self::Edgemesh => None,
+        }
+    }
+}
+
+/// An edge mesh with what there is to say of it.
+#[derive(Debug)]
+pub struct Loaded {
+    /// How its file is called in messages.
+    pub name: String,
+    /// The edge mesh.
+    pub mesh: EdgeMesh,
+    /// What was repaired or dropped.
+    pub report: Report,
+}
+
+/// An input before it is built.
+enum Input {
+    Model(Box<Model>, Report),
+    Stored(Box<EdgeMesh>, String, Report),
+}
+
+impl InputOptions {
+    /// The builder's options; `with_fill` is for who shades.
+    fn build_options(&self, with_fill: bool) -> Result<BuildOptions, Failure> {
+        let marks = self.marks.as_deref().map(read_marks).transpose()?.unwrap_or_default();
+        let welding = match (self.weld, self.no_weld) {
+            (Some(tolerance), _) => Welding::Within(tolerance),
+            (None, true) => Welding::Off,
+            (None, false) => Welding::Exact,
+        };
+        Ok(BuildOptions { welding, marks, with_fill, ..self.creases.build_options() })
+    }
+
+    /// Reads one input and builds its edge mesh.
+    ///
+    /// # Errors
+    /// Where it cannot be read, and, with `--strict`, where there is a warning.
+    pub fn load(&self, path: &Path, with_fill: bool, is_quiet: bool) -> Result<Loaded, Failure> {
+        let options = self.build_options(with_fill)?;
+        let input = self.read(path, is_quiet)?;
+        self.finish(input, &options, is_quiet)
+    }
+
+    /// Reads several inputs that lie in one scene, in one frame.
+    ///
+    /// # Errors
+    /// As [`Self::load`], for the first one that fails.
+    pub fn load_scene(&self, paths: &[PathBuf], is_quiet: bool) -> Result<Vec<Loaded>, Failure> {
+        let inputs: Vec<Input> =
+            paths.iter().map(|path| self.read(path, is_quiet)).collect::<Result<_, _>>()?;
+        let frame = Some(frame_of(&inputs)).filter(|_| inputs.len() > 1);
+        let options = BuildOptions { frame, ..self.build_options(true)? };
+        inputs.into_iter().map(|input| self.finish(input, &options, is_quiet)).collect()
+    }
+
+    fn read(&self, path: &Path, is_quiet: bool) -> Result<Input, Failure> {
+        let _progress = Progress::start(format!("reading {}", path.display()), is_quiet);
+        let format = self.format.map(InputFormat::of_model);
+        if path == Path::new("-") {
+            return self.read_standard_input();
+        }
+        if format == Some(None) || format.is_none() && is_edge_mesh_file(path) {
+            let failed =
+                |error| Failure::fault(format!("{}: cannot be read: {error}", path.display()));
+            return self.stored(path, &std::fs::read(path).map_err(failed)?);
+        }
+        let (model, report) = read_model_as(path, format.flatten())?;
+        Ok(Input::Model(Box::new(model), report))
+    }
+
+    fn read_standard_input(&self) -> Result<Input, Failure> {
+        let Some(format) = self.format else {
+            return Err(Failure::usage("standard input (-) needs --format, as --format obj"));
+        };
+        let mut stream = std::io::stdin().lock();
+        let name = Path::new("(standard input)");
+        if let Some(format) = format.of_model() {
+            let (model, report) = read_model_stream(stream, name, Some(format))?;
+            return Ok(Input::Model(Box::new(model), report));
+        }
+        let mut bytes = Vec::new();
+        let read = stream.read_to_end(&mut bytes);
+        read.map_err(|error| Failure::fault(format!("standard input: cannot be read: {error}")))?;
+        self.stored(name, &bytes)
+    }
+
+    fn stored(&self, path: &Path, bytes: &[u8]) -> Result<Input, Failure> {
+        if self.weld.is_some() || self.no_weld || self.marks.is_some() {
+            return Err(Failure::usage(format!(
+                "{}: --weld, --no-weld and --marks are for models; an edge mesh is welded already",
+                path.display()
+            )));
+        }
+        let name = path.display().to_string();
+        let failed = |error: FileError| Failure::fault(format!("{name}: {error}"));
+        let stored = parse(bytes).map_err(failed)?;
+        Ok(Input::Stored(Box::new(stored.to_mesh()), name.clone(), stored.report().clone()))
+    }
+
+    fn finish(
+        &self,
+        input: Input,
+        options: &BuildOptions,
+        is_quiet: bool,
+    ) -> Result<Loaded, Failure> {
+        let loaded = match input {
+            Input::Model(model, mut report) => {
+                let _progress = Progress::start(format!("building {}", model.name), is_quiet);
+                let mesh = build_edge_mesh(&model, options, &mut report);
+                Loaded { name: model.name, mesh, report }
+            }
+            Input::Stored(mut mesh, name, report) => {
+                if let Some(frame) = options.frame {
+                    mesh.set_frame(frame);
+                }
+                if self.creases.is_given() {
+                    reclassify(&mut mesh, options);
+                }
+                Loaded { name, mesh: *mesh, report }
+            }
+        };
+        if self.strict && !loaded.report.warnings().is_empty() {
+            return Err(strict_failure(&loaded.name, &loaded.report));
+        }
+        Ok(loaded)
+    }
+}
+
+/// The frame that all inputs share.
+fn frame_of(inputs: &[Input]) -> Frame {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for input in inputs {
+        let own = match input {
+            Input::Model(model, _) => box_of(model),
+            Input::Stored(mesh, ..) => mesh.box_in_file(),
+        };
+        (low, high) = (low.min(own.0), high.max(own.1));
+    }
+    Frame::of_box(low, high)
+}
+
+/// Whether the file at `path` begins as an edge mesh does. Pipes are not asked,
+/// as what is read from them is gone.
+fn is_edge_mesh_file(path: &Path) -> bool {
+    let is_file = path.metadata().is_ok_and(|metadata| metadata.is_file());
+    let mut head = [0; 8];
+    is_file
+        && File::open(path).and_then(|mut file| file.read_exact(&mut head)).is_ok()
+        && is_edge_mesh(&head)
+}
+
+fn parse_tolerance(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(tolerance) if tolerance.is_finite() && tolerance >= 0.0 => Ok(tolerance),
+        _ => Err("needs a distance of 0 or more".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tolerances_are_distances() {
+        assert_eq!(parse_tolerance("1e-6"), Ok(1e-6));
+        for text in ["-1", "nan", "inf", "", "x"] {
+            assert!(parse_tolerance(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn every_model_format_has_its_name() {
+        let names: Vec<String> = InputFormat::value_variants()
+            .iter()
+            .filter(|format| format.of_model().is_some())
+            .filter_map(|format| Some(format.to_possible_value()?.get_name().to_owned()))
+            .collect();
+        assert_eq!(names, Format::ALL.map(Format::as_str));
+    }
+}

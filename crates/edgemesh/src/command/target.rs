@@ -1,0 +1,116 @@
+//! Where results go: a file, standard output, or a folder for several.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use super::{Failure, print_to_stdout, write_file};
+
+/// Each input with the file that is made of it.
+#[derive(Debug)]
+pub(crate) struct Targets {
+    pairs: Vec<(PathBuf, PathBuf)>,
+}
+
+impl Targets {
+    /// One input goes to `output`, unless that is a folder; several go into the
+    /// folder `output`, under their own names with another ending.
+    ///
+    /// # Errors
+    /// Where results would overwrite each other or an input, or several would
+    /// go to one file.
+    pub(crate) fn new(inputs: &[PathBuf], output: &Path, extension: &str) -> Result<Self, Failure> {
+        let is_folder = output.is_dir();
+        if inputs.len() > 1 && !is_folder {
+            return Err(Failure::usage(format!(
+                "{}: several inputs need a folder to go to; make it first",
+                output.display()
+            )));
+        }
+        let mut pairs: Vec<(PathBuf, PathBuf)> = Vec::with_capacity(inputs.len());
+        for input in inputs {
+            let target = if is_folder {
+                output.join(file_name(input, extension))
+            } else {
+                output.to_owned()
+            };
+            if let Some((other, _)) = pairs.iter().find(|(_, taken)| *taken == target) {
+                return Err(Failure::usage(format!(
+                    "{} and {} would both be written to {}",
+                    other.display(),
+                    input.display(),
+                    target.display()
+                )));
+            }
+            pairs.push((input.clone(), target));
+        }
+        let targets = Self { pairs };
+        targets.check_inputs()?;
+        Ok(targets)
+    }
+
+    /// No input may be overwritten, not even under another name.
+    fn check_inputs(&self) -> Result<(), Failure> {
+        let same = |a: &Path, b: &Path| {
+            a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b)
+        };
+        for (_, target) in &self.pairs {
+            if let Some((input, _)) = self.pairs.iter().find(|(input, _)| same(input, target)) {
+                return Err(Failure::usage(format!(
+                    "{}: would overwrite the input; give another -o",
+                    input.display()
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    pub(crate) fn pairs(&self) -> impl Iterator<Item = (&Path, &Path)> {
+        self.pairs.iter().map(|(input, target)| (input.as_path(), target.as_path()))
+    }
+}
+
+/// The name of `input` with the ending `extension`.
+fn file_name(input: &Path, extension: &str) -> OsString {
+    let stem = match input.file_stem() {
+        Some(stem) if input != Path::new("-") => stem.to_owned(),
+        _ => OsString::from("stdin"),
+    };
+    let mut name = stem;
+    name.push(".");
+    name.push(extension);
+    name
+}
+
+/// Writes a result to its file, or to standard output for `-`.
+pub(crate) fn write_target(target: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    if target == Path::new("-") { print_to_stdout(bytes) } else { write_file(target, bytes) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn several_inputs_keep_their_names_in_a_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        let inputs = [PathBuf::from("a/one.obj"), PathBuf::from("b/two.stl")];
+        let targets = Targets::new(&inputs, folder.path(), "edgemesh").unwrap();
+        let names: Vec<_> = targets.pairs().map(|(_, target)| target.file_name()).collect();
+        assert_eq!(names, [Some("one.edgemesh".as_ref()), Some("two.edgemesh".as_ref())]);
+        let same = [PathBuf::from("a/one.obj"), PathBuf::from("b/one.stl")];
+        assert!(Targets::new(&same, folder.path(), "glb").is_err());
+        assert!(Targets::new(&inputs, Path::new("none.glb"), "glb").is_err());
+    }
+
+    #[test]
+    fn an_input_is_never_overwritten() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.obj");
+        std::fs::write(&path, "v 0 0 0\n").unwrap();
+        let inputs = [path.clone()];
+        assert!(Targets::new(&inputs, &path, "obj").is_err());
+        assert!(Targets::new(&inputs, &folder.path().join(".").join("a.obj"), "obj").is_err());
+        assert!(Targets::new(&inputs, folder.path(), "obj").is_err());
+        assert!(Targets::new(&inputs, folder.path(), "glb").is_ok());
+    }
+}

@@ -1,0 +1,188 @@
+//! The JSON of a file: the model's name, and the report of its build.
+//!
+//! JSON, because a report is text of any length and grows kinds: a reader keeps
+//! what it knows. A warning of a kind that is not known stays a warning, that
+//! something is not supported; a repair, which loses nothing, is left out.
+
+use serde::{Deserialize, Serialize};
+
+use super::error::{FileError, FileErrorKind};
+use crate::report::{Place, Repair, RepairKind, Report, Warning, WarningCode};
+
+#[derive(Debug, Serialize, Deserialize)]
+struct StoredMeta {
+    name: String,
+    #[serde(default)]
+    warnings: Vec<StoredWarning>,
+    #[serde(default)]
+    repairs: Vec<StoredRepair>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct StoredWarning {
+    code: String,
+    count: usize,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    place: Option<StoredPlace>,
+    message: String,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct StoredRepair {
+    kind: String,
+    count: usize,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    place: Option<StoredPlace>,
+}
+
+/// A place; exactly one is there, none where the kind is not known.
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(default)]
+struct StoredPlace {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    line: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    byte: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    face: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    vertex: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    part: Option<String>,
+}
+
+impl StoredPlace {
+    fn of(place: &Place) -> Self {
+        let nowhere = Self::default();
+        match place {
+            Place::Line(line) => Self { line: Some(*line), ..nowhere },
+            Place::Byte(offset) => Self { byte: Some(*offset), ..nowhere },
+            Place::Face(face) => Self { face: Some(*face), ..nowhere },
+            Place::Vertex(vertex) => Self { vertex: Some(*vertex), ..nowhere },
+            Place::Part(path) => Self { part: Some(path.clone()), ..nowhere },
+        }
+    }
+
+    fn into_place(self) -> Option<Place> {
+        self.line
+            .map(Place::Line)
+            .or(self.byte.map(Place::Byte))
+            .or(self.face.map(Place::Face))
+            .or(self.vertex.map(Place::Vertex))
+            .or(self.part.map(Place::Part))
+    }
+}
+
+/// The JSON of a model's name and its report.
+pub(super) fn to_json(name: &str, report: &Report) -> Result<Vec<u8>, FileError> {
+    let warning = |warning: &Warning| StoredWarning {
+        code: warning.code.as_str().into(),
+        count: warning.count,
+        place: warning.place.as_ref().map(StoredPlace::of),
+        message: warning.message.clone(),
+    };
+    let repair = |repair: &Repair| StoredRepair {
+        kind: repair.kind.as_str().into(),
+        count: repair.count,
+        place: repair.place.as_ref().map(StoredPlace::of),
+    };
+    let meta = StoredMeta {
+        name: name.into(),
+        warnings: report.warnings().iter().map(warning).collect(),
+        repairs: report.repairs().iter().map(repair).collect(),
+    };
+    serde_json::to_vec(&meta)
+        .map_err(|error| FileError::new(FileErrorKind::Meta, format!("no JSON of it: {error}")))
+}
+
+/// The model's name and its report.
+///
+/// # Errors
+/// What is wrong with the JSON.
+pub(super) fn from_json(json: &[u8]) -> Result<(String, Report), serde_json::Error> {
+    let meta: StoredMeta = serde_json::from_slice(json)?;
+    let warning = |stored: StoredWarning| Warning {
+        code: WarningCode::from_word(&stored.code).unwrap_or(WarningCode::Unsupported),
+        count: stored.count,
+        place: stored.place.and_then(StoredPlace::into_place),
+        message: stored.message,
+    };
+    let repair = |stored: StoredRepair| {
+        let kind = RepairKind::from_word(&stored.kind)?;
+        let place = stored.place.and_then(StoredPlace::into_place);
+        Some(Repair { kind, count: stored.count, place })
+    };
+    let warnings = meta.warnings.into_iter().map(warning);
+    let repairs = meta.repairs.into_iter().filter_map(repair);
+    Ok((meta.name, Report::from_parts(warnings, repairs)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_report_comes_back_with_every_kind_of_place() {
+        let mut report = Report::default();
+        let places = [
+            None,
+            Some(Place::Line(3)),
+            Some(Place::Byte(1 << 40)),
+            Some(Place::Face(7)),
+            Some(Place::Vertex(8)),
+            Some(Place::Part("meshes[0] \"ä\"".into())),
+        ];
+        for (code, place) in WarningCode::ALL.into_iter().zip(places.iter().cycle()) {
+            report.warn_many(code, 2, place.clone(), || format!("a message of {code}\n\u{1}"));
+        }
+        for (kind, place) in RepairKind::ALL.into_iter().zip(places.iter().cycle()) {
+            report.repair(kind, 3, place.clone());
+        }
+        let json = to_json("möbel.obj", &report).unwrap();
+        assert_eq!(from_json(&json).unwrap(), ("möbel.obj".into(), report));
+    }
+
+    #[test]
+    fn the_json_is_short_and_says_what_it_means() {
+        let mut report = Report::default();
+        report.warn(WarningCode::Degenerate, Some(Place::Line(5)), || "flat".into());
+        report.repair(RepairKind::SplitEdges, 2, None);
+        let expected = "{\"name\":\"a\",\"warnings\":[{\"code\":\"degenerate\",\"count\":1,\
+             \"place\":{\"line\":5},\"message\":\"flat\"}],\
+             \"repairs\":[{\"kind\":\"split_edges\",\"count\":2}]}";
+        let json = to_json("a", &report).unwrap();
+        assert_eq!(String::from_utf8(json).unwrap(), expected);
+    }
+
+    #[test]
+    fn what_a_newer_program_writes_is_kept_as_far_as_it_is_known() {
+        let json = br#"{"name": "a", "author": {"x": [1]}, "warnings": [
+            {"code": "curved", "count": 2, "message": "new", "place": {"node": 3}},
+            {"code": "degenerate", "count": 1, "message": "old", "place": {"line": 4}},
+            {"code": "folded", "count": 18446744073709551615, "message": "newer"}],
+            "repairs": [{"kind": "ironed", "count": 9}]}"#;
+        let (_, report) = from_json(json).unwrap();
+        let [old, new] = report.warnings() else { panic!("{report:?}") };
+        assert_eq!((old.code, old.place.clone()), (WarningCode::Degenerate, Some(Place::Line(4))));
+        assert_eq!((new.code, &*new.message), (WarningCode::Unsupported, "new"));
+        assert_eq!((new.count, new.place.clone()), (usize::MAX, None), "no overflow");
+        assert!(report.repairs().is_empty());
+        assert_eq!(from_json(br#"{"name": "b"}"#).unwrap(), ("b".into(), Report::default()));
+    }
+
+    #[test]
+    fn broken_json_is_an_error() {
+        let nested = [b"{\"name\": ".as_slice(), &[b'['; 100_000]].concat();
+        let broken: [&[u8]; 6] = [
+            b"",
+            b"{}",
+            b"{\"name\": 1}",
+            b"{\"name\": \"\xff\"}",
+            b"{\"name\": \"a\", \"warnings\": [{\"count\": -1}]}",
+            &nested,
+        ];
+        for json in broken {
+            assert!(from_json(json).is_err(), "{}", String::from_utf8_lossy(json));
+        }
+    }
+}

@@ -1,0 +1,251 @@
+//! What every model passes after its reader, whichever it was: indices in
+//! range, finite corners, at least three of them, counts that later stages can
+//! name. A reader may say more, and earlier; it need not.
+
+use super::error::{ReadError, ReadErrorKind};
+use super::source::Source;
+use crate::index::{MAX_INDEX, NONE, to_u32};
+use crate::model::Model;
+use crate::report::{Place, Report, WarningCode};
+
+/// Coordinates beyond this count as not finite: boxes around them would not be.
+pub(crate) const LARGEST_COORDINATE: f64 = 1e300;
+
+/// Checks `model` and drops what cannot be kept.
+///
+/// A corner past the last vertex is an error; one past the last normal or
+/// texture coordinate loses only that; a vertex that is not finite costs the
+/// polygons that use it. `vertices_are_told` says that the reader has already
+/// warned of the latter, with better places.
+///
+/// A model without any face or line is an error; one that loses all of them here
+/// is an empty model with warnings, as one whose faces are all degenerate.
+pub(crate) fn check(
+    source: &Source,
+    model: &mut Model,
+    report: &mut Report,
+    vertices_are_told: bool,
+) -> Result<(), ReadError> {
+    let counts = [model.positions.len(), model.corner_positions.len(), model.segments.len()];
+    if let Some(&count) = counts.iter().find(|&&count| count > MAX_INDEX) {
+        let what = format!("too large: {count} vertices or corners, at most {MAX_INDEX} are read");
+        return Err(source.error(ReadErrorKind::Size, None, what));
+    }
+    check_positions(source, model)?;
+    if model.polygon_count() == 0
+        && model.segments.is_empty()
+        && report.count(WarningCode::Degenerate) == 0
+        && !model.has_invisible_parts
+    {
+        let what = match model.positions.len() {
+            0 => "no vertices and no faces: nothing to draw".into(),
+            count => format!("{count} vertices but no faces and no lines: nothing to draw"),
+        };
+        return Err(source.error(ReadErrorKind::Empty, None, what));
+    }
+    drop_wrong_attributes(model, report);
+    let is_finite = finite_vertices(model);
+    if !vertices_are_told {
+        warn_of_vertices(&is_finite, report);
+    }
+    drop_polygons(model, &is_finite, report);
+    model.segments.retain(|segment| {
+        let [a, b] = segment.ends.map(|end| end as usize);
+        a != b && (is_finite.is_empty() || is_finite[a] && is_finite[b])
+    });
+    Ok(())
+}
+
+fn check_positions(source: &Source, model: &Model) -> Result<(), ReadError> {
+    let count = model.positions.len();
+    let is_wrong = |&position: &u32| position as usize >= count;
+    if let Some(corner) = model.corner_positions.iter().position(is_wrong) {
+        // Polygons follow each other, so the first that ends behind the corner
+        // is the one.
+        let polygon = if model.is_triangles() {
+            corner / 3
+        } else {
+            model.polygon_ends.partition_point(|&end| end as usize <= corner)
+        };
+        let index = model.corner_positions[corner];
+        let what = format!("a face names vertex {index}, counted from 0, of {count}");
+        return Err(source.error(ReadErrorKind::Index, Some(model.polygon_place(polygon)), what));
+    }
+    match model.segments.iter().find(|segment| segment.ends.iter().any(is_wrong)) {
+        Some(segment) => {
+            let place = Some(segment.line).filter(|&line| line > 0).map(Place::Line);
+            let what = format!("a line names a vertex that is none of the {count}");
+            Err(source.error(ReadErrorKind::Index, place, what))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Sets wrong indices of texture coordinates and normals to [`NONE`].
+fn drop_wrong_attributes(model: &mut Model, report: &mut Report) {
+    let counts = [model.texcoords.len(), model.normals.len()];
+    let lists = [&mut model.corner_texcoords, &mut model.corner_normals];
+    for (list, count) in lists.into_iter().zip(counts) {
+        for index in list.iter_mut().filter(|index| **index != NONE && **index as usize >= count) {
+            report.warn(WarningCode::Index, None, || {
+                format!("attribute {index} of {count} was left out; the face is kept")
+            });
+            *index = NONE;
+        }
+    }
+}
+
+/// Whether each vertex is finite; empty where all are.
+fn finite_vertices(model: &Model) -> Vec<bool> {
+    // NaN compares as not within.
+    let is_finite = |point: &[f64; 3]| point.iter().all(|x| x.abs() <= LARGEST_COORDINATE);
+    if model.positions.iter().all(is_finite) {
+        return Vec::new();
+    }
+    model.positions.iter().map(is_finite).collect()
+}
+
+fn warn_of_vertices(is_finite: &[bool], report: &mut Report) {
+    for vertex in (0..is_finite.len()).filter(|&vertex| !is_finite[vertex]) {
+        report.warn(WarningCode::NonFinite, Some(Place::Vertex(vertex as u64 + 1)), || {
+            "a vertex is not finite; faces that use it were dropped".into()
+        });
+    }
+}
+
+/// Drops polygons of fewer than three corners and those that use a vertex that
+/// is not finite.
+fn drop_polygons(model: &mut Model, is_finite: &[bool], report: &mut Report) {
+    let too_small = |model: &Model, polygon: usize| model.corner_range(polygon).len() < 3;
+    let uses_wrong = |model: &Model, polygon: usize| {
+        !is_finite.is_empty()
+            && model
+                .corner_range(polygon)
+                .any(|corner| !is_finite[model.corner_positions[corner] as usize])
+    };
+    if is_finite.is_empty() && model.is_triangles() {
+        return;
+    }
+    let is_kept: Vec<bool> = (0..model.polygon_count())
+        .map(|polygon| {
+            if too_small(model, polygon) {
+                let count = model.corner_range(polygon).len();
+                let place = Some(model.polygon_place(polygon));
+                report.warn(WarningCode::Degenerate, place, || {
+                    format!("a face of {count} corners was dropped")
+                });
+                return false;
+            }
+            !uses_wrong(model, polygon)
+        })
+        .collect();
+    if is_kept.iter().all(|&kept| kept) {
+        return;
+    }
+    keep_polygons(model, &is_kept);
+}
+
+/// Rebuilds the lists of corners and polygons with those that are kept.
+fn keep_polygons(model: &mut Model, is_kept: &[bool]) {
+    let ranges: Vec<_> = (0..model.polygon_count())
+        .filter(|&polygon| is_kept[polygon])
+        .map(|polygon| model.corner_range(polygon))
+        .collect();
+    let pick = |list: &[u32]| -> Vec<u32> {
+        if list.is_empty() {
+            return Vec::new();
+        }
+        ranges.iter().flat_map(|range| list[range.clone()].iter().copied()).collect()
+    };
+    let corner_positions = pick(&model.corner_positions);
+    model.corner_texcoords = pick(&model.corner_texcoords);
+    model.corner_normals = pick(&model.corner_normals);
+    model.corner_positions = corner_positions;
+    let mut end = 0;
+    model.polygon_ends = ranges
+        .iter()
+        .map(|range| {
+            end += to_u32(range.len());
+            end
+        })
+        .collect();
+    if ranges.iter().all(|range| range.len() == 3) {
+        model.polygon_ends.clear();
+    }
+    let mut kept = is_kept.iter();
+    model.polygon_lines.retain(|_| kept.next() == Some(&true));
+    // How many polygons are kept before each one.
+    let mut before = Vec::with_capacity(is_kept.len() + 1);
+    let mut count = 0;
+    for &kept in is_kept {
+        before.push(count);
+        count += u32::from(kept);
+    }
+    before.push(count);
+    for run in &mut model.runs {
+        run.first_polygon = before[run.first_polygon as usize];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Attributes, Corner, PolygonRun, Segment};
+
+    const SOURCE: Source = Source { name: "test", folder: None, bytes: b"" };
+
+    fn square() -> Model {
+        let corners = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
+        Model::from_polygons(&corners, &[&[0, 1, 2], &[0, 1, 2, 3]])
+    }
+
+    #[test]
+    fn corners_past_the_last_vertex_are_errors_with_their_face() {
+        let mut model = square();
+        model.push_polygon(&[0, 1, 4].map(Corner::at), 0);
+        let error = check(&SOURCE, &mut model, &mut Report::default(), false).unwrap_err();
+        assert_eq!((error.kind, error.place), (ReadErrorKind::Index, Some(Place::Face(3))));
+        let mut model = square();
+        model.segments.push(Segment { ends: [0, 9], line: 12 });
+        let error = check(&SOURCE, &mut model, &mut Report::default(), false).unwrap_err();
+        assert_eq!(error.place, Some(Place::Line(12)));
+    }
+
+    #[test]
+    fn a_vertex_that_is_not_finite_costs_the_faces_that_use_it() {
+        let mut model = square();
+        model.positions[3][1] = f64::NAN;
+        let attributes = Attributes { material: 1, ..Attributes::default() };
+        model.set_attributes(attributes);
+        model.push_polygon(&[0, 1, 2].map(Corner::at), 0);
+        model.segments.push(Segment { ends: [0, 3], line: 0 });
+        let mut report = Report::default();
+        check(&SOURCE, &mut model, &mut report, false).unwrap();
+        assert_eq!((model.polygon_count(), model.is_triangles()), (2, true));
+        assert_eq!(model.runs, [PolygonRun { first_polygon: 1, attributes }]);
+        assert!(model.segments.is_empty());
+        assert_eq!(report.warnings()[0].place, Some(Place::Vertex(4)));
+    }
+
+    #[test]
+    fn wrong_attributes_cost_only_themselves() {
+        let mut model = square();
+        model.texcoords = vec![[0.0; 2]; 2];
+        model.push_polygon(&[0, 1, 2].map(|k| Corner { position: k, texcoord: k, normal: 5 }), 0);
+        let mut report = Report::default();
+        check(&SOURCE, &mut model, &mut report, false).unwrap();
+        assert_eq!(model.corner_texcoords[7..], [0, 1, NONE]);
+        assert_eq!(report.count(WarningCode::Index), 4);
+    }
+
+    #[test]
+    fn nothing_at_all_is_an_error_and_nothing_left_is_not() {
+        let mut report = Report::default();
+        let mut model = Model::from_polygons(&[[0.0; 3]; 3], &[]);
+        let error = check(&SOURCE, &mut model, &mut report, false).unwrap_err();
+        assert_eq!(error.kind, ReadErrorKind::Empty);
+        let mut model = Model::from_polygons(&[[f32::NAN; 3]; 3], &[&[0, 1, 2]]);
+        check(&SOURCE, &mut model, &mut report, false).unwrap();
+        assert_eq!((model.polygon_count(), report.count(WarningCode::NonFinite)), (0, 3));
+    }
+}

@@ -1,0 +1,473 @@
+//! Accessors: typed elements in the bytes of a buffer.
+//!
+//! Based on: glTF 2.0, sections 3.6.1 and 3.6.2 (buffer views, accessors,
+//! sparse accessors).
+//!
+//! ```text
+//! buffer    |.....................................................|
+//! view           |<- byteOffset      byteLength                ->|
+//! accessor            |<- byteOffset  [xyz]..[xyz]..[xyz]|
+//!                                     |stride|             a last one may be short
+//! ```
+//!
+//! All of it is checked in 64 bits before a byte is read. Numbers come as 32-bit
+//! floats, which hold every component type but the unsigned 32-bit one exactly,
+//! and that one only indices use.
+
+use std::ops::Range;
+
+use gltf_json as json;
+use json::accessor::{ComponentType, Type};
+use json::validation::Checked;
+
+use super::super::error::{ReadError, ReadErrorKind};
+use super::super::source::Source;
+use super::Asset;
+use crate::report::Place;
+
+/// An accessor without a view is zeros, which take no bytes of the file: at most
+/// this many elements beyond one a byte.
+const MAX_FREE_ZEROS: u64 = 1 << 16;
+
+/// An accessor whose ranges have been checked.
+#[derive(Debug)]
+pub(super) struct Accessor<'a> {
+    source: &'a Source<'a>,
+    index: usize,
+    count: usize,
+    component: ComponentType,
+    kind: Type,
+    is_normalized: bool,
+    /// `None` stands for zeros.
+    elements: Option<Elements<'a>>,
+    sparse: Option<Sparse<'a>>,
+}
+
+/// Elements in a row.
+#[derive(Debug)]
+struct Elements<'a> {
+    /// From the first byte of the first to the last byte of the last.
+    bytes: &'a [u8],
+    /// From one to the next, in bytes; not 0.
+    stride: usize,
+}
+
+/// Elements that replace others.
+#[derive(Debug)]
+struct Sparse<'a> {
+    /// Which are replaced; all are there.
+    indices: Vec<[u32; 1]>,
+    values: Elements<'a>,
+}
+
+/// Where elements are said to be.
+struct Layout {
+    view: usize,
+    offset: u64,
+    count: u64,
+    /// Of one element, in bytes.
+    size: u64,
+}
+
+impl Asset<'_> {
+    /// The accessor that `part` names by its index.
+    ///
+    /// # Errors
+    /// `Bounds` where its elements leave their view or buffer, those of its
+    /// buffer, `Syntax` where it makes no sense otherwise.
+    pub(super) fn accessor(
+        &self,
+        index: usize,
+        part: impl FnOnce() -> String,
+    ) -> Result<Accessor<'_>, ReadError> {
+        let json = self.get(&self.document.accessors, index, "accessors", part)?;
+        let part = || format!("accessors[{index}]");
+        let (Checked::Valid(component), Checked::Valid(kind)) = (&json.component_type, &json.type_)
+        else {
+            let what = "is of a component type or a type that glTF does not have";
+            return Err(self.error(ReadErrorKind::Syntax, part(), what));
+        };
+        let size = (component.0.size() * kind.multiplicity()) as u64;
+        let elements = match json.buffer_view {
+            Some(view) => {
+                let offset = json.byte_offset.unwrap_or_default().0;
+                let layout = Layout { view: view.value(), offset, count: json.count.0, size };
+                Some(self.elements(&layout, &part)?)
+            }
+            None => self.check_zeros(json.count.0, &part).map(|()| None)?,
+        };
+        // What is in the file, or in the limit of zeros, memory can name.
+        let count = usize::try_from(json.count.0).unwrap_or(usize::MAX);
+        self.spend(count, part)?;
+        let sparse = json.sparse.as_ref().map(|sparse| self.sparse(sparse, count, size, &part));
+        Ok(Accessor {
+            source: self.source,
+            index,
+            count,
+            component: component.0,
+            kind: *kind,
+            is_normalized: json.normalized,
+            elements,
+            sparse: sparse.transpose()?,
+        })
+    }
+
+    fn check_zeros(&self, count: u64, part: &dyn Fn() -> String) -> Result<(), ReadError> {
+        if count <= MAX_FREE_ZEROS + self.budget.bytes() as u64 {
+            return Ok(());
+        }
+        let what = format!("has {count} elements and no view that they are in");
+        Err(self.error(ReadErrorKind::Bounds, part(), what))
+    }
+
+    /// Elements that replace some of `count`, of `size` bytes each.
+    fn sparse(
+        &self,
+        json: &json::accessor::sparse::Sparse,
+        count: usize,
+        size: u64,
+        part: &dyn Fn() -> String,
+    ) -> Result<Sparse<'_>, ReadError> {
+        let json::accessor::sparse::Sparse { count: replaced, indices, values, .. } = json;
+        let Checked::Valid(component) = &indices.component_type else {
+            let what = "has sparse indices of a component type that indices cannot have";
+            return Err(self.error(ReadErrorKind::Syntax, part(), what));
+        };
+        let at = |view: usize, offset, size| {
+            self.elements(&Layout { view, offset, count: replaced.0, size }, part)
+        };
+        let index_size = component.0.size() as u64;
+        let found = at(indices.buffer_view.value(), indices.byte_offset.0, index_size)?;
+        let values = at(values.buffer_view.value(), values.byte_offset.0, size)?;
+        let indices: Vec<[u32; 1]> = found.unsigned(component.0);
+        self.spend(indices.len(), part)?;
+        match indices.iter().find(|[index]| *index as usize >= count) {
+            Some([index]) => {
+                let what = format!("replaces element {index} of {count}");
+                Err(self.error(ReadErrorKind::Bounds, part(), what))
+            }
+            None => Ok(Sparse { indices, values }),
+        }
+    }
+
+    /// The bytes that elements take; `part` names their accessor.
+    fn elements(
+        &self,
+        layout: &Layout,
+        part: &dyn Fn() -> String,
+    ) -> Result<Elements<'_>, ReadError> {
+        let Layout { view: index, offset, count, size } = *layout;
+        let view = self.get(&self.document.buffer_views, index, "bufferViews", part)?;
+        let stride = view.byte_stride.map_or(0, |stride| stride.0 as u64);
+        let stride = if stride == 0 { size } else { stride };
+        if stride < size {
+            let what = format!("has elements of {size} bytes, {stride} apart");
+            return Err(self.error(ReadErrorKind::Syntax, part(), what));
+        }
+        let view_part = || format!("bufferViews[{index}]");
+        let buffer = self.buffer(view.buffer.value(), view_part)?;
+        let view_start = view.byte_offset.unwrap_or_default().0;
+        let length = view.byte_length.0;
+        let Some(in_view) = slice(buffer, view_start, length) else {
+            let what = format!(
+                "takes {length} bytes from byte {view_start} of a buffer of {}",
+                buffer.len()
+            );
+            return Err(self.error(ReadErrorKind::Bounds, view_part(), what));
+        };
+        let needed = match count {
+            0 => Some(0),
+            _ => (count - 1).checked_mul(stride).and_then(|bytes| bytes.checked_add(size)),
+        };
+        let bytes = needed.and_then(|needed| slice(in_view, offset, needed)).ok_or_else(|| {
+            let what = format!(
+                "has {count} elements of {size} bytes, {stride} apart, from byte {offset} of \
+                 bufferViews[{index}], which has {length}; the file is cut short or damaged"
+            );
+            self.error(ReadErrorKind::Bounds, part(), what)
+        })?;
+        // The stride of elements that are there is at most the length of a view.
+        Ok(Elements { bytes, stride: usize::try_from(stride).unwrap_or(usize::MAX) })
+    }
+}
+
+/// A part of some bytes; `None` where it is not in them.
+fn slice(bytes: &[u8], start: u64, length: u64) -> Option<&[u8]> {
+    let end = start.checked_add(length)?;
+    bytes.get(Range { start: usize::try_from(start).ok()?, end: usize::try_from(end).ok()? })
+}
+
+impl Accessor<'_> {
+    /// Its index among all of the file.
+    pub(super) const fn index(&self) -> usize {
+        self.index
+    }
+
+    /// How many elements there are.
+    pub(super) const fn count(&self) -> usize {
+        self.count
+    }
+
+    /// What its elements are.
+    pub(super) const fn kind(&self) -> Type {
+        self.kind
+    }
+
+    /// What its components are.
+    pub(super) const fn component(&self) -> ComponentType {
+        self.component
+    }
+
+    /// Whether its numbers are the ones in the file.
+    pub(super) const fn is_raw(&self) -> bool {
+        matches!(self.component, ComponentType::F32) || !self.is_normalized
+    }
+
+    /// Takes whole numbers for 0 to 1, or -1 to 1, whatever the file says.
+    pub(super) const fn normalized(mut self) -> Self {
+        self.is_normalized = true;
+        self
+    }
+
+    /// Its elements as numbers.
+    ///
+    /// # Errors
+    /// `Syntax` where they have not just `N` components.
+    pub(super) fn numbers<const N: usize>(&self) -> Result<Vec<[f32; N]>, ReadError> {
+        self.check_components(N)?;
+        Ok(self.collect(|elements| elements.numbers(self.component, self.is_normalized)))
+    }
+
+    /// Its elements as whole numbers from 0 up, such as indices.
+    ///
+    /// # Errors
+    /// `Syntax` where they have not just `N` components, or may be negative.
+    pub(super) fn unsigned<const N: usize>(&self) -> Result<Vec<[u32; N]>, ReadError> {
+        self.check_components(N)?;
+        match self.component {
+            ComponentType::U8 | ComponentType::U16 | ComponentType::U32 => {
+                Ok(self.collect(|elements| elements.unsigned(self.component)))
+            }
+            _ => Err(self.wrong("is not of unsigned integers, as its use demands")),
+        }
+    }
+
+    fn check_components(&self, count: usize) -> Result<(), ReadError> {
+        match self.kind.multiplicity() {
+            found if found == count => Ok(()),
+            found => Err(self.wrong(format!("has elements of {found} numbers, not of {count}"))),
+        }
+    }
+
+    fn wrong(&self, what: impl Into<String>) -> ReadError {
+        let place = Place::Part(format!("accessors[{}]", self.index));
+        self.source.error(ReadErrorKind::Syntax, Some(place), what)
+    }
+
+    /// Reads elements by `read`, and those that replace some of them.
+    fn collect<T: Copy + Default, const N: usize>(
+        &self,
+        read: impl Fn(&Elements) -> Vec<[T; N]>,
+    ) -> Vec<[T; N]> {
+        let mut found = match &self.elements {
+            Some(elements) => read(elements),
+            None => vec![[T::default(); N]; self.count],
+        };
+        if let Some(sparse) = &self.sparse {
+            for ([index], value) in sparse.indices.iter().zip(read(&sparse.values)) {
+                if let Some(element) = found.get_mut(*index as usize) {
+                    *element = value;
+                }
+            }
+        }
+        found
+    }
+}
+
+impl Elements<'_> {
+    fn numbers<const N: usize>(
+        &self,
+        component: ComponentType,
+        is_normalized: bool,
+    ) -> Vec<[f32; N]> {
+        let scaled = |number: f32, largest: f32| match is_normalized {
+            // The least signed integer lies a little below -1.
+            true => (number / largest).max(-1.0),
+            false => number,
+        };
+        match component {
+            ComponentType::I8 => {
+                self.map(|bytes| scaled(f32::from(i8::from_le_bytes(bytes)), 127.0))
+            }
+            ComponentType::U8 => self.map(|[byte]| scaled(f32::from(byte), 255.0)),
+            ComponentType::I16 => {
+                self.map(|bytes| scaled(f32::from(i16::from_le_bytes(bytes)), 32_767.0))
+            }
+            ComponentType::U16 => {
+                self.map(|bytes| scaled(f32::from(u16::from_le_bytes(bytes)), 65_535.0))
+            }
+            ComponentType::U32 => self.map(|bytes| u32::from_le_bytes(bytes) as f32),
+            ComponentType::F32 => self.map(f32::from_le_bytes),
+        }
+    }
+
+    /// Nothing where the component is no unsigned one.
+    fn unsigned<const N: usize>(&self, component: ComponentType) -> Vec<[u32; N]> {
+        match component {
+            ComponentType::U8 => self.map(|[byte]| byte.into()),
+            ComponentType::U16 => self.map(|bytes| u16::from_le_bytes(bytes).into()),
+            ComponentType::U32 => self.map(u32::from_le_bytes),
+            ComponentType::I8 | ComponentType::I16 | ComponentType::F32 => Vec::new(),
+        }
+    }
+
+    /// Reads each element as `N` components of `SIZE` bytes.
+    fn map<T: Default, const N: usize, const SIZE: usize>(
+        &self,
+        convert: impl Fn([u8; SIZE]) -> T,
+    ) -> Vec<[T; N]> {
+        let read = |element: &[u8]| {
+            let components = element.as_chunks::<SIZE>().0;
+            std::array::from_fn(|at| {
+                components.get(at).map_or_else(T::default, |&bytes| convert(bytes))
+            })
+        };
+        self.bytes.chunks(self.stride).map(read).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use super::super::document::Document;
+    use super::super::sample::Sample;
+    use super::*;
+
+    /// What `look` finds in the last accessor of `sample`.
+    fn with<T>(
+        sample: &Sample,
+        look: impl FnOnce(Accessor) -> Result<T, ReadError>,
+    ) -> Result<T, ReadError> {
+        let document: Document = serde_json::from_value(sample.json(&json!({}))).unwrap();
+        let source = Source { name: "test.gltf", folder: None, bytes: b"" };
+        let asset = Asset::new(&source, &document, None);
+        look(asset.accessor(document.accessors.len() - 1, String::new)?)
+    }
+
+    fn numbers<const N: usize>(sample: &Sample) -> Result<Vec<[f32; N]>, ReadError> {
+        with(sample, |accessor| accessor.numbers())
+    }
+
+    /// One accessor into a view of `bytes`, with these members.
+    fn sample(bytes: &[u8], view: &Value, accessor: Value) -> Sample {
+        let mut sample = Sample::default();
+        sample.view(bytes, view);
+        let mut json = accessor;
+        json["bufferView"] = 0.into();
+        sample.accessor(json);
+        sample
+    }
+
+    #[test]
+    fn each_type_of_component() {
+        let read = |component: u32, bytes: &[u8], is_normalized: bool| {
+            let accessor = json!({
+                "componentType": component, "count": 2, "type": "SCALAR",
+                "normalized": is_normalized
+            });
+            let [[a], [b]] = numbers(&sample(bytes, &json!({}), accessor)).unwrap()[..] else {
+                panic!("not two elements of {component}")
+            };
+            [a, b]
+        };
+        assert_eq!(read(5120, &[3, 0x80], false), [3.0, -128.0]);
+        assert_eq!(read(5120, &[127, 0x80], true), [1.0, -1.0]);
+        assert_eq!(read(5121, &[3, 255], false), [3.0, 255.0]);
+        assert_eq!(read(5121, &[0, 255], true), [0.0, 1.0]);
+        assert_eq!(read(5122, &[2, 1, 0xff, 0xff], false), [258.0, -1.0]);
+        assert_eq!(read(5122, &[0xff, 0x7f, 0, 0x80], true), [1.0, -1.0]);
+        assert_eq!(read(5123, &[2, 1, 0xff, 0xff], false), [258.0, 65535.0]);
+        assert_eq!(read(5123, &[0, 0, 0xff, 0xff], true), [0.0, 1.0]);
+        assert_eq!(read(5125, &[1, 0, 0, 0, 0, 1, 0, 0], false), [1.0, 256.0]);
+        assert_eq!(read(5126, &[0, 0, 0x80, 0x3f, 0, 0, 0, 0xc0], false), [1.0, -2.0]);
+    }
+
+    #[test]
+    fn elements_may_lie_apart() {
+        let bytes = [9, 1, 2, 9, 3, 4, 9, 5, 6];
+        let accessor = json!({"byteOffset": 1, "componentType": 5121, "count": 3, "type": "VEC2"});
+        let found = numbers(&sample(&bytes, &json!({"byteStride": 3}), accessor.clone())).unwrap();
+        assert_eq!(found, [[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]);
+        let error = numbers::<2>(&sample(&bytes, &json!({"byteStride": 1}), accessor)).unwrap_err();
+        assert_eq!(error.kind, ReadErrorKind::Syntax);
+    }
+
+    #[test]
+    fn ranges_are_checked_in_64_bits() {
+        let refusal = |view: Value, accessor: Value| {
+            let error = numbers::<3>(&sample(&[0; 36], &view, accessor)).unwrap_err();
+            assert_eq!(error.kind, ReadErrorKind::Bounds, "{error}");
+            error.place
+        };
+        let three = |count: u64, offset: u64| json!({"byteOffset": offset, "componentType": 5126, "count": count, "type": "VEC3"});
+        let [view, accessor] = ["bufferViews[0]", "accessors[0]"];
+        let [view, accessor] = [view, accessor].map(|part| Some(Place::Part(part.into())));
+        assert!(numbers::<3>(&sample(&[0; 36], &json!({}), three(3, 0))).is_ok());
+        assert_eq!(refusal(json!({}), three(4, 0)), accessor);
+        assert_eq!(refusal(json!({}), three(3, 1)), accessor);
+        assert_eq!(refusal(json!({}), three(1 << 62, 0)), accessor);
+        assert_eq!(refusal(json!({}), three(u64::MAX, 0)), accessor);
+        assert_eq!(refusal(json!({}), three(1, u64::MAX)), accessor);
+        assert_eq!(refusal(json!({"byteOffset": 4_294_967_290_u64}), three(3, 0)), view);
+        assert_eq!(refusal(json!({"byteOffset": u64::MAX}), three(3, 0)), view);
+    }
+
+    #[test]
+    fn sparse_elements_replace_others() {
+        let with_base = |base: Option<usize>, replaced: u8| {
+            let mut sample = Sample::default();
+            sample.view(&[10, 20, 30], &json!({}));
+            sample.view(&[0, replaced], &json!({}));
+            sample.view(&[7, 8], &json!({}));
+            let mut accessor = json!({
+                "componentType": 5121, "count": 3, "type": "SCALAR",
+                "sparse": {
+                    "count": 2,
+                    "indices": {"bufferView": 1, "componentType": 5121},
+                    "values": {"bufferView": 2}
+                }
+            });
+            if let Some(view) = base {
+                accessor["bufferView"] = view.into();
+            }
+            sample.accessor(accessor);
+            with(&sample, |accessor| accessor.unsigned::<1>())
+        };
+        assert_eq!(with_base(Some(0), 2).unwrap(), [[7], [20], [8]]);
+        assert_eq!(with_base(None, 1).unwrap(), [[7], [8], [0]]);
+        assert_eq!(with_base(None, 3).unwrap_err().kind, ReadErrorKind::Bounds);
+    }
+
+    #[test]
+    fn zeros_are_not_for_free_without_end() {
+        let zeros = |count: u64| {
+            let mut sample = Sample::default();
+            sample.accessor(json!({"componentType": 5126, "count": count, "type": "VEC3"}));
+            numbers::<3>(&sample)
+        };
+        assert_eq!(zeros(2).unwrap(), [[0.0; 3]; 2]);
+        assert_eq!(zeros(1 << 40).unwrap_err().kind, ReadErrorKind::Bounds);
+    }
+
+    #[test]
+    fn the_use_of_elements_is_checked() {
+        let accessor = json!({"componentType": 5126, "count": 1, "type": "VEC4"});
+        let sample = sample(&[0; 16], &json!({}), accessor);
+        let error = numbers::<3>(&sample).unwrap_err();
+        assert_eq!(error.place, Some(Place::Part("accessors[0]".into())));
+        assert!(error.what.contains("4 numbers, not of 3"), "{error}");
+        let error = with(&sample, |accessor| accessor.unsigned::<4>()).unwrap_err();
+        assert!(error.what.contains("unsigned"), "{error}");
+    }
+}

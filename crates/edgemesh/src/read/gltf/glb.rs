@@ -1,0 +1,221 @@
+//! The binary container, GLB.
+//!
+//! Based on: glTF 2.0, section 4.4 (binary glTF layout).
+//!
+//! ```text
+//! 0    4        8       12      16      20
+//! glTF version  length  length  "JSON"  text, blanks  length  "BIN\0"  bytes  ...
+//! |---- header -------| |------ chunk 0 ------------| |------ chunk 1 ------| any others
+//! ```
+
+use super::super::error::{ReadError, ReadErrorKind};
+use super::super::source::Source;
+use crate::report::{Place, Report, WarningCode};
+
+const MAGIC: &[u8] = b"glTF";
+const HEADER_BYTES: usize = 12;
+const CHUNK_HEADER_BYTES: usize = 8;
+const JSON: u32 = u32::from_le_bytes(*b"JSON");
+const BINARY: u32 = u32::from_le_bytes(*b"BIN\0");
+
+/// The two things that a file holds, whichever its form.
+#[derive(Debug)]
+pub(super) struct Container<'a> {
+    /// The JSON text.
+    pub(super) json: &'a [u8],
+    /// Where it begins in a binary file; `None` where it is a text file, whose
+    /// places are lines.
+    pub(super) json_offset: Option<usize>,
+    /// The binary chunk.
+    pub(super) binary: Option<&'a [u8]>,
+}
+
+/// Takes a file apart.
+///
+/// # Errors
+/// Each rule of the container that the file breaks, with its byte.
+pub(super) fn open<'a>(
+    source: &Source<'a>,
+    report: &mut Report,
+) -> Result<Container<'a>, ReadError> {
+    if source.bytes.starts_with(MAGIC) {
+        return open_chunks(source, check_header(source, report)?);
+    }
+    let marked = source.bytes.strip_prefix(b"\xef\xbb\xbf");
+    if marked.is_some() {
+        report.warn(WarningCode::Syntax, Some(Place::Byte(0)), || {
+            "a byte order mark, which glTF forbids; it was skipped".into()
+        });
+    }
+    Ok(Container { json: marked.unwrap_or(source.bytes), json_offset: None, binary: None })
+}
+
+/// The bytes that the header says the file has.
+fn check_header<'a>(source: &Source<'a>, report: &mut Report) -> Result<&'a [u8], ReadError> {
+    let bytes = source.bytes;
+    let fail =
+        |kind, offset, what: String| Err(source.error(kind, Some(Place::Byte(offset)), what));
+    let (Some(version), Some(length)) = (word_at(bytes, 4), word_at(bytes, 8)) else {
+        let what = format!("the file ends in its header, after {} of 12 bytes", bytes.len());
+        return fail(ReadErrorKind::Truncated, bytes.len() as u64, what);
+    };
+    if version != 2 {
+        let what = format!("binary glTF of version {version}; convert it to version 2");
+        return fail(ReadErrorKind::Format, 4, what);
+    }
+    let Some(whole) = bytes.get(..length as usize) else {
+        let what = format!("the header states {length} bytes, the file has {}", bytes.len());
+        return fail(ReadErrorKind::Truncated, bytes.len() as u64, what);
+    };
+    if whole.len() < HEADER_BYTES + CHUNK_HEADER_BYTES {
+        let what = format!("the header states {length} bytes, too few for any chunk");
+        return fail(ReadErrorKind::Format, 8, what);
+    }
+    if whole.len() < bytes.len() {
+        report.warn(WarningCode::Truncated, Some(Place::Byte(whole.len() as u64)), || {
+            format!("{} bytes behind the stated end were skipped", bytes.len() - whole.len())
+        });
+    }
+    Ok(whole)
+}
+
+fn open_chunks<'a>(source: &Source<'a>, bytes: &'a [u8]) -> Result<Container<'a>, ReadError> {
+    let first = chunk_at(source, bytes, HEADER_BYTES)?;
+    let at = |offset: usize| Some(Place::Byte(offset as u64));
+    if first.kind != JSON {
+        let what = format!("the first chunk is of kind {:#010x}, not the JSON", first.kind);
+        return Err(source.error(ReadErrorKind::Syntax, at(HEADER_BYTES), what));
+    }
+    let mut binary = None;
+    let mut offset = HEADER_BYTES + CHUNK_HEADER_BYTES + first.bytes.len();
+    let second = offset;
+    while offset < bytes.len() {
+        let chunk = chunk_at(source, bytes, offset)?;
+        match chunk.kind {
+            BINARY if offset == second => binary = Some(chunk.bytes),
+            BINARY | JSON => {
+                let what = "a JSON chunk that is not the first, or a BIN chunk that is not the \
+                            second one";
+                return Err(source.error(ReadErrorKind::Syntax, at(offset), what));
+            }
+            // Chunks of other kinds belong to extensions.
+            _ => {}
+        }
+        offset += CHUNK_HEADER_BYTES + chunk.bytes.len();
+    }
+    let json_offset = Some(HEADER_BYTES + CHUNK_HEADER_BYTES);
+    Ok(Container { json: first.bytes, json_offset, binary })
+}
+
+struct Chunk<'a> {
+    kind: u32,
+    bytes: &'a [u8],
+}
+
+fn chunk_at<'a>(source: &Source, bytes: &'a [u8], offset: usize) -> Result<Chunk<'a>, ReadError> {
+    let fail = |kind, what: String| Err(source.error(kind, Some(Place::Byte(offset as u64)), what));
+    let (Some(length), Some(kind)) = (word_at(bytes, offset), word_at(bytes, offset + 4)) else {
+        let what = "the file ends in the header of a chunk".into();
+        return fail(ReadErrorKind::Truncated, what);
+    };
+    let start = offset + CHUNK_HEADER_BYTES;
+    let rest = bytes.get(start..).unwrap_or_default();
+    let Some(inside) = rest.get(..length as usize) else {
+        let what = format!("a chunk states {length} bytes, the file has {} more", rest.len());
+        return fail(ReadErrorKind::Truncated, what);
+    };
+    if !length.is_multiple_of(4) {
+        let what = format!("a chunk of {length} bytes, which is no multiple of 4");
+        return fail(ReadErrorKind::Syntax, what);
+    }
+    Ok(Chunk { kind, bytes: inside })
+}
+
+/// Four bytes as a number, the least significant first.
+fn word_at(bytes: &[u8], offset: usize) -> Option<u32> {
+    bytes.get(offset..)?.first_chunk().copied().map(u32::from_le_bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn header(version: u32, length: u32) -> Vec<u8> {
+        [MAGIC, &version.to_le_bytes(), &length.to_le_bytes()].concat()
+    }
+
+    fn chunk(kind: u32, bytes: &[u8]) -> Vec<u8> {
+        let length = u32::try_from(bytes.len()).unwrap();
+        [&length.to_le_bytes(), &kind.to_le_bytes(), bytes].concat()
+    }
+
+    fn file(chunks: &[Vec<u8>]) -> Vec<u8> {
+        let body = chunks.concat();
+        let length = u32::try_from(HEADER_BYTES + body.len()).unwrap();
+        [header(2, length), body].concat()
+    }
+
+    fn opened(bytes: &[u8], report: &mut Report) -> Result<(Vec<u8>, Option<Vec<u8>>), ReadError> {
+        let source = Source { name: "test.glb", folder: None, bytes };
+        let container = open(&source, report)?;
+        Ok((container.json.to_vec(), container.binary.map(<[u8]>::to_vec)))
+    }
+
+    fn refusal(bytes: &[u8]) -> (ReadErrorKind, Option<Place>) {
+        let error = opened(bytes, &mut Report::default()).unwrap_err();
+        (error.kind, error.place)
+    }
+
+    #[test]
+    fn chunks_are_found_and_others_skipped() {
+        let other = u32::from_le_bytes(*b"ACME");
+        let chunks = [chunk(JSON, b"{}  "), chunk(BINARY, b"1234"), chunk(other, b"5678")];
+        let found = opened(&file(&chunks), &mut Report::default()).unwrap();
+        assert_eq!(found, (b"{}  ".to_vec(), Some(b"1234".to_vec())));
+        let found = opened(&file(&chunks[..1]), &mut Report::default()).unwrap();
+        assert_eq!(found.1, None);
+    }
+
+    #[test]
+    fn each_rule_of_the_header() {
+        let at = |byte| Some(Place::Byte(byte));
+        assert_eq!(refusal(b"glTF\x02\0\0"), (ReadErrorKind::Truncated, at(7)));
+        assert_eq!(refusal(&header(1, 12)), (ReadErrorKind::Format, at(4)));
+        assert_eq!(refusal(&header(2, 0)), (ReadErrorKind::Format, at(8)));
+        assert_eq!(refusal(&header(2, 12)), (ReadErrorKind::Format, at(8)));
+        assert_eq!(refusal(&header(2, 13)), (ReadErrorKind::Truncated, at(12)));
+    }
+
+    #[test]
+    fn each_rule_of_the_chunks() {
+        let at = |byte| Some(Place::Byte(byte));
+        let json = chunk(JSON, b"{}  ");
+        let refused = |chunks: &[Vec<u8>]| refusal(&file(chunks));
+        assert_eq!(refused(&[chunk(BINARY, b"")]), (ReadErrorKind::Syntax, at(12)));
+        assert_eq!(refused(&[chunk(JSON, b"{}")]), (ReadErrorKind::Syntax, at(12)));
+        assert_eq!(refused(&[json.clone(), json.clone()]), (ReadErrorKind::Syntax, at(24)));
+        let binary = chunk(BINARY, b"");
+        let twice = [json.clone(), binary.clone(), binary];
+        assert_eq!(refused(&twice), (ReadErrorKind::Syntax, at(32)));
+        assert_eq!(refused(&[json.clone(), vec![0; 7]]), (ReadErrorKind::Truncated, at(24)));
+        let cut = [json, chunk(BINARY, b"1234")[..10].to_vec()];
+        assert_eq!(refused(&cut), (ReadErrorKind::Truncated, at(24)));
+    }
+
+    #[test]
+    fn what_follows_the_end_is_skipped_with_a_warning() {
+        let mut report = Report::default();
+        let bytes = [file(&[chunk(JSON, b"{}  ")]), b"more".to_vec()].concat();
+        assert!(opened(&bytes, &mut report).is_ok());
+        assert_eq!(report.warnings()[0].place, Some(Place::Byte(24)));
+    }
+
+    #[test]
+    fn text_is_taken_as_it_is() {
+        let mut report = Report::default();
+        assert_eq!(opened(b"{}", &mut report).unwrap(), (b"{}".to_vec(), None));
+        assert!(report.warnings().is_empty());
+        assert_eq!(opened(b"\xef\xbb\xbf{}", &mut report).unwrap(), (b"{}".to_vec(), None));
+        assert_eq!(report.count(WarningCode::Syntax), 1);
+    }
+}

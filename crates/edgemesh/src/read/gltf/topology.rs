@@ -1,0 +1,103 @@
+//! From a list of corners to triangles and segments.
+//!
+//! Based on: glTF 2.0, section 3.7.2.1 (topology types).
+//!
+//! ```text
+//! strip 0---2---4     triangles (0 1 2) (1 3 2) (2 3 4): every second one is
+//!        \ / \ /      turned, so that all wind alike
+//!         1---3
+//! ```
+
+use gltf_json::mesh::Mode;
+
+/// What a primitive draws, as indices of its vertices.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Shapes {
+    /// Loose, in a strip or in a fan.
+    Triangles(Vec<[u32; 3]>),
+    /// Loose, in a strip or in a loop.
+    Segments(Vec<[u32; 2]>),
+    /// Not drawn here.
+    Points,
+}
+
+/// The shapes that `corners` make, and how many corners at their end make none.
+pub(super) fn shapes(mode: Mode, corners: &[u32]) -> (Shapes, usize) {
+    match mode {
+        Mode::Points => (Shapes::Points, 0),
+        Mode::Lines => {
+            let (pairs, rest) = corners.as_chunks();
+            (Shapes::Segments(pairs.to_vec()), rest.len())
+        }
+        Mode::LineStrip => (Shapes::Segments(polyline(corners)), left_of(corners, 2)),
+        Mode::LineLoop => {
+            let mut segments = polyline(corners);
+            if let ([first, _, ..], Some(last)) = (corners, corners.last()) {
+                segments.push([*last, *first]);
+            }
+            (Shapes::Segments(segments), left_of(corners, 2))
+        }
+        Mode::Triangles => {
+            let (triples, rest) = corners.as_chunks();
+            (Shapes::Triangles(triples.to_vec()), rest.len())
+        }
+        Mode::TriangleStrip => {
+            let turned = |(at, &[a, b, c]): (usize, &[u32; 3])| {
+                if at % 2 == 0 { [a, b, c] } else { [a, c, b] }
+            };
+            let triangles = corners.array_windows().enumerate().map(turned).collect();
+            (Shapes::Triangles(triangles), left_of(corners, 3))
+        }
+        Mode::TriangleFan => {
+            // By the specification the center comes last.
+            let triangles = match corners {
+                [center, rim @ ..] => rim.array_windows().map(|&[a, b]| [a, b, *center]).collect(),
+                [] => Vec::new(),
+            };
+            (Shapes::Triangles(triangles), left_of(corners, 3))
+        }
+    }
+}
+
+/// The segments from each corner to the next.
+pub(super) fn polyline(corners: &[u32]) -> Vec<[u32; 2]> {
+    corners.array_windows().copied().collect()
+}
+
+/// All corners, where they are too few for one shape.
+const fn left_of(corners: &[u32], least: usize) -> usize {
+    if corners.len() < least { corners.len() } else { 0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn triangles_wind_as_the_specification_says() {
+        let triangles = |mode, corners: &[u32]| match shapes(mode, corners) {
+            (Shapes::Triangles(triangles), rest) => (triangles, rest),
+            (other, _) => panic!("{other:?}"),
+        };
+        assert_eq!(triangles(Mode::Triangles, &[0, 1, 2, 2, 1, 3, 9]).0, [[0, 1, 2], [2, 1, 3]]);
+        assert_eq!(triangles(Mode::Triangles, &[0, 1, 2, 3]).1, 1);
+        let strip = triangles(Mode::TriangleStrip, &[0, 1, 2, 3, 4]);
+        assert_eq!(strip, (vec![[0, 1, 2], [1, 3, 2], [2, 3, 4]], 0));
+        assert_eq!(triangles(Mode::TriangleFan, &[0, 1, 2, 3]).0, [[1, 2, 0], [2, 3, 0]]);
+        assert_eq!(triangles(Mode::TriangleFan, &[0, 1]), (vec![], 2));
+        assert_eq!(triangles(Mode::TriangleStrip, &[]), (vec![], 0));
+    }
+
+    #[test]
+    fn lines_are_segments() {
+        let segments = |mode, corners: &[u32]| match shapes(mode, corners) {
+            (Shapes::Segments(segments), rest) => (segments, rest),
+            (other, _) => panic!("{other:?}"),
+        };
+        assert_eq!(segments(Mode::Lines, &[0, 1, 2, 3, 4]), (vec![[0, 1], [2, 3]], 1));
+        assert_eq!(segments(Mode::LineStrip, &[0, 1, 2]), (vec![[0, 1], [1, 2]], 0));
+        assert_eq!(segments(Mode::LineLoop, &[0, 1, 2]).0, [[0, 1], [1, 2], [2, 0]]);
+        assert_eq!(segments(Mode::LineLoop, &[5]), (vec![], 1));
+        assert_eq!(shapes(Mode::Points, &[1, 2]), (Shapes::Points, 0));
+    }
+}

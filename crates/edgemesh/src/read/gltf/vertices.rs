@@ -1,0 +1,300 @@
+//! The vertices of a primitive, as its attributes list them.
+//!
+//! Based on: glTF 2.0, section 3.7.2.1 (meshes) and `KHR_mesh_quantization`.
+//!
+//! Positions must be sound, as must what bends them (see `deform`); a fault of
+//! any other attribute costs that attribute only, with a warning.
+
+use gltf_json as json;
+use json::accessor::Type;
+use json::mesh::Semantic;
+use json::validation::Checked;
+
+use super::super::error::{ReadError, ReadErrorKind};
+use super::accessor::Accessor;
+use super::{Asset, or_left_out};
+use crate::report::{Place, Report, WarningCode};
+
+/// Where a primitive stands in the JSON.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Site {
+    pub(super) mesh: usize,
+    pub(super) primitive: usize,
+}
+
+impl Site {
+    /// Its path.
+    pub(super) fn part(self) -> String {
+        format!("meshes[{}].primitives[{}]", self.mesh, self.primitive)
+    }
+
+    /// Its place in the file.
+    pub(super) fn place(self) -> Option<Place> {
+        Some(Place::Part(self.part()))
+    }
+}
+
+/// What a primitive says of its vertices beyond their positions; each list is
+/// empty where it says nothing, and else as long as theirs.
+#[derive(Debug, Default, PartialEq)]
+pub(super) struct Looks {
+    pub(super) normals: Vec<[f32; 3]>,
+    pub(super) texcoords: Vec<[f32; 2]>,
+    pub(super) colors: Vec<[f32; 3]>,
+}
+
+impl Looks {
+    /// Reads those of the `count` vertices of the primitive at `site`.
+    pub(super) fn read(
+        asset: &Asset,
+        primitive: &json::mesh::Primitive,
+        count: usize,
+        site: Site,
+        report: &mut Report,
+    ) -> Self {
+        let mut attributes = Attributes { asset, primitive, site, count, report };
+        Self {
+            normals: attributes.optional(Semantic::Normals, |accessor| accessor.numbers()),
+            texcoords: attributes.optional(Semantic::TexCoords(0), |accessor| accessor.numbers()),
+            colors: attributes.optional(Semantic::Colors(0), colors),
+        }
+    }
+}
+
+/// The accessor of an attribute, if the primitive has it.
+///
+/// # Errors
+/// Those of the accessor.
+pub(super) fn attribute<'a>(
+    asset: &'a Asset<'a>,
+    primitive: &json::mesh::Primitive,
+    semantic: Semantic,
+    site: Site,
+) -> Result<Option<Accessor<'a>>, ReadError> {
+    let part = || format!("{}.attributes", site.part());
+    let index = primitive.attributes.get(&Checked::Valid(semantic));
+    index.map(|index| asset.accessor(index.value(), part)).transpose()
+}
+
+/// The positions, with a warning where they leave the bounds that are stated.
+///
+/// # Errors
+/// Those of the accessor.
+pub(super) fn positions(
+    asset: &Asset,
+    primitive: &json::mesh::Primitive,
+    site: Site,
+    report: &mut Report,
+) -> Result<Option<Vec<[f32; 3]>>, ReadError> {
+    let Some(accessor) = attribute(asset, primitive, Semantic::Positions, site)? else {
+        return Ok(None);
+    };
+    let positions = accessor.numbers()?;
+    if accessor.is_raw() {
+        check_bounds(asset, &accessor, &positions, report);
+    }
+    Ok(Some(positions))
+}
+
+fn check_bounds(asset: &Asset, accessor: &Accessor, found: &[[f32; 3]], report: &mut Report) {
+    let Some(json) = asset.document.accessors.get(accessor.index()) else { return };
+    let stated = |list: &Option<json::Value>, at: usize| list.as_ref()?.get(at)?.as_f64();
+    for (at, axis) in ["x", "y", "z"].into_iter().enumerate() {
+        let (Some(least), Some(most)) = (stated(&json.min, at), stated(&json.max, at)) else {
+            continue;
+        };
+        // Decimal digits are often cut short where bounds are written.
+        let slack = 1e-5 * least.abs().max(most.abs());
+        let is_outside =
+            |value: f64| value.is_finite() && (value < least - slack || value > most + slack);
+        let outside = found.iter().find(|position| is_outside(position[at].into()));
+        if let Some(position) = outside {
+            let place = Some(Place::Part(format!("accessors[{}]", accessor.index())));
+            report.warn(WarningCode::Syntax, place, || {
+                let value = position[at];
+                format!("has {axis} = {value}, outside of the stated {least} to {most}")
+            });
+        }
+    }
+}
+
+fn is_finite<const N: usize>(element: &[f32; N]) -> bool {
+    element.iter().all(|number| number.is_finite())
+}
+
+/// Sets elements that are not finite to zeros, with a warning.
+fn set_finite<const N: usize>(
+    elements: &mut [[f32; N]],
+    name: &str,
+    site: Site,
+    report: &mut Report,
+) {
+    for element in elements.iter_mut().filter(|element| !is_finite(element)) {
+        report.warn(WarningCode::NonFinite, site.place(), || {
+            format!("{name} of a vertex is not finite; it was set to 0")
+        });
+        *element = [0.0; N];
+    }
+}
+
+/// Reads the attributes that a primitive may lack.
+struct Attributes<'a> {
+    asset: &'a Asset<'a>,
+    primitive: &'a json::mesh::Primitive,
+    site: Site,
+    count: usize,
+    report: &'a mut Report,
+}
+
+impl Attributes<'_> {
+    /// The elements that `read` makes of an attribute; empty where there is none,
+    /// or none that is sound.
+    fn optional<const N: usize>(
+        &mut self,
+        semantic: Semantic,
+        read: impl FnOnce(Accessor) -> Result<Vec<[f32; N]>, ReadError>,
+    ) -> Vec<[f32; N]> {
+        let name = semantic.to_string();
+        let accessor = attribute(self.asset, self.primitive, semantic, self.site);
+        let elements = accessor.and_then(|accessor| match accessor {
+            None => Ok(Vec::new()),
+            Some(accessor) => {
+                self.check_count(accessor.count(), &name)?;
+                read(accessor)
+            }
+        });
+        let mut elements = or_left_out(elements, self.report).unwrap_or_default();
+        set_finite(&mut elements, &name, self.site, self.report);
+        elements
+    }
+
+    fn check_count(&self, count: usize, name: &str) -> Result<(), ReadError> {
+        if count == self.count {
+            return Ok(());
+        }
+        let what = format!("has {count} {name} for {} vertices", self.count);
+        Err(self.asset.error(ReadErrorKind::Syntax, self.site.part(), what))
+    }
+}
+
+/// Colours without their alpha; whole numbers are always 0 to 1 here.
+fn colors(accessor: Accessor) -> Result<Vec<[f32; 3]>, ReadError> {
+    let accessor = accessor.normalized();
+    if accessor.kind() != Type::Vec4 {
+        return accessor.numbers();
+    }
+    let colors = accessor.numbers()?;
+    Ok(colors.into_iter().map(|[red, green, blue, _]| [red, green, blue]).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::super::sample::{SQUARE, Sample};
+    use super::*;
+    use crate::index::NONE;
+    use crate::report::Warning;
+
+    #[test]
+    fn attributes_follow_their_vertices() {
+        let mut sample = Sample::default();
+        let attributes = json!({
+            "POSITION": sample.floats("VEC3", &SQUARE[..3]),
+            "NORMAL": sample.floats("VEC3", &[[0.0, 0.0, 2.0]; 3]),
+            "TEXCOORD_0": sample.floats("VEC2", &[[0.0, 0.25]; 3]),
+            "COLOR_0": sample.bytes("VEC4", &[[255, 0, 51, 9]; 3])
+        });
+        let (model, report) = sample.read_primitive(&json!({"attributes": attributes})).unwrap();
+        assert_eq!(report.warnings(), [] as [Warning; 0]);
+        assert_eq!(model.corner_normals, [0, 1, 2]);
+        assert_eq!(model.corner_texcoords, [0, 1, 2]);
+        assert_eq!(model.normals, [[0.0, 0.0, 1.0]; 3]);
+        assert_eq!(model.texcoords, [[0.0, 0.25]; 3]);
+        assert_eq!(model.colors, [[1.0, 0.0, 0.2]; 3], "bytes are 0 to 1, flag or not");
+    }
+
+    #[test]
+    fn quantized_positions_are_numbers_or_normalized() {
+        let read = |is_normalized: bool| {
+            let mut sample = Sample::default();
+            let bytes: Vec<u8> = [0_i16, 32767, -32767, 0].map(i16::to_le_bytes).concat();
+            let view = sample.view(
+                &[bytes.clone(), bytes.clone(), bytes].concat(),
+                &json!({
+                    "byteStride": 8
+                }),
+            );
+            let positions = sample.accessor(json!({
+                "bufferView": view, "componentType": 5122, "count": 3, "type": "VEC3",
+                "normalized": is_normalized, "min": [0, 32767, -32767], "max": [0, 32767, -32767]
+            }));
+            let (model, report) =
+                sample.read_primitive(&json!({"attributes": {"POSITION": positions}})).unwrap();
+            assert!(report.warnings().is_empty(), "{report:?}");
+            model.positions[0]
+        };
+        assert_eq!(read(true), [0.0, 1.0, -1.0]);
+        assert_eq!(read(false), [0.0, 32767.0, -32767.0]);
+    }
+
+    #[test]
+    fn a_faulty_attribute_costs_only_itself() {
+        let mut sample = Sample::default();
+        let positions = sample.floats("VEC3", &SQUARE[..3]);
+        let too_few = sample.floats("VEC3", &SQUARE[..2]);
+        let past_end = sample.accessor(json!({
+            "bufferView": 0, "componentType": 5126, "count": 900, "type": "VEC2"
+        }));
+        let not_finite = sample.floats("VEC3", &[[1.0, f32::INFINITY, 0.0], [1.0; 3], [1.0; 3]]);
+        let attributes = json!({
+            "POSITION": positions, "NORMAL": too_few, "TEXCOORD_0": past_end, "COLOR_0": not_finite
+        });
+        let (model, report) = sample.read_primitive(&json!({"attributes": attributes})).unwrap();
+        assert_eq!(model.polygon_count(), 1);
+        assert_eq!(model.corner(0).normal, NONE);
+        assert_eq!(model.corner(0).texcoord, NONE);
+        assert_eq!(model.colors, [[0.0; 3], [1.0; 3], [1.0; 3]]);
+        assert_eq!(report.count(WarningCode::NonFinite), 1);
+        assert!(report.count(WarningCode::Syntax) >= 2, "{report:?}");
+    }
+
+    #[test]
+    fn positions_outside_of_their_bounds_are_told() {
+        let mut sample = Sample::default();
+        sample.floats("VEC3", &SQUARE[..3]);
+        let positions = sample.accessor(json!({
+            "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+            "min": [0, 0, 0], "max": [1, 0.5, 0]
+        }));
+        let (_, report) =
+            sample.read_primitive(&json!({"attributes": {"POSITION": positions}})).unwrap();
+        assert_eq!(report.warnings()[0].place, Some(Place::Part("accessors[1]".into())));
+        assert!(report.warnings()[0].message.contains("y = 1"), "{report:?}");
+    }
+
+    #[test]
+    fn positions_that_are_not_finite_are_left_to_the_firewall() {
+        let mut sample = Sample::default();
+        let [a, b, c] = [SQUARE[0], SQUARE[1], SQUARE[2]];
+        let positions = sample.floats("VEC3", &[a, b, c, a, b, [f32::NAN, 1.0, 1.0]]);
+        let primitive = json!({"attributes": {"POSITION": positions}});
+        let (model, report) = sample.read_primitive(&primitive).unwrap();
+        assert!(model.positions[5][0].is_nan() && report.count(WarningCode::NonFinite) == 0);
+    }
+
+    #[test]
+    fn positions_must_be_sound() {
+        let mut sample = Sample::default();
+        let four = sample.floats("VEC4", &[[0.0; 4]; 3]);
+        let read = |positions: usize| {
+            sample.read_primitive(&json!({"attributes": {"POSITION": positions}})).unwrap_err()
+        };
+        assert_eq!(read(four).kind, ReadErrorKind::Syntax);
+        let error = read(7);
+        assert_eq!(error.kind, ReadErrorKind::Syntax);
+        assert!(error.what.contains("accessors[7], of which there are 1"), "{error}");
+        let place = "meshes[0].primitives[0].attributes";
+        assert_eq!(error.place, Some(Place::Part(place.into())));
+    }
+}

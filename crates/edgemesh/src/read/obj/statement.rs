@@ -1,0 +1,120 @@
+//! The words of a statement, whatever way it is written.
+
+use crate::index::{MAX_INDEX, NONE};
+
+/// An index as a chunk stores it: absolute and counted from 0, or counted from
+/// the chunk's own start, which the next stage adds.
+///
+/// ```text
+/// bit 31   0: absolute     1: relative, biased so that it may reach back
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct ChunkIndex(pub(super) u32);
+
+impl ChunkIndex {
+    const RELATIVE: u32 = 1 << 31;
+    const BIAS: i64 = 1 << 30;
+
+    /// An index of the file, counted from 1, that is known to be small.
+    #[inline]
+    pub(super) const fn absolute(index: u32) -> Self {
+        Self(index - 1)
+    }
+
+    /// An index from the chunk's own start on; negative in the chunks before.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the bias")]
+    fn relative(index: i64) -> Self {
+        Self((index + Self::BIAS) as u32 | Self::RELATIVE)
+    }
+
+    /// The absolute index, where the chunk begins at `base`; negative where it
+    /// reaches before the first element.
+    #[inline]
+    pub(super) fn resolve(self, base: usize) -> i64 {
+        if self.0 & Self::RELATIVE == 0 {
+            i64::from(self.0)
+        } else {
+            base as i64 + i64::from(self.0 & !Self::RELATIVE) - Self::BIAS
+        }
+    }
+}
+
+/// Reads an index: 1 is the first element, -1 the latest of the `count` that
+/// the chunk has listed so far.
+pub(super) fn parse_index(word: &[u8], count: usize) -> Result<ChunkIndex, String> {
+    let is_whole = word.strip_prefix(b"-").or(word.strip_prefix(b"+")).unwrap_or(word);
+    if is_whole.is_empty() || !is_whole.iter().all(u8::is_ascii_digit) {
+        return Err("is not a whole number".into());
+    }
+    let text = std::str::from_utf8(word).map_err(|_| "is not a whole number".to_owned())?;
+    let Ok(index) = text.parse::<i64>() else {
+        return Err("is too large for an index".into());
+    };
+    let limit = MAX_INDEX as i64;
+    match index {
+        0 => Err("indices count from 1".into()),
+        // Past every count there can be: the merge says by how much.
+        1.. => Ok(ChunkIndex::absolute(u32::try_from(index.min(limit + 1)).unwrap_or(NONE))),
+        _ if index < -limit => Err("reaches before the first vertex".into()),
+        _ => Ok(ChunkIndex::relative(count as i64 + index)),
+    }
+}
+
+/// Splits a statement into its keyword and the rest.
+pub(super) fn split_keyword(text: &[u8]) -> (&[u8], &[u8]) {
+    let end = text.iter().position(u8::is_ascii_whitespace).unwrap_or(text.len());
+    (&text[..end], text[end..].trim_ascii_start())
+}
+
+/// The text before a comment.
+pub(super) fn without_comment(text: &[u8]) -> &[u8] {
+    text.iter().position(|&byte| byte == b'#').map_or(text, |at| &text[..at])
+}
+
+/// The words of a text.
+pub(super) fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
+}
+
+/// A name, which may hold blanks and bytes of old code pages; those are read as
+/// Latin-1.
+pub(super) fn name_of(rest: &[u8]) -> String {
+    let rest = rest.trim_ascii();
+    std::str::from_utf8(rest)
+        .map_or_else(|_| rest.iter().copied().map(char::from).collect(), str::to_owned)
+}
+
+/// The number of a smoothing group; `off` and anything else is 0.
+pub(super) fn smoothing_group(rest: &[u8]) -> u32 {
+    std::str::from_utf8(rest.trim_ascii()).ok().and_then(|text| text.parse().ok()).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn indices_count_from_one_or_back_from_the_latest() {
+        let resolved = |word: &str, count, base| {
+            parse_index(word.as_bytes(), count).map(|index| index.resolve(base))
+        };
+        assert_eq!(resolved("1", 5, 100), Ok(0));
+        assert_eq!(resolved("+7", 5, 100), Ok(6));
+        assert_eq!(resolved("-1", 5, 100), Ok(104));
+        assert_eq!(resolved("-6", 5, 100), Ok(99), "in the chunk before");
+        assert_eq!(resolved("-106", 5, 100), Ok(-1), "before the first");
+        assert_eq!(resolved("4000000000", 5, 100), Ok(MAX_INDEX as i64));
+        for word in ["0", "", "-", "1.5", "x", "99999999999999999999", "--1", "-1073741824"] {
+            assert!(parse_index(word.as_bytes(), 5).is_err(), "{word}");
+        }
+        assert_ne!(ChunkIndex::relative(MAX_INDEX as i64 - 1).0, NONE);
+    }
+
+    #[test]
+    fn names_keep_their_blanks_and_old_letters() {
+        assert_eq!(name_of(b" a b \t"), "a b");
+        assert_eq!(name_of(b"gr\xfcn"), "gr\u{fc}n");
+        assert_eq!(split_keyword(b"usemtl  a b"), (&b"usemtl"[..], &b"a b"[..]));
+        assert_eq!((smoothing_group(b" 3 "), smoothing_group(b"off")), (3, 0));
+    }
+}

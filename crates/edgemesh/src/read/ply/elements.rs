@@ -1,0 +1,268 @@
+//! What the rows of the elements mean: vertices, faces, strips and edges.
+//!
+//! Elements may come in any order, faces before their vertices too. So what the
+//! vertices are going to have is taken from the header first, and indices are
+//! held against the count there; whether that count is true is found when the
+//! vertices are read.
+//!
+//! ```text
+//! strip 0 1 2 3 4 -1        1---3       0 1 2, 2 1 3, 2 3 4: every other
+//!                          / \ / \      triangle has its first two corners
+//!                         0---2---4     swapped, so that all wind one way
+//! ```
+
+use std::ops::Range;
+
+use super::super::error::{ReadError, ReadErrorKind};
+use super::super::source::Source;
+use super::super::words::quoted;
+use super::header::{Element, Header};
+use super::rows::{Plan, Row, Rows, SLOTS};
+use super::scalar::Scalar;
+use crate::index::{MAX_INDEX, NONE};
+use crate::model::{Corner, Model, Segment};
+use crate::report::{Place, Report, WarningCode};
+
+/// Names of what a vertex may have, by slot.
+const VERTEX_SLOTS: [&[&str]; SLOTS] = [
+    &["x"],
+    &["y"],
+    &["z"],
+    &["nx"],
+    &["ny"],
+    &["nz"],
+    &["red", "diffuse_red"],
+    &["green", "diffuse_green"],
+    &["blue", "diffuse_blue"],
+    &["u", "s", "texture_u"],
+    &["v", "t", "texture_v"],
+];
+
+// Slots of `VERTEX_SLOTS`.
+const POSITION: Range<usize> = 0..3;
+const NORMAL: Range<usize> = 3..6;
+const COLOR: Range<usize> = 6..9;
+const TEXCOORD: Range<usize> = 9..11;
+
+/// Names of the ends of an edge.
+const EDGE_SLOTS: [&[&str]; 2] = [&["vertex1"], &["vertex2"]];
+
+/// Names of the list of a face's or a strip's corners.
+const CORNER_LISTS: [&str; 2] = ["vertex_indices", "vertex_index"];
+
+/// What is wrong with an element without such a list.
+const NO_LIST: &str = "has no list vertex_indices or vertex_index";
+
+/// Reads all rows into a model.
+pub(super) fn read_elements(
+    source: &Source,
+    header: &Header,
+    rows: &mut impl Rows,
+    report: &mut Report,
+) -> Result<Model, ReadError> {
+    let vertex = header.elements.iter().find(|element| element.name == b"vertex");
+    let plan = vertex.map(|vertex| Plan::new(vertex, &VERTEX_SLOTS, &[]));
+    let has = |slots| plan.as_ref().is_some_and(|plan| plan.has(slots));
+    let mut reader = ElementReader {
+        source,
+        rows,
+        report,
+        row: Row::default(),
+        model: Model::default(),
+        vertex_count: vertex.map_or(0, |vertex| vertex.count),
+        has_normals: has(NORMAL),
+        has_texcoords: has(TEXCOORD),
+    };
+    for element in &header.elements {
+        match element.name {
+            b"vertex" => reader.vertices(&Plan::new(element, &VERTEX_SLOTS, &[]))?,
+            b"face" => reader.faces(&Plan::new(element, &[], &CORNER_LISTS))?,
+            b"tristrips" => reader.strips(&Plan::new(element, &[], &CORNER_LISTS))?,
+            b"edge" => reader.edges(&Plan::new(element, &EDGE_SLOTS, &[]))?,
+            _ => reader.skip(element, "is not known")?,
+        }
+    }
+    reader.warn_of_rest();
+    Ok(reader.model)
+}
+
+struct ElementReader<'s, 'a, R> {
+    source: &'s Source<'a>,
+    rows: &'s mut R,
+    report: &'s mut Report,
+    row: Row,
+    model: Model,
+    /// How many vertices the header announces.
+    vertex_count: u64,
+    /// Whether each vertex has a normal.
+    has_normals: bool,
+    /// Whether each vertex has texture coordinates.
+    has_texcoords: bool,
+}
+
+impl<R: Rows> ElementReader<'_, '_, R> {
+    fn vertices(&mut self, plan: &Plan) -> Result<(), ReadError> {
+        if !plan.has(POSITION) {
+            let place = Some(Place::Line(plan.element.line));
+            let what = "the vertices lack one of the properties x, y, z";
+            return Err(self.source.error(ReadErrorKind::Syntax, place, what));
+        }
+        self.rows.begin(plan)?;
+        let count = usize::try_from(plan.element.count).unwrap_or(usize::MAX);
+        if count > MAX_INDEX || self.model.positions.try_reserve_exact(count).is_err() {
+            return Err(self.too_large());
+        }
+        let has_colors = plan.has(COLOR);
+        let full = |slot: usize| plan.slots[slot].map_or(1.0, Scalar::full_color);
+        let full = [0, 1, 2].map(|channel| full(COLOR.start + channel));
+        for _ in 0..count {
+            self.rows.read(plan, &mut self.row, self.report)?;
+            let [x, y, z, nx, ny, nz, red, green, blue, u, v] = self.row.values;
+            self.model.positions.push([x, y, z]);
+            if self.has_normals {
+                self.model.normals.push([nx, ny, nz].map(narrow));
+            }
+            if has_colors {
+                let color = [red / full[0], green / full[1], blue / full[2]];
+                self.model.colors.push(color.map(narrow));
+            }
+            if self.has_texcoords {
+                self.model.texcoords.push([u, v].map(narrow));
+            }
+        }
+        Ok(())
+    }
+
+    fn faces(&mut self, plan: &Plan) -> Result<(), ReadError> {
+        if !plan.has_list {
+            return self.skip(plan.element, NO_LIST);
+        }
+        self.rows.begin(plan)?;
+        let mut corners = Vec::new();
+        for _ in 0..plan.element.count {
+            self.rows.read(plan, &mut self.row, self.report)?;
+            corners.clear();
+            for &value in &self.row.list {
+                corners.push(self.corner(value)?);
+            }
+            self.push(&corners)?;
+        }
+        Ok(())
+    }
+
+    fn strips(&mut self, plan: &Plan) -> Result<(), ReadError> {
+        if !plan.has_list {
+            return self.skip(plan.element, NO_LIST);
+        }
+        self.rows.begin(plan)?;
+        for _ in 0..plan.element.count {
+            self.rows.read(plan, &mut self.row, self.report)?;
+            let list = std::mem::take(&mut self.row.list);
+            for strip in list.split(|&value| value == -1.0).filter(|strip| !strip.is_empty()) {
+                self.strip(strip)?;
+            }
+            self.row.list = list;
+        }
+        Ok(())
+    }
+
+    fn strip(&mut self, strip: &[f64]) -> Result<(), ReadError> {
+        let corners = strip.iter().map(|&value| self.corner(value));
+        let corners = corners.collect::<Result<Vec<Corner>, ReadError>>()?;
+        if corners.len() < 3 {
+            return self.push(&corners);
+        }
+        for (at, triangle) in corners.windows(3).enumerate() {
+            match (triangle, at % 2) {
+                (&[a, b, c], 1) => self.push(&[b, a, c])?,
+                _ => self.push(triangle)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn edges(&mut self, plan: &Plan) -> Result<(), ReadError> {
+        if !plan.has(0..EDGE_SLOTS.len()) {
+            return self.skip(plan.element, "lacks vertex1 or vertex2");
+        }
+        self.rows.begin(plan)?;
+        for _ in 0..plan.element.count {
+            self.rows.read(plan, &mut self.row, self.report)?;
+            let [a, b, ..] = self.row.values;
+            let ends = [self.index(a)?, self.index(b)?];
+            self.model.segments.push(Segment { ends, line: self.rows.line() });
+        }
+        Ok(())
+    }
+
+    /// Steps over the rows of an element that is not read, because it `lacks`
+    /// something.
+    fn skip(&mut self, element: &Element, lacks: &str) -> Result<(), ReadError> {
+        let plan = Plan::new(element, &[], &[]);
+        // Rows without values take no bytes, however many there are.
+        if plan.steps.is_empty() || element.count == 0 {
+            return Ok(());
+        }
+        let place = Some(Place::Line(element.line));
+        self.report.warn(WarningCode::Unsupported, place, || {
+            let name = quoted(element.name);
+            format!("the element {name} {lacks}; its {} rows were left out", element.count)
+        });
+        self.rows.begin(&plan)?;
+        for _ in 0..element.count {
+            self.rows.read(&plan, &mut self.row, self.report)?;
+        }
+        Ok(())
+    }
+
+    /// The corner at a vertex, with what the vertex has.
+    fn corner(&self, value: f64) -> Result<Corner, ReadError> {
+        let position = self.index(value)?;
+        let if_any = |has: bool| if has { position } else { NONE };
+        let (texcoord, normal) = (if_any(self.has_texcoords), if_any(self.has_normals));
+        Ok(Corner { position, texcoord, normal })
+    }
+
+    fn index(&self, value: f64) -> Result<u32, ReadError> {
+        let count = self.vertex_count.min(MAX_INDEX as u64);
+        if value.fract() == 0.0 && (0.0..count as f64).contains(&value) {
+            #[expect(clippy::cast_possible_truncation, reason = "below MAX_INDEX")]
+            return Ok(value as u32);
+        }
+        let what = format!("vertex {value} is named, counted from 0, of {}", self.vertex_count);
+        Err(self.source.error(ReadErrorKind::Index, Some(self.rows.place()), what))
+    }
+
+    /// Adds a polygon, unless it has fewer than three corners.
+    fn push(&mut self, corners: &[Corner]) -> Result<(), ReadError> {
+        if corners.len() < 3 {
+            self.report.warn(WarningCode::Degenerate, Some(self.rows.place()), || {
+                format!("a face of {} corners was dropped", corners.len())
+            });
+            return Ok(());
+        }
+        if self.model.corner_positions.len() + corners.len() > MAX_INDEX {
+            return Err(self.too_large());
+        }
+        self.model.push_polygon(corners, self.rows.line());
+        Ok(())
+    }
+
+    fn too_large(&self) -> ReadError {
+        let what = format!("too large: more than {MAX_INDEX} vertices or corners, or no memory");
+        self.source.error(ReadErrorKind::Size, Some(self.rows.place()), what)
+    }
+
+    fn warn_of_rest(&mut self) {
+        if let Some(place) = self.rows.first_unread() {
+            self.report.warn(WarningCode::Syntax, Some(place), || {
+                "what is behind the last row that the header announces was left out".into()
+            });
+        }
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "32 bits are what the model holds")]
+const fn narrow(value: f64) -> f32 {
+    value as f32
+}

@@ -1,0 +1,211 @@
+//! The paper's own layouts (section 3): four copies of `<v0, v1, v2, v3, n0, n1,
+//! r, i>` an edge, which need nothing but vertex attributes.
+//!
+//! At 16 bits positions are quantized to steps of the box's largest side over
+//! 65534, the same along all axes, so that angles stay as they are. No position
+//! moves by more than half a step along an axis, plus its rounding; normals err
+//! by half of 1 / 32767 a component.
+//!
+//! Rejected: steps of their own along each axis. A flat mesh would gain digits
+//! across it, and every normal would have to be bent.
+
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+use crate::edge_mesh::{Bounds, EdgeMesh};
+use crate::index::NONE;
+use crate::record::{EdgeFlags, EdgeRecord, EdgeVertex, EdgeVertex16, edge_random};
+
+/// The largest 16-bit step from the middle.
+const LARGEST_STEP: f64 = 32767.0;
+
+/// What one record's edge vertices are made of, as indices of vertices.
+struct Corners {
+    v: [u32; 4],
+    hides_b: bool,
+}
+
+fn corners_of(mesh: &EdgeMesh, record: &EdgeRecord) -> Corners {
+    let hides_b =
+        record.flags.intersects(EdgeFlags::BOUNDARY | EdgeFlags::MARKED) || record.face_b == NONE;
+    let v3 = if hides_b { record.v0 } else { mesh.apex(record.face_b, record) };
+    Corners { v: [record.v0, record.v1, mesh.apex(record.face_a, record), v3], hides_b }
+}
+
+/// Writes out the paper's edge mesh in 32-bit floats: four edge vertices a
+/// record, in order.
+#[must_use]
+pub fn replicate(mesh: &EdgeMesh) -> Vec<EdgeVertex> {
+    let position = |vertex: u32| mesh.positions[vertex as usize];
+    let normal = |vertex: u32| mesh.vertex_normals[vertex as usize];
+    let of_record = |record: &EdgeRecord| {
+        let Corners { v, .. } = corners_of(mesh, record);
+        let [v0, v1, v2, v3] = v.map(position);
+        [0, 1, 2, 3].map(|corner| EdgeVertex {
+            v0,
+            v1,
+            v2,
+            v3,
+            n0: normal(v[0]),
+            n1: normal(v[1]),
+            r: edge_random(v0.into(), v1.into()),
+            corner_and_flags: corner | record.flags.bits() << EdgeVertex::FLAGS_SHIFT,
+        })
+    };
+    mesh.records.par_iter().flat_map_iter(of_record).collect()
+}
+
+/// Writes out the paper's edge mesh at 16 bits: four edge vertices a record, in
+/// order.
+#[must_use]
+pub fn replicate_16(mesh: &EdgeMesh) -> Vec<EdgeVertex16> {
+    let quantization = Quantization::of(&mesh.bounds);
+    let position = |vertex: u32| quantization.quantize(mesh.positions[vertex as usize]);
+    let normal = |vertex: u32| mesh.vertex_normals[vertex as usize].map(quantize_normal);
+    let of_record = |record: &EdgeRecord| {
+        let Corners { v, hides_b } = corners_of(mesh, record);
+        debug_assert!(hides_b == (v[3] == v[0]), "only a hidden face repeats the start");
+        let [v0, v1, v2, v3] = v.map(position);
+        let [p0, p1] = [v[0], v[1]].map(|vertex| Vec3::from(mesh.positions[vertex as usize]));
+        let [low, middle, high, _] = record.flags.bits().to_le_bytes();
+        [0, 1, 2, 3].map(|corner| EdgeVertex16 {
+            v0,
+            v1,
+            v2,
+            v3,
+            n0: normal(v[0]),
+            n1: normal(v[1]),
+            corner_and_random: corner | quantize_random(edge_random(p0, p1)) << 2,
+            flags: [low, middle, high],
+        })
+    };
+    mesh.records.par_iter().flat_map_iter(of_record).collect()
+}
+
+/// How positions become 16-bit steps and steps positions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Quantization {
+    /// The position of step 0 along all axes: the middle of the box.
+    pub center: DVec3,
+    /// Units of the mesh a step.
+    pub step: f64,
+}
+
+impl Quantization {
+    /// The quantization of positions within `bounds`.
+    #[must_use]
+    pub fn of(bounds: &Bounds) -> Self {
+        let [low, high] = [bounds.min, bounds.max].map(|corner| Vec3::from(corner).as_dvec3());
+        let half = (high - low).max_element() / 2.0;
+        Self { center: bounds.center(), step: if half > 0.0 { half / LARGEST_STEP } else { 1.0 } }
+    }
+
+    /// The steps of a position within the box.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "clamped to 16 bits")]
+    pub fn quantize(&self, position: [f32; 3]) -> [i16; 3] {
+        let steps = (Vec3::from(position).as_dvec3() - self.center) / self.step;
+        steps.to_array().map(|step| step.round().clamp(-LARGEST_STEP, LARGEST_STEP) as i16)
+    }
+
+    /// The position of steps, as the GPU works it out.
+    #[must_use]
+    pub fn dequantize(&self, steps: [i16; 3]) -> [f32; 3] {
+        let [x, y, z] = steps.map(f64::from);
+        (self.center + DVec3::new(x, y, z) * self.step).as_vec3().to_array()
+    }
+
+    /// No coordinate of a position moves by more than this: half a step, and the
+    /// rounding of the result to 32 bits.
+    #[must_use]
+    pub fn largest_error(&self) -> f64 {
+        let reach = self.center.abs().max_element() + self.step * LARGEST_STEP;
+        self.step * 0.5 + reach * f64::from(f32::EPSILON)
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "clamped to 16 bits")]
+fn quantize_normal(component: f32) -> i16 {
+    (f64::from(component) * LARGEST_STEP).round().clamp(-LARGEST_STEP, LARGEST_STEP) as i16
+}
+
+/// Six bits of a scalar from 0 up to 1.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 64")]
+fn quantize_random(random: f32) -> u8 {
+    ((random * 64.0) as u8).min(63)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::build::{BuildOptions, build_edge_mesh};
+    use crate::model::Model;
+    use crate::report::Report;
+
+    #[test]
+    fn four_copies_differ_in_i_and_boundaries_repeat_v0() {
+        let positions = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [1., 1., 1.]];
+        let model = Model::from_polygons(&positions, &[&[0, 1, 2], &[1, 3, 2]]);
+        let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
+        let vertices = replicate(&mesh);
+        assert_eq!(vertices.len(), 4 * mesh.records.len());
+        for (index, vertex) in vertices.iter().enumerate() {
+            assert_eq!(vertex.corner() as usize, index % 4);
+            let is_boundary = vertex.flags().contains(EdgeFlags::BOUNDARY);
+            assert_eq!(vertex.v3 == vertex.v0, is_boundary, "{vertex:?}");
+        }
+        let inner = vertices.iter().find(|v| !v.flags().contains(EdgeFlags::BOUNDARY)).unwrap();
+        assert_eq!((inner.v0, inner.v1), ([1., 0., 0.], [0., 1., 0.]), "as face A runs");
+        assert_eq!((inner.v2, inner.v3), ([0., 0., 0.], [1., 1., 1.]));
+    }
+
+    #[test]
+    fn a_marked_edge_hides_its_second_face() {
+        let positions = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [1., 1., 1.]];
+        let model = Model::from_polygons(&positions, &[&[0, 1, 2], &[1, 3, 2]]);
+        let mut mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
+        for record in &mut mesh.records {
+            record.flags |= EdgeFlags::MARKED;
+        }
+        assert!(replicate(&mesh).iter().all(|vertex| vertex.v3 == vertex.v0));
+    }
+
+    #[test]
+    fn sixteen_bits_say_the_same_up_to_their_steps() {
+        let positions = [[0., 0., 0.], [1., 0.1, 0.], [0., 7.3, 0.], [1., 1., -2.]];
+        let model = Model::from_polygons(&positions, &[&[0, 1, 2], &[1, 3, 2]]);
+        let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
+        let quantization = Quantization::of(&mesh.bounds);
+        let (exact, rounded) = (replicate(&mesh), replicate_16(&mesh));
+        assert_eq!(exact.len(), rounded.len());
+        for (exact, rounded) in exact.iter().zip(&rounded) {
+            assert_eq!((exact.corner(), exact.flags()), (rounded.corner(), rounded.flags()));
+            assert!((0.0..1.0 / 64.0).contains(&(exact.r - rounded.random())));
+            for (exact, rounded) in [(exact.v0, rounded.v0), (exact.v1, rounded.v1)]
+                .into_iter()
+                .chain([(exact.v2, rounded.v2), (exact.v3, rounded.v3)])
+            {
+                let back = quantization.dequantize(rounded);
+                let error = (0..3).map(|axis| f64::from((exact[axis] - back[axis]).abs()));
+                let error = error.fold(0.0, f64::max);
+                assert!(error <= quantization.largest_error(), "{exact:?} {back:?}");
+            }
+            for (exact, rounded) in [(exact.n0, rounded.n0), (exact.n1, rounded.n1)] {
+                for axis in 0..3 {
+                    let error = f64::from(exact[axis]) - f64::from(rounded[axis]) / LARGEST_STEP;
+                    assert!(error.abs() <= 0.5 / LARGEST_STEP, "{exact:?} {rounded:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_corners_of_the_box_are_the_outermost_steps() {
+        let bounds = Bounds { min: [-1.0, 0.0, 2.0], max: [3.0, 1.0, 3.0] };
+        let quantization = Quantization::of(&bounds);
+        assert_eq!(quantization.quantize([-1.0, 0.5, 2.5]), [-32767, 0, 0]);
+        assert_eq!(quantization.quantize([3.0, 0.5, 2.5]), [32767, 0, 0]);
+        let point = Quantization::of(&Bounds::default());
+        assert_eq!(point.dequantize(point.quantize([0.0; 3])), [0.0; 3]);
+    }
+}

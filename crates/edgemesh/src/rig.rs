@@ -1,0 +1,300 @@
+//! What moves the vertices of a model: nodes, skins and morph targets.
+//!
+//! Based on: glTF 2.0, sections 3.5.2 (transformations) and 3.7 (meshes, skins,
+//! morph targets).
+//!
+//! ```text
+//! unposed position --morph targets--> --joints, else the node--> Model::positions
+//!                   weights of a part        transforms of nodes
+//! ```
+//!
+//! A rig is data of the file, a [`Pose`] is one moment of it. The model's own
+//! positions are those of the rest pose, so who does not animate never asks for
+//! the rig.
+//!
+//! Influences are one flat list with the end of each vertex's run, not a fixed
+//! eight a vertex: most vertices hang on one to four joints.
+
+use std::ops::Range;
+
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+
+use crate::index::NONE;
+
+/// The nodes of a file, and how the vertices of its model hang on them.
+#[derive(Debug, Clone, Default)]
+pub struct Rig {
+    /// All nodes of the file, in its own order.
+    pub nodes: Vec<RigNode>,
+    /// Indices into `nodes`, each node behind its parent.
+    pub node_order: Vec<u32>,
+    /// The skins of the file, in its own order; those that no node has are
+    /// empty.
+    pub skins: Vec<Skin>,
+    /// The model's vertices in runs, ascending; together they are all of them.
+    pub parts: Vec<RigPart>,
+    /// Each of [`crate::model::Model::positions`] before it is morphed, skinned
+    /// or placed by its node.
+    pub positions: Vec<[f64; 3]>,
+    /// The influence behind the last one of each vertex; empty where no vertex
+    /// has any.
+    pub influence_ends: Vec<u32>,
+    /// The joints that each vertex hangs on, vertex by vertex.
+    pub influences: Vec<Influence>,
+}
+
+/// A node: a place that others hang on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigNode {
+    /// Index into [`Rig::nodes`], or [`NONE`].
+    pub parent: u32,
+    /// Where it stands in its parent, at rest.
+    pub transform: NodeTransform,
+}
+
+/// Where a node stands in its parent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum NodeTransform {
+    /// As a matrix, which cannot be animated.
+    Matrix(DAffine3),
+    /// First scaled, then rotated, then moved.
+    Parts {
+        /// How far it is moved.
+        translation: DVec3,
+        /// How it is rotated; of unit length.
+        rotation: DQuat,
+        /// How it is scaled; negative mirrors.
+        scale: DVec3,
+    },
+}
+
+impl NodeTransform {
+    /// The transform that takes the node's own coordinates to its parent's.
+    #[must_use]
+    pub fn parent_from_node(&self) -> DAffine3 {
+        match *self {
+            Self::Matrix(matrix) => matrix,
+            Self::Parts { translation, rotation, scale } => {
+                DAffine3::from_scale_rotation_translation(scale, rotation, translation)
+            }
+        }
+    }
+}
+
+/// Joints that bend a mesh.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Skin {
+    /// The nodes that are its joints, as indices into [`Rig::nodes`].
+    pub joints: Vec<u32>,
+    /// For each joint, the transform that takes the unposed mesh to the joint's
+    /// own coordinates.
+    pub inverse_binds: Vec<DAffine3>,
+}
+
+/// Vertices in a row that move alike.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RigPart {
+    /// Which vertices, as indices into [`crate::model::Model::positions`].
+    pub vertices: Range<u32>,
+    /// The node they belong to, as an index into [`Rig::nodes`]; it places them
+    /// only where they have no skin.
+    pub node: u32,
+    /// Index into [`Rig::skins`], or [`NONE`].
+    pub skin: u32,
+    /// What each of `targets` is weighted with at rest.
+    pub weights: Vec<f32>,
+    /// The vertices that each morph target moves.
+    pub targets: Vec<Vec<Displacement>>,
+}
+
+/// Where a morph target moves a vertex, before skin and node.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Displacement {
+    /// Index into [`crate::model::Model::positions`].
+    pub vertex: u32,
+    /// How far, at weight 1.
+    pub offset: [f32; 3],
+}
+
+/// A joint that a vertex hangs on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Influence {
+    /// Index into [`Skin::joints`] of the part's skin.
+    pub joint: u32,
+    /// How much; those of a vertex sum to 1.
+    pub weight: f32,
+}
+
+/// Where nodes and joints stand at one moment.
+#[derive(Debug, Clone, Default)]
+pub struct Pose {
+    /// For each node, world coordinates from its own.
+    pub world_from_node: Vec<DAffine3>,
+    /// For each joint of each skin, world coordinates from the unposed mesh's.
+    pub world_from_mesh: Vec<Vec<DAffine3>>,
+}
+
+impl Rig {
+    /// Whether anything but rigid nodes moves the vertices.
+    #[must_use]
+    pub fn bends(&self) -> bool {
+        self.parts.iter().any(|part| part.skin != NONE || !part.targets.is_empty())
+    }
+
+    /// The pose of the file itself.
+    #[must_use]
+    pub fn rest_pose(&self) -> Pose {
+        self.pose(|node| self.nodes[node].transform)
+    }
+
+    /// The pose where each node stands in its parent as `transform` says, by
+    /// its index.
+    #[must_use]
+    pub fn pose(&self, transform: impl Fn(usize) -> NodeTransform) -> Pose {
+        let mut world_from_node = vec![DAffine3::IDENTITY; self.nodes.len()];
+        for &node in &self.node_order {
+            let node = node as usize;
+            let local = transform(node).parent_from_node();
+            world_from_node[node] = match self.nodes[node].parent {
+                NONE => local,
+                parent => world_from_node[parent as usize] * local,
+            };
+        }
+        let joints = |skin: &Skin| -> Vec<DAffine3> {
+            let joints = skin.joints.iter().zip(&skin.inverse_binds);
+            joints.map(|(&joint, bind)| world_from_node[joint as usize] * *bind).collect()
+        };
+        let world_from_mesh = self.skins.iter().map(joints).collect();
+        Pose { world_from_node, world_from_mesh }
+    }
+
+    /// The positions of all vertices in `pose`, where the targets of each part
+    /// are weighted as `weights` says, by the part's index.
+    #[must_use]
+    pub fn posed_positions<'a>(
+        &self,
+        pose: &Pose,
+        weights: impl Fn(usize) -> &'a [f32],
+    ) -> Vec<[f64; 3]> {
+        let mut positions = self.positions.clone();
+        for (at, part) in self.parts.iter().enumerate() {
+            part.morph(&mut positions, weights(at));
+            for vertex in part.vertices.clone() {
+                let position = &mut positions[vertex as usize];
+                let transform = self.vertex_transform(pose, part, vertex);
+                *position = transform.transform_point3(DVec3::from(*position)).to_array();
+            }
+        }
+        positions
+    }
+
+    /// What takes a vertex of `part` to world coordinates.
+    #[must_use]
+    pub fn vertex_transform(&self, pose: &Pose, part: &RigPart, vertex: u32) -> DAffine3 {
+        let influences = self.influences_of(vertex);
+        if part.skin == NONE || influences.is_empty() {
+            return pose.world_from_node[part.node as usize];
+        }
+        let joints = &pose.world_from_mesh[part.skin as usize];
+        let mut linear = DMat3::ZERO;
+        let mut translation = DVec3::ZERO;
+        for influence in influences {
+            let joint = &joints[influence.joint as usize];
+            linear += joint.matrix3 * f64::from(influence.weight);
+            translation += joint.translation * f64::from(influence.weight);
+        }
+        DAffine3::from_mat3_translation(linear, translation)
+    }
+
+    /// The influences of a vertex.
+    #[must_use]
+    pub fn influences_of(&self, vertex: u32) -> &[Influence] {
+        let vertex = vertex as usize;
+        let Some(&end) = self.influence_ends.get(vertex) else { return &[] };
+        let start = vertex.checked_sub(1).map_or(0, |before| self.influence_ends[before]);
+        &self.influences[start as usize..end as usize]
+    }
+}
+
+impl RigPart {
+    fn morph(&self, positions: &mut [[f64; 3]], weights: &[f32]) {
+        for (target, &weight) in self.targets.iter().zip(weights) {
+            if weight == 0.0 {
+                continue;
+            }
+            for displacement in target {
+                let position = &mut positions[displacement.vertex as usize];
+                for (coordinate, offset) in position.iter_mut().zip(displacement.offset) {
+                    *coordinate += f64::from(weight) * f64::from(offset);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn moved(x: f64) -> NodeTransform {
+        NodeTransform::Matrix(DAffine3::from_translation(DVec3::new(x, 0.0, 0.0)))
+    }
+
+    /// Node 1 hangs on node 0; vertices 0 and 1 hang on them by a skin, vertex 2
+    /// is placed by node 1.
+    fn arm() -> Rig {
+        let part = |vertices, node, skin| RigPart {
+            vertices,
+            node,
+            skin,
+            weights: vec![0.0],
+            targets: vec![vec![Displacement { vertex: 1, offset: [0.0, 2.0, 0.0] }]],
+        };
+        Rig {
+            nodes: vec![
+                RigNode { parent: NONE, transform: moved(1.0) },
+                RigNode { parent: 0, transform: moved(10.0) },
+            ],
+            node_order: vec![0, 1],
+            skins: vec![Skin { joints: vec![0, 1], inverse_binds: vec![DAffine3::IDENTITY; 2] }],
+            parts: vec![
+                part(0..2, 1, 0),
+                RigPart { weights: vec![], targets: vec![], ..part(2..3, 1, NONE) },
+            ],
+            positions: vec![[0.0; 3]; 3],
+            influence_ends: vec![1, 3, 3],
+            influences: vec![
+                Influence { joint: 0, weight: 1.0 },
+                Influence { joint: 0, weight: 0.5 },
+                Influence { joint: 1, weight: 0.5 },
+            ],
+        }
+    }
+
+    #[test]
+    fn joints_blend_and_nodes_place() {
+        let rig = arm();
+        let positions = rig.posed_positions(&rig.rest_pose(), |part| &rig.parts[part].weights);
+        assert_eq!(positions, [[1.0, 0.0, 0.0], [6.0, 0.0, 0.0], [11.0, 0.0, 0.0]]);
+        assert!(rig.bends());
+    }
+
+    #[test]
+    fn another_pose_moves_what_hangs_on_it() {
+        let rig = arm();
+        let pose = rig.pose(|node| moved(if node == 0 { 100.0 } else { 10.0 }));
+        let positions = rig.posed_positions(&pose, |_| &[0.25]);
+        assert_eq!(positions, [[100.0, 0.0, 0.0], [105.0, 0.5, 0.0], [110.0, 0.0, 0.0]]);
+    }
+
+    #[test]
+    fn parts_of_a_transform_act_in_order() {
+        let transform = NodeTransform::Parts {
+            translation: DVec3::new(0.0, 0.0, 5.0),
+            rotation: DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2),
+            scale: DVec3::new(2.0, 1.0, 1.0),
+        };
+        let point = transform.parent_from_node().transform_point3(DVec3::X);
+        assert!(point.distance(DVec3::new(0.0, 2.0, 5.0)) < 1e-15, "{point}");
+    }
+}

@@ -1,0 +1,32 @@
+//! What the fuzz targets share: `cargo +nightly fuzz run obj`.
+//!
+//! Seeds are files of the format; `fuzz/seeds.sh` gathers some. What a run finds
+//! becomes a test in `crates/edgemesh/tests/properties/found.rs`.
+
+use edgemesh::build::{BuildOptions, build_edge_mesh};
+use edgemesh::camera::Camera;
+use edgemesh::edge_mesh::EdgeMesh;
+use edgemesh::oracle::count_features;
+use edgemesh::read::{Format, ReadErrorKind, read_model_bytes};
+use edgemesh::replicate::{replicate, replicate_16};
+
+/// Reads a model and, where that succeeds, builds and uses its edge mesh.
+///
+/// # Panics
+/// Where the reader has panicked, which it turns into an error.
+pub fn read_and_build(bytes: &[u8], format: Format) {
+    match read_model_bytes("fuzz", bytes, format) {
+        Ok((model, mut report)) => {
+            use_mesh(&build_edge_mesh(&model, &BuildOptions::default(), &mut report));
+        }
+        Err(error) => assert!(error.kind != ReadErrorKind::Internal, "{error}"),
+    }
+}
+
+/// Asks an edge mesh for all that others ask it for.
+pub fn use_mesh(mesh: &EdgeMesh) {
+    let eye = Camera::default_view(&mesh.bounds).view(&mesh.bounds, 1.0).eye;
+    let counts = count_features(mesh, eye);
+    assert!(counts.contour as usize <= mesh.records.len());
+    assert_eq!(replicate(mesh).len(), replicate_16(mesh).len());
+}
