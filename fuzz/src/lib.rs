@@ -1,7 +1,7 @@
-//! What the fuzz targets share: `cargo +nightly fuzz run obj`.
+//! What the fuzz targets share: `cargo +nightly fuzz run obj FOUND SEEDS`.
 //!
-//! Seeds are files of the format; `fuzz/seeds.sh` gathers some. What a run finds
-//! becomes a test in `crates/edgemesh/tests/properties/found.rs`.
+//! `FOUND` is a folder for inputs that reach new code, `SEEDS` one with files of
+//! the format. An input that ends a run becomes a test of its reader.
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::camera::Camera;

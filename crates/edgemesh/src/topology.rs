@@ -64,28 +64,20 @@ impl EdgeTable {
     /// All vertices must be below `vertex_count`.
     #[must_use]
     pub fn from_sides(vertex_count: usize, sides: &[[u32; 2]]) -> Self {
-        Self::build(vertex_count, sides.len(), |side| sides[side])
+        Self::build(vertex_count, &sides)
     }
 
     /// Builds the table of a triangle mesh: side `3 f + k` of the table runs
     /// from corner k to corner k+1 of triangle f.
     #[must_use]
     pub fn from_triangles(vertex_count: usize, triangles: &[[u32; 3]]) -> Self {
-        let corners = triangles.as_flattened();
-        Self::build(vertex_count, corners.len(), |side| {
-            let next = if side % 3 == 2 { side - 2 } else { side + 1 };
-            [corners[side], corners[next]]
-        })
+        Self::build(vertex_count, &TriangleSides(triangles))
     }
 
-    fn build(
-        vertex_count: usize,
-        side_count: usize,
-        side: impl Fn(usize) -> [u32; 2] + Sync,
-    ) -> Self {
-        let ranges = even_ranges(vertex_count, side_count, &side);
+    fn build(vertex_count: usize, sides: &impl Sides) -> Self {
+        let ranges = even_ranges(vertex_count, sides);
         let parts: Vec<EdgePart> =
-            ranges.into_par_iter().map(|range| edges_of(range, side_count, &side)).collect();
+            ranges.into_par_iter().map(|range| edges_of(range, sides)).collect();
         let mut first_edges = vec![0];
         for part in &parts {
             first_edges.push(first_edges[first_edges.len() - 1] + part.edge_count());
@@ -127,27 +119,60 @@ impl EdgeTable {
     }
 }
 
+/// Directed sides by their numbers.
+trait Sides: Sync {
+    fn count(&self) -> usize;
+
+    /// Calls `visit` with every so many-th side, its start and its end.
+    fn each(&self, step: usize, visit: impl FnMut(usize, u32, u32));
+}
+
+impl Sides for &[[u32; 2]] {
+    fn count(&self) -> usize {
+        self.len()
+    }
+
+    fn each(&self, step: usize, mut visit: impl FnMut(usize, u32, u32)) {
+        for (side, &[a, b]) in self.iter().enumerate().step_by(step) {
+            visit(side, a, b);
+        }
+    }
+}
+
+/// The sides of triangles: 3 f + k runs from corner k to the next one.
+struct TriangleSides<'a>(&'a [[u32; 3]]);
+
+impl Sides for TriangleSides<'_> {
+    fn count(&self) -> usize {
+        3 * self.0.len()
+    }
+
+    /// Whole triangles, so that no side is divided by three.
+    fn each(&self, step: usize, mut visit: impl FnMut(usize, u32, u32)) {
+        for (face, &[a, b, c]) in self.0.iter().enumerate().step_by(step.div_ceil(3)) {
+            visit(3 * face, a, b);
+            visit(3 * face + 1, b, c);
+            visit(3 * face + 2, c, a);
+        }
+    }
+}
+
 /// Cuts the vertices into as many ranges as there are threads, with about as
 /// many sides each; a sample of the sides tells.
-fn even_ranges(
-    vertex_count: usize,
-    side_count: usize,
-    side: impl Fn(usize) -> [u32; 2],
-) -> Vec<Range<u32>> {
+fn even_ranges(vertex_count: usize, sides: &impl Sides) -> Vec<Range<u32>> {
     const CELLS: usize = 1024;
     const SAMPLES: usize = 1 << 16;
     let threads = rayon::current_num_threads();
-    if threads == 1 || side_count < SAMPLES {
+    if threads == 1 || sides.count() < SAMPLES {
         return std::iter::once(0..to_u32(vertex_count)).collect();
     }
     let cell = vertex_count.div_ceil(CELLS).max(1);
     let mut counts = [0_usize; CELLS];
     let mut samples = 0;
-    for at in (0..side_count).step_by(side_count / SAMPLES) {
-        let [a, b] = side(at);
+    sides.each(sides.count() / SAMPLES, |_, a, b| {
         counts[a.min(b) as usize / cell] += 1;
         samples += 1;
-    }
+    });
     let mut ends = Vec::with_capacity(threads);
     let mut sum = 0;
     for (index, count) in counts.iter().enumerate() {
@@ -168,28 +193,30 @@ fn even_ranges(
 }
 
 /// The edges whose smaller vertex is within `range`.
-fn edges_of(range: Range<u32>, side_count: usize, side: impl Fn(usize) -> [u32; 2]) -> EdgePart {
-    let own = |at: usize| {
-        let [a, b] = side(at);
-        let smaller = a.min(b);
-        (a != b && range.contains(&smaller)).then(|| ((smaller - range.start) as usize, a.max(b)))
-    };
-    let mut next = vec![0_u32; range.len() + 1];
-    for (vertex, _) in (0..side_count).filter_map(own) {
-        next[vertex + 1] += 1;
-    }
+fn edges_of(range: Range<u32>, sides: &impl Sides) -> EdgePart {
+    let vertex_count = range.len();
+    // Vertices below the range wrap around to something large.
+    let own = |a: u32, b: u32| a.min(b).wrapping_sub(range.start) as usize;
+    let mut next = vec![0_u32; vertex_count + 1];
+    sides.each(1, |_, a, b| {
+        let vertex = own(a, b);
+        if vertex < vertex_count && a != b {
+            next[vertex + 1] += 1;
+        }
+    });
     for slot in 1..next.len() {
         next[slot] += next[slot - 1];
     }
     // The larger vertex above the side: sorts by both at once.
-    let mut keys = vec![0_u64; next[range.len()] as usize];
-    for at in 0..side_count {
-        if let Some((vertex, larger)) = own(at) {
+    let mut keys = vec![0_u64; next[vertex_count] as usize];
+    sides.each(1, |side, a, b| {
+        let vertex = own(a, b);
+        if vertex < vertex_count && a != b {
             let place = &mut next[vertex];
-            keys[*place as usize] = u64::from(larger) << 32 | at as u64;
+            keys[*place as usize] = u64::from(a.max(b)) << 32 | side as u64;
             *place += 1;
         }
-    }
+    });
     // `next` now has each vertex's end, which is the start of the one behind.
     let mut part = EdgePart {
         edges: Vec::with_capacity(keys.len() / 2 + 1),

@@ -170,7 +170,7 @@ impl FanInput<'_> {
     }
 
     fn point(&self, corner: u32) -> Vec3 {
-        let vertex = self.triangles[corner as usize / 3][corner as usize % 3];
+        let vertex = self.triangles.as_flattened()[corner as usize];
         Vec3::from(self.positions[vertex as usize])
     }
 

@@ -381,6 +381,7 @@ fn finish(
             attributes: &attributes,
             marks,
             clashes: &clashes,
+            has_split_edges: counts.edges.non_manifold > 0,
             options,
         },
         &table,

@@ -22,7 +22,6 @@
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use bytemuck::Zeroable;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
@@ -50,6 +49,8 @@ pub(crate) struct RecordInput<'a> {
     pub(crate) marks: &'a Marks,
     /// Edges whose two faces clash, ascending.
     pub(crate) clashes: &'a [u32],
+    /// Whether any edge may have more than two faces.
+    pub(crate) has_split_edges: bool,
     pub(crate) options: &'a BuildOptions,
 }
 
@@ -73,7 +74,8 @@ pub(crate) fn build_records(input: &RecordInput, table: &EdgeTable) -> RecordTab
     // known only when they are split.
     let splits = input.split_edges(table, &twins);
     let count = table.edge_count() + splits.iter().map(|s| s.records.len() - 1).sum::<usize>();
-    let mut records = vec![EdgeRecord::zeroed(); count];
+    // Memory that is zero to begin with, so that the threads touch it first.
+    let mut records: Vec<EdgeRecord> = bytemuck::zeroed_vec(count);
     let targets = targets(table, &splits, &mut records);
     table.parts().zip(targets).for_each(|((first_edge, part), (records, splits))| {
         input.fill_part(first_edge, part, splits, records, &twins);
@@ -109,6 +111,9 @@ fn targets<'a>(
 
 impl RecordInput<'_> {
     fn split_edges(&self, table: &EdgeTable, twins: &[AtomicU32]) -> Vec<SplitEdge> {
+        if !self.has_split_edges {
+            return Vec::new();
+        }
         let of_part = |(first, part): (usize, &EdgePart)| {
             part.iter()
                 .enumerate()

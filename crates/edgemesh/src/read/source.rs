@@ -12,6 +12,9 @@ use crate::report::Place;
 /// corners needs more than that as text, so nothing sound is lost.
 pub const MAX_FILE_BYTES: u64 = 4 << 30;
 
+/// Files from this size on are read by several threads.
+const PARALLEL_BYTES: u64 = 8 << 20;
+
 /// How much of a file is read before its kind is judged.
 const SNIFF_BYTES: u64 = 64 << 10;
 
@@ -101,7 +104,15 @@ pub(crate) fn load(path: &Path, format: Option<Format>) -> Result<(Vec<u8>, Form
     }
     // Pipes and devices have no size.
     let size = Some(metadata.len()).filter(|_| metadata.is_file());
-    load_from(file, size, path, format).map_err(|failure| match failure {
+    let mut rest = |bytes: &mut Vec<u8>| match size {
+        #[cfg(unix)]
+        Some(size) if (PARALLEL_BYTES..=MAX_FILE_BYTES).contains(&size) => {
+            *bytes = parallel::read_all(&file, size).map_err(LoadError::Io)?;
+            Ok(())
+        }
+        _ => read_rest(&file, size, bytes),
+    };
+    load_from(&file, size, path, format, &mut rest).map_err(|failure| match failure {
         LoadError::Io(source) => io_error(source),
         LoadError::Other(kind, what) => error(kind, what),
     })
@@ -109,11 +120,18 @@ pub(crate) fn load(path: &Path, format: Option<Format>) -> Result<(Vec<u8>, Form
 
 /// Reads all of `stream`, which is called `name`, as [`load`] does.
 pub(crate) fn load_stream(
-    stream: impl Read,
+    mut stream: impl Read,
     name: &Path,
     format: Option<Format>,
 ) -> Result<(Vec<u8>, Format), ReadError> {
-    load_from(stream, None, name, format).map_err(|failure| {
+    let mut start = Vec::new();
+    let started = stream.by_ref().take(SNIFF_BYTES).read_to_end(&mut start);
+    let mut rest = |bytes: &mut Vec<u8>| read_rest(&mut stream, None, bytes);
+    let loaded = match started {
+        Ok(_) => load_from(start.as_slice(), None, name, format, &mut rest),
+        Err(source) => Err(LoadError::Io(source)),
+    };
+    loaded.map_err(|failure| {
         let (kind, what) = match failure {
             LoadError::Io(source) => (ReadErrorKind::Io, format!("cannot be read: {source}")),
             LoadError::Other(kind, what) => (kind, what),
@@ -127,21 +145,20 @@ enum LoadError {
     Other(ReadErrorKind, String),
 }
 
+/// Judges the first bytes of `head`, then calls `rest` to put the others behind
+/// them.
 fn load_from(
-    mut stream: impl Read,
+    head: impl Read,
     size: Option<u64>,
     name: &Path,
     format: Option<Format>,
+    rest: &mut dyn FnMut(&mut Vec<u8>) -> Result<(), LoadError>,
 ) -> Result<(Vec<u8>, Format), LoadError> {
-    let too_large = |bytes: u64| {
-        let what = format!("too large: {bytes} bytes, at most {MAX_FILE_BYTES} are read");
-        LoadError::Other(ReadErrorKind::Size, what)
-    };
-    if size.is_some_and(|size| size > MAX_FILE_BYTES) {
-        return Err(too_large(size.unwrap_or_default()));
+    if let Some(size) = size.filter(|&size| size > MAX_FILE_BYTES) {
+        return Err(too_large(size));
     }
     let mut bytes = Vec::new();
-    stream.by_ref().take(SNIFF_BYTES).read_to_end(&mut bytes).map_err(LoadError::Io)?;
+    head.take(SNIFF_BYTES).read_to_end(&mut bytes).map_err(LoadError::Io)?;
     if bytes.is_empty() {
         return Err(LoadError::Other(ReadErrorKind::Empty, "the file is empty".into()));
     }
@@ -151,22 +168,60 @@ fn load_from(
             LoadError::Other(ReadErrorKind::Format, format!("is no model file but {found}"))
         })?,
     };
-    // The size only says how much to reserve; the stream says how much there is.
-    let rest = size.unwrap_or_default().saturating_sub(bytes.len() as u64);
-    if let Ok(rest) = usize::try_from(rest) {
-        let refused = || {
-            let what = format!("too large: no memory for its {} bytes", size.unwrap_or_default());
-            LoadError::Other(ReadErrorKind::Size, what)
-        };
-        // One byte more, so that the end is seen without growing.
-        bytes.try_reserve_exact(rest + 1).map_err(|_| refused())?;
-    }
-    let limit = MAX_FILE_BYTES - bytes.len() as u64 + 1;
-    stream.take(limit).read_to_end(&mut bytes).map_err(LoadError::Io)?;
+    rest(&mut bytes)?;
     if bytes.len() as u64 > MAX_FILE_BYTES {
         return Err(too_large(bytes.len() as u64));
     }
     Ok((bytes, format))
+}
+
+fn too_large(bytes: u64) -> LoadError {
+    let what = format!("too large: {bytes} bytes, at most {MAX_FILE_BYTES} are read");
+    LoadError::Other(ReadErrorKind::Size, what)
+}
+
+/// Reads what is left of a stream.
+fn read_rest(stream: impl Read, size: Option<u64>, bytes: &mut Vec<u8>) -> Result<(), LoadError> {
+    // The size only says how much to reserve; the stream says how much there is.
+    let rest = size.unwrap_or_default().saturating_sub(bytes.len() as u64);
+    if let Ok(rest) = usize::try_from(rest) {
+        let refused = |_| {
+            let what = format!("too large: no memory for its {} bytes", size.unwrap_or_default());
+            LoadError::Other(ReadErrorKind::Size, what)
+        };
+        // One byte more, so that the end is seen without growing.
+        bytes.try_reserve_exact(rest + 1).map_err(refused)?;
+    }
+    let limit = MAX_FILE_BYTES - bytes.len() as u64 + 1;
+    stream.take(limit).read_to_end(bytes).map_err(LoadError::Io)?;
+    Ok(())
+}
+
+/// Reading one file by several threads.
+#[cfg(unix)]
+mod parallel {
+    use std::fs::File;
+    use std::io;
+    use std::os::unix::fs::FileExt as _;
+
+    use rayon::prelude::*;
+
+    /// Bytes that a thread reads at once.
+    const BLOCK: usize = 4 << 20;
+
+    /// Reads the first `size` bytes of a file, which is an error where it has
+    /// become shorter.
+    pub(super) fn read_all(file: &File, size: u64) -> io::Result<Vec<u8>> {
+        let no_memory = |()| io::Error::from(io::ErrorKind::OutOfMemory);
+        let length = usize::try_from(size).map_err(|_| no_memory(()))?;
+        // Memory that is zero to begin with, so that the threads touch it first.
+        let mut bytes = bytemuck::allocation::try_zeroed_vec(length).map_err(no_memory)?;
+        bytes
+            .par_chunks_mut(BLOCK)
+            .enumerate()
+            .try_for_each(|(block, target)| file.read_exact_at(target, (block * BLOCK) as u64))?;
+        Ok(bytes)
+    }
 }
 
 #[cfg(test)]
@@ -202,5 +257,18 @@ mod tests {
         }
         let stream = Source { folder: None, ..source };
         assert!(stream.sidecar("below/beside").unwrap_err().contains("stream"));
+    }
+
+    #[test]
+    fn large_files_are_read_whole_by_several_threads() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("large.obj");
+        let mut text = b"# a comment line\n".repeat(600_000);
+        text.truncate(usize::try_from(PARALLEL_BYTES).unwrap() + 12_345);
+        fs::write(&path, &text).unwrap();
+        let (bytes, format) = load(&path, None).unwrap();
+        assert_eq!((bytes == text, format), (true, Format::Obj));
+        let (bytes, _) = load_stream(text.as_slice(), &path, None).unwrap();
+        assert!(bytes == text);
     }
 }
