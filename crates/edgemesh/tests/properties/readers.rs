@@ -131,6 +131,66 @@ fn obj_rs_reads_the_same_polygons() {
     compare_all("obj-rs", by_obj_rs);
 }
 
+/// A cursor over what `rapidobj` has stored of its own results: lists of
+/// little-endian numbers behind their counts in 64 bits.
+struct Stored<'a>(&'a [u8]);
+
+impl Stored<'_> {
+    fn bytes(&mut self, count: usize) -> &[u8] {
+        let (bytes, rest) = self.0.split_at(count);
+        self.0 = rest;
+        bytes
+    }
+
+    fn count(&mut self) -> usize {
+        usize::try_from(u64::from_le_bytes(self.bytes(8).try_into().unwrap())).unwrap()
+    }
+
+    /// A list of words of four bytes, `words` an element.
+    fn list(&mut self, words: usize) -> Vec<[u8; 4]> {
+        let count = self.count() * words;
+        self.bytes(4 * count).as_chunks::<4>().0.to_vec()
+    }
+}
+
+/// The polygons of a stored result with a single shape: a byte, then positions,
+/// texture coordinates, normals, the number of shapes, and the shape's name,
+/// corners of three indices, and corners a face in a byte each.
+fn by_rapidobj(bytes: &[u8]) -> Polygons {
+    let mut stored = Stored(&bytes[1..]);
+    let positions: Vec<f32> = stored.list(1).into_iter().map(f32::from_le_bytes).collect();
+    let unused = [stored.list(1).len(), stored.list(1).len()];
+    assert_eq!(unused, [0, 0], "texture coordinates and normals");
+    assert_eq!(stored.count(), 1, "shapes");
+    let name = stored.count();
+    stored.bytes(name);
+    let corners = stored.list(3);
+    let mut corners = corners.as_chunks::<3>().0.iter();
+    let faces = stored.count();
+    let sizes = stored.bytes(faces).to_vec();
+    let position = |corner: &[[u8; 4]; 3]| {
+        let index = usize::try_from(i32::from_le_bytes(corner[0])).unwrap();
+        positions.as_chunks::<3>().0[index]
+    };
+    let mut face = |size: u8| corners.by_ref().take(size.into()).map(position).collect();
+    sizes.into_iter().map(&mut face).collect()
+}
+
+#[test]
+fn rapidobj_has_stored_the_same_polygons() {
+    let Some(shared) = corpus() else {
+        eprintln!("left out 2 cases of rapidobj: set EDGEMESH_SHARED to the shared files");
+        return;
+    };
+    for name in ["cube/cube.obj", "color/color.obj"] {
+        let path = shared.join("corpus/obj/rapidobj").join(name);
+        let (model, _) = read_model(&path).unwrap();
+        let theirs = by_rapidobj(&fs::read(path.with_extension("obj.ref")).unwrap());
+        assert!(theirs.len() >= 6, "{name}: {theirs:?}");
+        assert_eq!(compare(&ours(&model), &theirs), Ok(()), "{name}");
+    }
+}
+
 #[test]
 fn a_difference_is_found() {
     let triangle = vec![[0.0; 3], [1.0; 3], [2.0; 3]];
