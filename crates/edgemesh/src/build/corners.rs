@@ -11,6 +11,7 @@
 //! which takes quadratic time at a hub and smooths across gaps.
 
 use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::FaceAttributes;
@@ -39,15 +40,17 @@ pub(crate) struct CornerInput<'a> {
     pub(crate) is_wanted: bool,
 }
 
+/// Corners whose weighted normals are worked out side by side.
+const CORNERS_PER_BLOCK: usize = 1 << 18;
+
 /// Builds the fill's vertices and indices; none where none are wanted.
 pub(crate) fn build_fill(input: &CornerInput) -> FillMesh {
     if !input.is_wanted {
         return FillMesh::default();
     }
     let normals = smooth_normals(input);
-    let mut fill = FillMesh::default();
-    fill.indices.reserve(input.triangles.len() * 3);
-    let mut index_of = FxHashMap::default();
+    let mut variants = Variants::new(input.positions.len());
+    let mut indices = Vec::with_capacity(input.triangles.len() * 3);
     for (face, triangle) in input.triangles.iter().enumerate() {
         let sources = input.sources.corners(face);
         for (corner, &vertex) in triangle.iter().enumerate() {
@@ -60,49 +63,115 @@ pub(crate) fn build_fill(input: &CornerInput) -> FillMesh {
                 NONE => [0.0; 2],
                 index => input.model.texcoords[index as usize],
             };
-            let key = (vertex, normal.map(f32::to_bits), texcoord.map(f32::to_bits));
-            let index = *index_of.entry(key).or_insert_with(|| {
-                let position = input.positions[vertex as usize];
-                fill.vertices.push(FillVertex { position, normal, texcoord });
-                to_u32(fill.vertices.len() - 1)
-            });
-            fill.indices.push(index);
+            let position = input.positions[vertex as usize];
+            indices.push(variants.index(vertex, FillVertex { position, normal, texcoord }));
         }
     }
-    fill
+    FillMesh { vertices: variants.vertices, indices }
+}
+
+/// The fill's vertices, found again by the vertex of the mesh that they are at.
+///
+/// Most vertices have one or two, in a list from the latest to the first; a
+/// vertex with more than a few looks the others up in a table.
+struct Variants {
+    vertices: Vec<FillVertex>,
+    /// The latest fill vertex at each vertex, or [`NONE`].
+    latest: Vec<u32>,
+    /// The one before each fill vertex at the same vertex, or [`NONE`].
+    before: Vec<u32>,
+    table: FxHashMap<(u32, [u32; 8]), u32>,
+}
+
+impl Variants {
+    /// How far a list is followed.
+    const FEW: usize = 8;
+
+    fn new(vertex_count: usize) -> Self {
+        let latest = vec![NONE; vertex_count];
+        Self { vertices: Vec::new(), latest, before: Vec::new(), table: FxHashMap::default() }
+    }
+
+    /// The index of a fill vertex at `vertex`, which is added where it is new.
+    fn index(&mut self, vertex: u32, wanted: FillVertex) -> u32 {
+        let bits = |vertex: &FillVertex| -> [u32; 8] { bytemuck::cast(*vertex) };
+        let wanted_bits = bits(&wanted);
+        let (mut at, mut last) = (self.latest[vertex as usize], NONE);
+        for step in 0..Self::FEW {
+            if at == NONE {
+                break;
+            }
+            if bits(&self.vertices[at as usize]) == wanted_bits {
+                return at;
+            }
+            if step + 1 == Self::FEW {
+                last = at;
+            }
+            at = self.before[at as usize];
+        }
+        if at != NONE
+            && let Some(&known) = self.table.get(&(vertex, wanted_bits))
+        {
+            return known;
+        }
+        // What the new one pushes out of reach goes into the table.
+        if last != NONE {
+            self.table.insert((vertex, bits(&self.vertices[last as usize])), last);
+        }
+        let index = to_u32(self.vertices.len());
+        self.vertices.push(wanted);
+        self.before.push(std::mem::replace(&mut self.latest[vertex as usize], index));
+        index
+    }
 }
 
 /// One unit normal for each corner (3 f + k), shared over smooth edges.
 fn smooth_normals(input: &CornerInput) -> Vec<[f32; 3]> {
     let sets = Sets::new(input.triangles.len() * 3);
-    for record in input.records {
-        if record.face_b == NONE || !is_smooth(input, record) {
-            continue;
+    input.records.par_iter().with_min_len(1 << 12).for_each(|record| {
+        if record.face_b != NONE && is_smooth(input, record) {
+            join_corners(input, record, &sets);
         }
-        for vertex in [record.v0, record.v1] {
-            let corner = |face: u32| {
-                let triangle = input.triangles[face as usize];
-                let place = triangle.iter().position(|&other| other == vertex);
-                place.map(|place| 3 * face + to_u32(place))
-            };
-            if let (Some(a), Some(b)) = (corner(record.face_a), corner(record.face_b)) {
-                sets.join(a, b);
-            }
-        }
-    }
-    let corner_count = to_u32(input.triangles.len() * 3);
-    let mut sums = vec![DVec3::ZERO; corner_count as usize];
-    for corner in 0..corner_count {
-        let plane = &input.planes[corner as usize / 3];
-        if has_area(plane) {
-            let [x, y, z, _] = plane.normal;
-            let weight = f64::from(corner_angle(input, corner as usize));
-            sums[sets.root(corner) as usize] += Vec3::new(x, y, z).as_dvec3() * weight;
+    });
+    let corner_count = input.triangles.len() * 3;
+    let roots: Vec<u32> =
+        (0..to_u32(corner_count)).into_par_iter().map(|corner| sets.root(corner)).collect();
+    let mut sums = vec![DVec3::ZERO; corner_count];
+    // Blocks are worked out side by side and added in order.
+    for first in (0..corner_count).step_by(CORNERS_PER_BLOCK) {
+        let block = first..corner_count.min(first + CORNERS_PER_BLOCK);
+        let weighted: Vec<DVec3> =
+            block.clone().into_par_iter().map(|corner| weighted_normal(input, corner)).collect();
+        for (corner, normal) in block.zip(weighted) {
+            sums[roots[corner] as usize] += normal;
         }
     }
-    (0..corner_count)
-        .map(|corner| sums[sets.root(corner) as usize].normalize_or_zero().as_vec3().to_array())
-        .collect()
+    let normal = |&root: &u32| sums[root as usize].normalize_or_zero().as_vec3().to_array();
+    roots.par_iter().with_min_len(1 << 12).map(normal).collect()
+}
+
+/// Joins the corners of a record's two faces at both of its ends.
+fn join_corners(input: &CornerInput, record: &EdgeRecord, sets: &Sets) {
+    for vertex in [record.v0, record.v1] {
+        let corner = |face: u32| {
+            let triangle = input.triangles[face as usize];
+            let place = triangle.iter().position(|&other| other == vertex);
+            place.map(|place| 3 * face + to_u32(place))
+        };
+        if let (Some(a), Some(b)) = (corner(record.face_a), corner(record.face_b)) {
+            sets.join(a, b);
+        }
+    }
+}
+
+/// The normal of a corner's face times its angle; zero without area.
+fn weighted_normal(input: &CornerInput, corner: usize) -> DVec3 {
+    let plane = &input.planes[corner / 3];
+    if !has_area(plane) {
+        return DVec3::ZERO;
+    }
+    let [x, y, z, _] = plane.normal;
+    Vec3::new(x, y, z).as_dvec3() * f64::from(corner_angle(input, corner))
 }
 
 /// The angle of a face at a corner, in radians.
@@ -136,6 +205,7 @@ fn is_smooth(input: &CornerInput, record: &EdgeRecord) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::{FillVertex, Variants};
     use crate::build::{BuildOptions, build_edge_mesh};
     use crate::edge_mesh::FillMesh;
     use crate::model::{Attributes, Model, PolygonRun, Smoothing};
@@ -178,6 +248,24 @@ mod tests {
         let attributes = Attributes { smoothing: Smoothing::Angle(1.6), ..attributes };
         model.runs = vec![PolygonRun { first_polygon: 0, attributes }];
         assert_eq!(fill_of(&model).vertices.len(), 8, "a right angle is 1.57");
+    }
+
+    #[test]
+    fn a_vertex_may_have_many_variants() {
+        let mut variants = Variants::new(2);
+        let wanted = |k: u16| FillVertex {
+            position: [0.0; 3],
+            normal: [0.0, 0.0, 1.0],
+            texcoord: [f32::from(k), 0.0],
+        };
+        for round in 0..3 {
+            for k in 0..100_u16 {
+                let place = u32::from(k % 2);
+                let index = variants.index(place, wanted(k * 7 % 100));
+                assert_eq!(index, u32::from(k), "round {round}");
+            }
+        }
+        assert_eq!(variants.vertices.len(), 100);
     }
 
     #[test]
