@@ -47,7 +47,7 @@ use self::weld::{Weld, weld};
 use crate::edge_mesh::{Bounds, EdgeMesh, MeshCounts, SourceCounts};
 use crate::index::NONE;
 use crate::model::Model;
-use crate::report::{RepairKind, Report, WarningCode};
+use crate::report::{Place, RepairKind, Report, WarningCode};
 use crate::topology::{EdgeCounts, EdgePart, EdgeTable, triangle_side};
 
 /// The angle between face normals above which an edge is a crease: 30 degrees,
@@ -160,7 +160,8 @@ fn weld_model(model: &Model, options: &BuildOptions, report: &mut Report) -> (Fr
         other => other,
     };
     let welded = weld(&positions, &is_used, welding);
-    report.repair(RepairKind::SnappedVertices, welded.moved, None);
+    let first = welded.first_moved.map(|vertex| Place::Vertex(vertex as u64 + 1));
+    report.repair(RepairKind::SnappedVertices, welded.moved, first);
     (frame, welded)
 }
 
@@ -386,7 +387,7 @@ fn finish(
         },
         &table,
     );
-    report.repair(RepairKind::SplitEdges, built.split_edges, None);
+    report_split_edges(model, &sources, &table, built.split_edges, report);
     let components = Components::of_records(triangles.len(), &built.records);
     counts.components = components.count_joined_by_edges(&table);
     components.mark_solids(&positions, &triangles, &mut built.records);
@@ -428,6 +429,21 @@ fn finish(
         records,
         fill,
         counts,
+    }
+}
+
+fn report_split_edges(
+    model: &Model,
+    sources: &FaceSources,
+    table: &EdgeTable,
+    count: usize,
+    report: &mut Report,
+) {
+    if count > 0 {
+        let sides = table.iter().map(|(_, sides)| sides).find(|sides| sides.len() > 2);
+        let third = sides.and_then(|sides| sides.get(2));
+        let place = third.map(|&side| sources.place(model, side as usize / 3));
+        report.repair(RepairKind::SplitEdges, count, place);
     }
 }
 

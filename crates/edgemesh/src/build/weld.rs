@@ -47,8 +47,9 @@ pub(crate) struct Weld {
     /// For each input position its index in `positions`; [`NONE`] where it is
     /// not used.
     pub(crate) welded_from_input: Vec<u32>,
-    /// Vertices that a tolerance has moved.
+    /// Vertices that a tolerance has moved, and the first of them in the file.
     pub(crate) moved: usize,
+    pub(crate) first_moved: Option<usize>,
 }
 
 /// Welds the positions that are used. `tolerance` is in the units of
@@ -67,6 +68,7 @@ pub(crate) fn weld(positions: &[[f32; 3]], is_used: &[bool], welding: Welding) -
 fn number(positions: &[[f32; 3]], is_used: &[bool], standing: Vec<u32>) -> Weld {
     let mut welded = Vec::with_capacity(positions.len());
     let mut moved = 0;
+    let mut first_moved = None;
     let mut welded_from_input = standing;
     for input in 0..positions.len() {
         let stands = welded_from_input[input];
@@ -78,11 +80,14 @@ fn number(positions: &[[f32; 3]], is_used: &[bool], standing: Vec<u32>) -> Weld 
         } else {
             // Numbered already: who stands for others comes before them.
             let target = welded_from_input[stands as usize];
-            moved += usize::from(welded[target as usize] != positions[input]);
+            if welded[target as usize] != positions[input] {
+                moved += 1;
+                first_moved = first_moved.or(Some(input));
+            }
             target
         };
     }
-    Weld { positions: welded, welded_from_input, moved }
+    Weld { positions: welded, welded_from_input, moved, first_moved }
 }
 
 /// The bits of a position; adding 0 turns -0 into 0 and leaves every other
@@ -238,7 +243,7 @@ mod tests {
             [[0.99, 0., 0.], [1.01, 0., 0.], [1.05, 0., 0.], [1.1, 0., 0.], [5., 0., 0.]];
         let welded = weld(&positions, &[true; 5], Welding::Within(0.07));
         assert_eq!(welded.welded_from_input, [0, 0, 0, 1, 2]);
-        assert_eq!((welded.positions.len(), welded.moved), (3, 2));
+        assert_eq!((welded.positions.len(), welded.moved, welded.first_moved), (3, 2, Some(1)));
         let none = weld(&positions, &[true; 5], Welding::Within(0.0));
         assert_eq!(none.positions.len(), 5);
     }
