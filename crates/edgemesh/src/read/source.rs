@@ -194,6 +194,10 @@ fn read_rest(stream: impl Read, size: Option<u64>, bytes: &mut Vec<u8>) -> Resul
     }
     let limit = MAX_FILE_BYTES - bytes.len() as u64 + 1;
     stream.take(limit).read_to_end(bytes).map_err(LoadError::Io)?;
+    // Somebody cut the file while it was read.
+    if size.is_some_and(|size| (bytes.len() as u64) < size) {
+        return Err(LoadError::Io(io::ErrorKind::UnexpectedEof.into()));
+    }
     Ok(())
 }
 
@@ -270,5 +274,24 @@ mod tests {
         assert_eq!((bytes == text, format), (true, Format::Obj));
         let (bytes, _) = load_stream(text.as_slice(), &path, None).unwrap();
         assert!(bytes == text);
+    }
+
+    #[test]
+    fn a_file_that_became_shorter_is_an_error() {
+        let read = |size: Option<u64>| {
+            let mut bytes = Vec::new();
+            let is_io = |error: &LoadError| matches!(error, LoadError::Io(_));
+            read_rest(&b"v 0 0 0\n"[..], size, &mut bytes).map_err(|error| is_io(&error))
+        };
+        assert_eq!((read(None), read(Some(8)), read(Some(9))), (Ok(()), Ok(()), Err(true)));
+        #[cfg(unix)]
+        {
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join("short.obj");
+            fs::write(&path, "v 0 0 0\n").unwrap();
+            let file = File::open(&path).unwrap();
+            let error = parallel::read_all(&file, 9).unwrap_err();
+            assert_eq!(error.kind(), io::ErrorKind::UnexpectedEof);
+        }
     }
 }
