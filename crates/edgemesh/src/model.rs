@@ -175,6 +175,16 @@ impl Model {
         }
     }
 
+    /// The polygon that a corner is of.
+    #[must_use]
+    pub fn polygon_of(&self, corner: usize) -> usize {
+        if self.polygon_ends.is_empty() {
+            corner / 3
+        } else {
+            self.polygon_ends.partition_point(|&end| end as usize <= corner)
+        }
+    }
+
     /// One corner with all its indices.
     #[must_use]
     pub fn corner(&self, corner: usize) -> Corner {
@@ -225,14 +235,18 @@ impl Model {
 
     /// Gives the polygons that are pushed from now on `attributes`.
     pub fn set_attributes(&mut self, attributes: Attributes) {
-        let first_polygon = to_u32(self.polygon_count());
-        let last = self.runs.last().map_or_else(Attributes::default, |run| run.attributes);
-        if last == attributes {
-            return;
+        self.set_attributes_from(to_u32(self.polygon_count()), attributes);
+    }
+
+    /// Gives the polygons from `first_polygon` on, which is at or behind the
+    /// start of the last run, `attributes`.
+    pub(crate) fn set_attributes_from(&mut self, first_polygon: u32, attributes: Attributes) {
+        if self.runs.last().is_some_and(|run| run.first_polygon == first_polygon) {
+            self.runs.pop();
         }
-        match self.runs.last_mut() {
-            Some(run) if run.first_polygon == first_polygon => run.attributes = attributes,
-            _ => self.runs.push(PolygonRun { first_polygon, attributes }),
+        let before = self.runs.last().map_or_else(Attributes::default, |run| run.attributes);
+        if before != attributes {
+            self.runs.push(PolygonRun { first_polygon, attributes });
         }
     }
 

@@ -141,6 +141,24 @@ fn a_damaged_edge_mesh_is_an_error() {
     assert_status(&in_folder(folder, &["info", "cube.edgemesh"]), 1);
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn an_endless_edge_mesh_is_refused() {
+    let shell = |script: &str| {
+        let script = format!("ulimit -v 1048576; exec {script}");
+        let mut command = Command::new("sh");
+        command.args(["-c", &script]).arg(program("edgemesh")).env("RAYON_NUM_THREADS", "2");
+        run(command.stdout(Stdio::piped()))
+    };
+    for script in
+        ["\"$0\" info --format edgemesh /dev/zero", "\"$0\" info --format edgemesh - < /dev/zero"]
+    {
+        let output = shell(script);
+        assert_status(&output, 1);
+        assert_eq!(one_error(&output, &["is no edge mesh"]), Ok(()), "{script}");
+    }
+}
+
 #[test]
 fn strict_makes_errors_of_warnings() {
     let folder = folder(&[("twice.obj", TWICE), ("cube.obj", CUBE)]);

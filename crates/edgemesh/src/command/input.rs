@@ -1,7 +1,7 @@
 //! What commands read: models and edge meshes, from files or standard input.
 
 use std::fs::File;
-use std::io::Read as _;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -13,7 +13,7 @@ use super::progress::Progress;
 use super::{Failure, strict_failure};
 use crate::build::{BuildOptions, Frame, Welding, box_of, build_edge_mesh, reclassify};
 use crate::edge_mesh::EdgeMesh;
-use crate::file::{FileError, is_edge_mesh, parse};
+use crate::file::{FileError, HEADER_BYTES, is_edge_mesh, parse, stated_length};
 use crate::model::Model;
 use crate::read::{Format, read_model_as, read_model_stream};
 use crate::report::Report;
@@ -137,9 +137,8 @@ impl InputOptions {
             return self.read_standard_input();
         }
         if format == Some(None) || format.is_none() && is_edge_mesh_file(path) {
-            let failed =
-                |error| Failure::fault(format!("{}: cannot be read: {error}", path.display()));
-            return self.stored(path, &std::fs::read(path).map_err(failed)?);
+            let stream = File::open(path).map_err(|error| unreadable(path, &error))?;
+            return self.stored(path, stream);
         }
         let (model, report) = read_model_as(path, format.flatten())?;
         Ok(Input::Model(Box::new(model), report))
@@ -149,19 +148,16 @@ impl InputOptions {
         let Some(format) = self.format else {
             return Err(Failure::usage("standard input (-) needs --format, as --format obj"));
         };
-        let mut stream = std::io::stdin().lock();
+        let stream = std::io::stdin().lock();
         let name = Path::new("(standard input)");
         if let Some(format) = format.of_model() {
             let (model, report) = read_model_stream(stream, name, Some(format))?;
             return Ok(Input::Model(Box::new(model), report));
         }
-        let mut bytes = Vec::new();
-        let read = stream.read_to_end(&mut bytes);
-        read.map_err(|error| Failure::fault(format!("standard input: cannot be read: {error}")))?;
-        self.stored(name, &bytes)
+        self.stored(name, stream)
     }
 
-    fn stored(&self, path: &Path, bytes: &[u8]) -> Result<Input, Failure> {
+    fn stored(&self, path: &Path, stream: impl Read) -> Result<Input, Failure> {
         if self.weld.is_some() || self.no_weld || self.marks.is_some() {
             return Err(Failure::usage(format!(
                 "{}: --weld, --no-weld and --marks are for models; an edge mesh is welded already",
@@ -170,7 +166,8 @@ impl InputOptions {
         }
         let name = path.display().to_string();
         let failed = |error: FileError| Failure::fault(format!("{name}: {error}"));
-        let stored = parse(bytes).map_err(failed)?;
+        let bytes = read_edge_mesh(stream).map_err(|error| unreadable(path, &error))?;
+        let stored = parse(&bytes).map_err(failed)?;
         Ok(Input::Stored(Box::new(stored.to_mesh()), name.clone(), stored.report().clone()))
     }
 
@@ -201,6 +198,24 @@ impl InputOptions {
         }
         Ok(loaded)
     }
+}
+
+fn unreadable(path: &Path, error: &io::Error) -> Failure {
+    Failure::fault(format!("{}: cannot be read: {error}", path.display()))
+}
+
+/// The bytes of an edge mesh: those of its stated length and one more, by which
+/// one that goes on is known; only the header of what is none.
+///
+/// The memory grows with what is there, not with what is stated.
+fn read_edge_mesh(mut stream: impl Read) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    stream.by_ref().take(HEADER_BYTES).read_to_end(&mut bytes)?;
+    if let Some(length) = stated_length(&bytes) {
+        let rest = length.saturating_sub(bytes.len() as u64).saturating_add(1);
+        stream.take(rest).read_to_end(&mut bytes)?;
+    }
+    Ok(bytes)
 }
 
 /// The frame that all inputs share.

@@ -66,6 +66,16 @@ pub(super) fn write_header(bytes: &mut [u8], section_count: u32) {
     }
 }
 
+/// Bytes before the section table.
+pub const HEADER_BYTES: u64 = TABLE_START as u64;
+
+/// How long a file that begins with `head` says it is; `None` where it is no edge
+/// mesh, or not even its header is there.
+#[must_use]
+pub fn stated_length(head: &[u8]) -> Option<u64> {
+    u64_at(head, 16).filter(|_| is_edge_mesh(head))
+}
+
 /// Whether a file that begins with `head` is an edge mesh, of whatever version.
 #[must_use]
 pub fn is_edge_mesh(head: &[u8]) -> bool {

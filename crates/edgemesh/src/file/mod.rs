@@ -95,7 +95,7 @@ mod stored;
 mod write;
 
 pub use error::{FileError, FileErrorKind};
-pub use header::{VERSION, is_edge_mesh, with_checksum};
+pub use header::{HEADER_BYTES, VERSION, is_edge_mesh, stated_length, with_checksum};
 pub use read::parse;
 pub use stored::StoredMesh;
 pub use write::to_bytes;

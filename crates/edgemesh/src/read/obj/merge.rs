@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 use super::chunk::{ChangeKind, Part, PartError};
 use super::statement::ChunkIndex;
 use crate::index::{MAX_INDEX, NONE, to_u32};
-use crate::model::{Attributes, Model, PolygonRun, Segment, Smoothing};
+use crate::model::{Attributes, Material, Model, Segment, Smoothing};
 use crate::read::error::{ReadError, ReadErrorKind};
 use crate::read::mtl::read_materials;
 use crate::read::source::Source;
@@ -24,28 +24,44 @@ struct Bases {
 }
 
 /// Merges the parts; the first error in the file ends it.
+///
+/// A statement that cannot be read goes before any index: what stands behind it
+/// is not known, and an index may well have meant that.
 pub(super) fn merge(
     source: &Source,
     mut parts: Vec<Part>,
     report: &mut Report,
 ) -> Result<Model, ReadError> {
     let (bases, totals) = bases_of(&parts);
+    let unread = parts.iter_mut().map(|part| part.error.take());
+    check(source, unread, &bases)?;
     if totals.positions.max(totals.corners) > MAX_INDEX {
         let what = format!("too large: more than {MAX_INDEX} vertices or face corners");
         return Err(source.error(ReadErrorKind::Size, None, what));
     }
     let wrong = parts.par_iter_mut().zip(&bases).map(|(part, base)| resolve(part, base, &totals));
     let wrong: Vec<Option<PartError>> = wrong.collect();
-    for (error, base) in wrong.into_iter().zip(&bases) {
-        if let Some(PartError { kind, line, what }) = error {
-            return Err(source.error(kind, Some(Place::Line(base.lines + line)), what));
-        }
-    }
+    check(source, wrong, &bases)?;
     let mut model = Model::default();
     replay_changes(&mut model, &mut parts, &bases);
     let libraries = gather(&mut model, parts, &bases, &totals, report);
     read_materials(source, &libraries, &mut model.materials, report);
     Ok(model)
+}
+
+/// The first of the parts' errors, with its line in the file.
+fn check(
+    source: &Source,
+    errors: impl IntoIterator<Item = Option<PartError>>,
+    bases: &[Bases],
+) -> Result<(), ReadError> {
+    let mut errors = errors.into_iter().zip(bases);
+    match errors.find_map(|(error, base)| error.map(|error| (error, base.lines))) {
+        Some((PartError { kind, line, what }, before)) => {
+            Err(source.error(kind, Some(Place::Line(before + line)), what))
+        }
+        None => Ok(()),
+    }
 }
 
 fn bases_of(parts: &[Part]) -> (Vec<Bases>, Bases) {
@@ -67,7 +83,7 @@ fn bases_of(parts: &[Part]) -> (Vec<Bases>, Bases) {
 }
 
 /// Makes the indices of a part absolute and its places those of the file;
-/// gives the part's first error.
+/// gives the part's first wrong index.
 fn resolve(part: &mut Part, base: &Bases, totals: &Bases) -> Option<PartError> {
     let mut error = resolve_positions(&mut part.model, base, totals);
     resolve_segments(&mut part.model, base, totals, &mut error);
@@ -82,11 +98,7 @@ fn resolve(part: &mut Part, base: &Bases, totals: &Bases) -> Option<PartError> {
     for line in &mut model.polygon_lines {
         *line += base.lines;
     }
-    let of_part = part.error.take();
-    match (error, of_part) {
-        (Some(a), Some(b)) => Some(if a.line <= b.line { a } else { b }),
-        (a, b) => a.or(b),
-    }
+    error
 }
 
 fn resolve_positions(model: &mut Model, base: &Bases, totals: &Bases) -> Option<PartError> {
@@ -100,12 +112,7 @@ fn resolve_positions(model: &mut Model, base: &Bases, totals: &Bases) -> Option<
         }
     }
     let (corner, index) = first_wrong?;
-    let polygon = if model.is_triangles() {
-        corner / 3
-    } else {
-        model.polygon_ends.partition_point(|&end| end as usize <= corner)
-    };
-    let line = model.polygon_lines.get(polygon).copied().unwrap_or_default();
+    let line = model.polygon_lines.get(model.polygon_of(corner)).copied().unwrap_or_default();
     Some(wrong_index("face", index, line, totals))
 }
 
@@ -155,11 +162,8 @@ fn resolve_attributes(
         *index = match u32::try_from(absolute) {
             Ok(absolute) if (absolute as usize) < total => absolute,
             _ => {
-                let polygon = match model.is_triangles() {
-                    true => corner / 3,
-                    false => model.polygon_ends.partition_point(|&end| end as usize <= corner),
-                };
-                report.warn(WarningCode::Index, Some(model.polygon_place(polygon)), || {
+                let place = Some(model.polygon_place(model.polygon_of(corner)));
+                report.warn(WarningCode::Index, place, || {
                     format!(
                         "attribute {} of {total} was left out; the face is kept",
                         absolute.saturating_add(1)
@@ -202,8 +206,7 @@ fn replay_changes(model: &mut Model, parts: &mut [Part], bases: &[Bases]) {
         smoothing: if has_smoothing { Smoothing::Group(0) } else { Smoothing::Unstated },
         ..Attributes::default()
     };
-    let mut runs = RunList::default();
-    runs.set(0, attributes);
+    model.set_attributes_from(0, attributes);
     for (part, base) in parts.iter_mut().zip(bases) {
         for change in part.changes.drain(..) {
             match change.what {
@@ -211,29 +214,12 @@ fn replay_changes(model: &mut Model, parts: &mut [Part], bases: &[Bases]) {
                 ChangeKind::Group(name) => attributes.group = groups.number(&name),
                 ChangeKind::Smoothing(group) => attributes.smoothing = Smoothing::Group(group),
             }
-            runs.set(to_u32(base.polygons) + change.polygon, attributes);
+            model.set_attributes_from(to_u32(base.polygons) + change.polygon, attributes);
         }
     }
-    model.runs = runs.0;
     model.groups = groups.names;
-    let named = |name| crate::model::Material { name, ..crate::model::Material::default() };
+    let named = |name| Material { name, ..Material::default() };
     model.materials = materials.names.into_iter().map(named).collect();
-}
-
-/// Runs that differ from the ones before them.
-#[derive(Default)]
-struct RunList(Vec<PolygonRun>);
-
-impl RunList {
-    fn set(&mut self, first_polygon: u32, attributes: Attributes) {
-        if self.0.last().is_some_and(|run| run.first_polygon == first_polygon) {
-            self.0.pop();
-        }
-        let before = self.0.last().map_or_else(Attributes::default, |run| run.attributes);
-        if before != attributes {
-            self.0.push(PolygonRun { first_polygon, attributes });
-        }
-    }
 }
 
 /// Moves the lists of all parts into the model; gives the names of libraries

@@ -167,6 +167,16 @@ mod tests {
         }
     }
 
+    /// The vertex that the face means is behind what cannot be read.
+    #[test]
+    fn what_cannot_be_read_goes_before_indices_that_it_makes_wrong() {
+        let text = b"v 0 0 0\nv 1 0 0\nf 1 2 3\nv 0 x 0\nv 0 1 0\n";
+        for chunk_bytes in [1, 16, CHUNK_BYTES] {
+            let error = try_read(text, chunk_bytes).0.unwrap_err();
+            assert_eq!((error.kind, error.place), (ReadErrorKind::Number, Some(Place::Line(4))));
+        }
+    }
+
     #[test]
     fn wrong_attributes_cost_only_themselves() {
         let text = format!("{THREE}vt 0 0\nf 1/1 2/7 3/-3\nf 1/x 2 3\n");
