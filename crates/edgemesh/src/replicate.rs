@@ -19,40 +19,36 @@ use crate::record::{EdgeFlags, EdgeRecord, EdgeVertex, EdgeVertex16, edge_random
 /// The largest 16-bit step from the middle.
 const LARGEST_STEP: f64 = 32767.0;
 
-/// What one record's edge vertices are made of, as indices of vertices.
-struct Corners {
-    v: [u32; 4],
-    hides_b: bool,
-}
-
-fn corners_of(mesh: &EdgeMesh, record: &EdgeRecord) -> Corners {
-    let hides_b =
-        record.flags.intersects(EdgeFlags::BOUNDARY | EdgeFlags::MARKED) || record.face_b == NONE;
-    let v3 = if hides_b { record.v0 } else { mesh.apex(record.face_b, record) };
-    Corners { v: [record.v0, record.v1, mesh.apex(record.face_a, record), v3], hides_b }
+/// Four edge vertices a record, in order, made of the record and the vertices
+/// that stand for the paper's v0 to v3.
+fn replicate_with<T: Send, F: FnMut(u8) -> T>(
+    mesh: &EdgeMesh,
+    corners_of: impl Fn(&EdgeRecord, [u32; 4]) -> F + Sync,
+) -> Vec<T> {
+    let of_record = |record: &EdgeRecord| {
+        let hides_b = record.flags.intersects(EdgeFlags::BOUNDARY | EdgeFlags::MARKED)
+            || record.face_b == NONE;
+        let v3 = if hides_b { record.v0 } else { mesh.apex(record.face_b, record) };
+        let vertices = [record.v0, record.v1, mesh.apex(record.face_a, record), v3];
+        [0, 1, 2, 3].map(corners_of(record, vertices))
+    };
+    mesh.records.par_iter().flat_map_iter(of_record).collect()
 }
 
 /// Writes out the paper's edge mesh in 32-bit floats: four edge vertices a
 /// record, in order.
 #[must_use]
 pub fn replicate(mesh: &EdgeMesh) -> Vec<EdgeVertex> {
-    let position = |vertex: u32| mesh.positions[vertex as usize];
-    let normal = |vertex: u32| mesh.vertex_normals[vertex as usize];
-    let of_record = |record: &EdgeRecord| {
-        let Corners { v, .. } = corners_of(mesh, record);
-        let [v0, v1, v2, v3] = v.map(position);
-        [0, 1, 2, 3].map(|corner| EdgeVertex {
-            v0,
-            v1,
-            v2,
-            v3,
-            n0: normal(v[0]),
-            n1: normal(v[1]),
-            r: edge_random(v0.into(), v1.into()),
-            corner_and_flags: corner | record.flags.bits() << EdgeVertex::FLAGS_SHIFT,
-        })
-    };
-    mesh.records.par_iter().flat_map_iter(of_record).collect()
+    replicate_with(mesh, |record, vertices| {
+        let [v0, v1, v2, v3] = vertices.map(|vertex| mesh.positions[vertex as usize]);
+        let [n0, n1, ..] = vertices.map(|vertex| mesh.vertex_normals[vertex as usize]);
+        let r = edge_random(v0.into(), v1.into());
+        let flags = record.flags.bits() << EdgeVertex::FLAGS_SHIFT;
+        move |corner| {
+            let corner_and_flags = u32::from(corner) | flags;
+            EdgeVertex { v0, v1, v2, v3, n0, n1, r, corner_and_flags }
+        }
+    })
 }
 
 /// Writes out the paper's edge mesh at 16 bits: four edge vertices a record, in
@@ -60,26 +56,19 @@ pub fn replicate(mesh: &EdgeMesh) -> Vec<EdgeVertex> {
 #[must_use]
 pub fn replicate_16(mesh: &EdgeMesh) -> Vec<EdgeVertex16> {
     let quantization = Quantization::of(&mesh.bounds);
-    let position = |vertex: u32| quantization.quantize(mesh.positions[vertex as usize]);
-    let normal = |vertex: u32| mesh.vertex_normals[vertex as usize].map(quantize_normal);
-    let of_record = |record: &EdgeRecord| {
-        let Corners { v, hides_b } = corners_of(mesh, record);
-        debug_assert!(hides_b == (v[3] == v[0]), "only a hidden face repeats the start");
-        let [v0, v1, v2, v3] = v.map(position);
-        let [p0, p1] = [v[0], v[1]].map(|vertex| Vec3::from(mesh.positions[vertex as usize]));
+    replicate_with(mesh, |record, vertices| {
+        let positions = vertices.map(|vertex| mesh.positions[vertex as usize]);
+        let [v0, v1, v2, v3] = positions.map(|position| quantization.quantize(position));
+        let [n0, n1, ..] =
+            vertices.map(|vertex| mesh.vertex_normals[vertex as usize].map(quantize_normal));
+        let random = quantize_random(edge_random(positions[0].into(), positions[1].into()));
         let [low, middle, high, _] = record.flags.bits().to_le_bytes();
-        [0, 1, 2, 3].map(|corner| EdgeVertex16 {
-            v0,
-            v1,
-            v2,
-            v3,
-            n0: normal(v[0]),
-            n1: normal(v[1]),
-            corner_and_random: corner | quantize_random(edge_random(p0, p1)) << 2,
-            flags: [low, middle, high],
-        })
-    };
-    mesh.records.par_iter().flat_map_iter(of_record).collect()
+        move |corner| {
+            let corner_and_random = corner | random << 2;
+            let flags = [low, middle, high];
+            EdgeVertex16 { v0, v1, v2, v3, n0, n1, corner_and_random, flags }
+        }
+    })
 }
 
 /// How positions become 16-bit steps and steps positions.

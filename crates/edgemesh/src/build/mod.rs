@@ -123,7 +123,8 @@ pub fn build_edge_mesh(model: &Model, options: &BuildOptions, report: &mut Repor
     count_edges(&mut counts, &triangles, &table, &sources);
     counts.source = count_source(model, &welded, &counts);
     warn_non_manifold(model, &sources, &table, &counts, report);
-    let clashes = repair(model, &mut triangles, &mut sources, &mut table, &mut counts, report);
+    let clashes =
+        repair(model, &welded, &mut triangles, &mut sources, &mut table, &mut counts, report);
     let parts = Parts { positions: welded.positions, triangles, sources, table, clashes, counts };
     let marks = Marks::find(model, &options.marks, &welded.welded_from_input, &parts.table, report);
     EdgeMesh { frame, ..finish(model, options, report, parts, &marks) }
@@ -293,6 +294,7 @@ fn warn_non_manifold(
 /// edges that clash nevertheless. A sound mesh is left as it is, at no cost.
 fn repair(
     model: &Model,
+    welded: &Weld,
     triangles: &mut Vec<[u32; 3]>,
     sources: &mut FaceSources,
     table: &mut EdgeTable,
@@ -300,9 +302,6 @@ fn repair(
     report: &mut Report,
 ) -> Vec<u32> {
     let EdgeCounts { non_manifold, mut inconsistent, .. } = counts.edges;
-    let vertex_count = |triangles: &[[u32; 3]]| {
-        triangles.as_flattened().iter().max().map_or(0, |&largest| largest as usize + 1)
-    };
     if non_manifold + inconsistent > 0
         && let Some(is_kept) = duplicates::keep_first_of_each(triangles, table)
     {
@@ -314,19 +313,20 @@ fn repair(
         });
         keep_items(triangles, &is_kept);
         sources.keep(&is_kept);
-        *table = EdgeTable::from_triangles(vertex_count(triangles), triangles);
+        *table = EdgeTable::from_triangles(welded.positions.len(), triangles);
         inconsistent = EdgeCounts::of(table, |side| triangle_side(triangles, side)).inconsistent;
     }
     if inconsistent == 0 {
         return Vec::new();
     }
-    repair_winding(model, triangles, sources, table, report)
+    repair_winding(model, welded, triangles, sources, table, report)
 }
 
 /// Flips the minority of every component that winds two ways; returns the
 /// edges that clash nevertheless.
 fn repair_winding(
     model: &Model,
+    welded: &Weld,
     triangles: &mut [[u32; 3]],
     sources: &mut FaceSources,
     table: &mut EdgeTable,
@@ -347,8 +347,7 @@ fn repair_winding(
             sources.turn(face);
         }
         // Flipped triangles number their sides anew; the edges stay the same.
-        let vertices = triangles.as_flattened().iter().max().map_or(0, |&v| v as usize + 1);
-        *table = EdgeTable::from_triangles(vertices, triangles);
+        *table = EdgeTable::from_triangles(welded.positions.len(), triangles);
     }
     orientation.clashes
 }

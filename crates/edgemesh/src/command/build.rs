@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 
 use super::input::InputOptions;
@@ -28,30 +29,24 @@ pub struct BuildCommand {
     /// Add the edge vertices of a layout to the file, which always has the
     /// indexed ones; may be given twice
     #[arg(long = "layout", value_name = "LAYOUT")]
-    pub layouts: Vec<LayoutName>,
+    pub layouts: Vec<Layout>,
     /// How the input is read
     #[command(flatten)]
     pub input: InputOptions,
 }
 
-/// The layouts that `--layout` names.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum LayoutName {
-    /// 20 bytes an edge, over shared positions and faces
-    Indexed,
-    /// Four edge vertices of 80 bytes an edge
-    ReplicatedF32,
-    /// Four edge vertices of 40 bytes an edge
-    ReplicatedI16,
-}
+impl ValueEnum for Layout {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
 
-impl From<LayoutName> for Layout {
-    fn from(name: LayoutName) -> Self {
-        match name {
-            LayoutName::Indexed => Self::Indexed,
-            LayoutName::ReplicatedF32 => Self::ReplicatedF32,
-            LayoutName::ReplicatedI16 => Self::ReplicatedI16,
-        }
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let help = match self {
+            Self::Indexed => "20 bytes an edge, over shared positions and faces",
+            Self::ReplicatedF32 => "Four edge vertices of 80 bytes an edge",
+            Self::ReplicatedI16 => "Four edge vertices of 40 bytes an edge",
+        };
+        Some(PossibleValue::new(self.as_str()).help(help))
     }
 }
 
@@ -62,7 +57,6 @@ impl BuildCommand {
     /// Where a model cannot be read or a file not be written; those before it
     /// are written.
     pub fn run(&self, is_quiet: bool) -> Result<(), Failure> {
-        let layouts: Vec<Layout> = self.layouts.iter().map(|&name| name.into()).collect();
         let targets = Targets::new(&self.models, &self.output, "edgemesh")?;
         for (model, target) in targets.pairs() {
             let loaded = self.input.load(model, true, is_quiet)?;
@@ -70,7 +64,7 @@ impl BuildCommand {
                 print_warnings(&loaded.name, &loaded.report);
             }
             let _progress = Progress::start(format!("writing {}", target.display()), is_quiet);
-            let bytes = to_bytes(&loaded.mesh, &loaded.name, &loaded.report, &layouts)
+            let bytes = to_bytes(&loaded.mesh, &loaded.name, &loaded.report, &self.layouts)
                 .map_err(|error| Failure::fault(format!("{}: {error}", target.display())))?;
             write_target(target, &bytes)?;
         }

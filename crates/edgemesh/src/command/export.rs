@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 
 use super::input::InputOptions;
@@ -29,43 +30,26 @@ pub struct ExportCommand {
     pub output: PathBuf,
     /// The format to write [default: told by the ending of OUT]
     #[arg(long, value_name = "FORMAT")]
-    pub to: Option<ExportName>,
+    pub to: Option<ExportFormat>,
     /// How the input is read
     #[command(flatten)]
     pub input: InputOptions,
 }
 
-/// The formats that `--to` names.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum ExportName {
-    /// glTF 2.0, binary
-    Glb,
-    /// glTF 2.0, JSON
-    Gltf,
-    /// PLY, binary
-    Ply,
-    /// Wavefront OBJ
-    Obj,
-    /// JSON
-    Json,
-}
+impl ValueEnum for ExportFormat {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
 
-impl From<ExportName> for ExportFormat {
-    fn from(name: ExportName) -> Self {
-        match name {
-            ExportName::Glb => Self::Glb,
-            ExportName::Gltf => Self::Gltf,
-            ExportName::Ply => Self::Ply,
-            ExportName::Obj => Self::Obj,
-            ExportName::Json => Self::Json,
-        }
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.as_str()))
     }
 }
 
 impl ExportCommand {
     fn format(&self) -> Result<ExportFormat, Failure> {
-        if let Some(name) = self.to {
-            return Ok(name.into());
+        if let Some(format) = self.to {
+            return Ok(format);
         }
         ExportFormat::of_name(&self.output).ok_or_else(|| {
             Failure::usage(format!(

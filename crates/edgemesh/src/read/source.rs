@@ -92,15 +92,15 @@ pub(crate) fn folder_of(path: &Path) -> &Path {
 /// Reads the file at `path` after its first bytes were found to be those of a
 /// model; `format` leaves only the size to be judged.
 pub(crate) fn load(path: &Path, format: Option<Format>) -> Result<(Vec<u8>, Format), ReadError> {
-    let name = path.display().to_string();
-    let error = |kind, what: String| ReadError { kind, file: name.clone(), place: None, what };
-    let io_error =
-        |source: io::Error| error(ReadErrorKind::Io, format!("cannot be read: {source}"));
-    let file = File::open(path).map_err(io_error)?;
-    let metadata = file.metadata().map_err(io_error)?;
+    load_file(path, format).map_err(|error| error.in_file(path))
+}
+
+fn load_file(path: &Path, format: Option<Format>) -> Result<(Vec<u8>, Format), LoadError> {
+    let file = File::open(path).map_err(LoadError::Io)?;
+    let metadata = file.metadata().map_err(LoadError::Io)?;
     if metadata.is_dir() {
         let what = "is a folder; name a model file in it".into();
-        return Err(error(ReadErrorKind::Io, what));
+        return Err(LoadError::Other(ReadErrorKind::Io, what));
     }
     // Pipes and devices have no size.
     let size = Some(metadata.len()).filter(|_| metadata.is_file());
@@ -112,10 +112,7 @@ pub(crate) fn load(path: &Path, format: Option<Format>) -> Result<(Vec<u8>, Form
         }
         _ => read_rest(&file, size, bytes),
     };
-    load_from(&file, size, path, format, &mut rest).map_err(|failure| match failure {
-        LoadError::Io(source) => io_error(source),
-        LoadError::Other(kind, what) => error(kind, what),
-    })
+    load_from(&file, size, path, format, &mut rest)
 }
 
 /// Reads all of `stream`, which is called `name`, as [`load`] does.
@@ -131,18 +128,22 @@ pub(crate) fn load_stream(
         Ok(_) => load_from(start.as_slice(), None, name, format, &mut rest),
         Err(source) => Err(LoadError::Io(source)),
     };
-    loaded.map_err(|failure| {
-        let (kind, what) = match failure {
-            LoadError::Io(source) => (ReadErrorKind::Io, format!("cannot be read: {source}")),
-            LoadError::Other(kind, what) => (kind, what),
-        };
-        ReadError { kind, file: name.display().to_string(), place: None, what }
-    })
+    loaded.map_err(|error| error.in_file(name))
 }
 
 enum LoadError {
     Io(io::Error),
     Other(ReadErrorKind, String),
+}
+
+impl LoadError {
+    fn in_file(self, path: &Path) -> ReadError {
+        let (kind, what) = match self {
+            Self::Io(source) => (ReadErrorKind::Io, format!("cannot be read: {source}")),
+            Self::Other(kind, what) => (kind, what),
+        };
+        ReadError { kind, file: path.display().to_string(), place: None, what }
+    }
 }
 
 /// Judges the first bytes of `head`, then calls `rest` to put the others behind
