@@ -302,3 +302,31 @@ impl EdgeMesh {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::build::{BuildOptions, build_edge_mesh};
+    use crate::model::Model;
+    use crate::report::Report;
+
+    /// A mesh that is moved to a frame is the one that is built in it.
+    #[test]
+    fn a_mesh_in_another_frame_is_at_the_same_place() {
+        let near = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.5]];
+        let mut model = Model::from_polygons(&near, &[&[0, 1, 2], &[1, 3, 2]]);
+        for position in &mut model.positions {
+            position[0] += 4_500_000.0;
+        }
+        let build = |frame| {
+            let options = BuildOptions { frame, ..BuildOptions::default() };
+            build_edge_mesh(&model, &options, &mut Report::default())
+        };
+        let frame = Frame { origin: DVec3::new(4_499_998.0, 1.0, 0.0), scale: 0.5 };
+        let (mut moved, built) = (build(None), build(Some(frame)));
+        assert!(!moved.frame.is_identity() && moved.positions != built.positions);
+        moved.set_frame(frame);
+        assert_eq!(moved, built);
+        assert_eq!(moved.box_in_file().0, DVec3::new(4_500_000.0, 0.0, 0.0));
+    }
+}

@@ -171,6 +171,37 @@ mod with_adapter {
         assert_eq!(wrong_size.status.code(), Some(1), "{}", message(&wrong_size));
     }
 
+    /// Two sheets side by side, one of them far too far away for 32 bits on its
+    /// own, as models and with the first as an edge mesh in a frame of its own.
+    #[test]
+    fn models_far_away_keep_their_places_in_one_scene() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name).display().to_string();
+        let write_sheet = |name: &str, x: f64| {
+            let corner = |dx: f64, y: u32| format!("v {} {y} 0\n", x + dx);
+            let corners = [corner(0.0, 0), corner(1.0, 0), corner(1.0, 1), corner(0.0, 1)];
+            std::fs::write(path(name), corners.concat() + "f 1 2 3 4\n").unwrap();
+            path(name)
+        };
+        let render = |models: [&str; 2], out: &str, more: &[&str]| {
+            let target = path(out);
+            let ahead = ["-o", &target, "--size", "64x64", "--samples", "1"];
+            let output = viewer(&[&["render"], &models[..], &ahead, more].concat());
+            assert_eq!(output.status.code(), Some(0), "{}", message(&output));
+            target
+        };
+        let [a, b] =
+            [("a.obj", 4_500_000.0), ("b.obj", 4_500_001.5)].map(|(name, x)| write_sheet(name, x));
+        let [near_a, near_b] = [("c.obj", 0.0), ("d.obj", 1.5)].map(|(n, x)| write_sheet(n, x));
+        let near = render([&near_a, &near_b], "near.png", &[]);
+        let built = path("a.edgemesh");
+        let output = crate::child::edgemesh(&["build", &a, "-o", &built]);
+        assert_eq!(output.status.code(), Some(0), "{}", message(&output));
+        let same = ["--reference", &near, "--reference-threshold", "0"];
+        render([&a, &b], "far.png", &same);
+        render([&built, &b], "built.png", &same);
+    }
+
     #[test]
     fn a_turntable_writes_numbered_pictures_and_a_stream_is_a_png() {
         let folder = tempfile::tempdir().unwrap();
