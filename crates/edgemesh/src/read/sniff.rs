@@ -3,6 +3,8 @@
 use std::ffi::OsStr;
 use std::path::Path;
 
+use super::stl::size_fits;
+
 /// A model format that is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
@@ -107,7 +109,7 @@ pub(crate) fn sniff(head: &[u8], size: Option<u64>, name: &Path) -> Result<Forma
             _ => Err("gzip data: unpack it first (gunzip)".into()),
         };
     }
-    if is_binary_stl(head, size) {
+    if size.is_some_and(|size| size_fits(head, size)) {
         return Ok(Format::Stl);
     }
     let is_utf16 = head.starts_with(b"\xff\xfe") || head.starts_with(b"\xfe\xff");
@@ -139,15 +141,6 @@ fn by_magic(head: &[u8]) -> Option<Format> {
         Some(Format::Wrl)
     } else {
         None
-    }
-}
-
-/// Whether the size of a file is just what its own count of triangles needs.
-fn is_binary_stl(head: &[u8], size: Option<u64>) -> bool {
-    let count = head.get(80..84).and_then(|bytes| bytes.try_into().ok()).map(u32::from_le_bytes);
-    match (count, size) {
-        (Some(count), Some(size)) => count > 0 && size == 84 + 50 * u64::from(count),
-        _ => false,
     }
 }
 

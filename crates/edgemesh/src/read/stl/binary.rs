@@ -27,11 +27,11 @@ const FACET_BYTES: usize = 50;
 /// Facets that are worth another thread.
 const FACETS_A_THREAD: usize = 1 << 14;
 
-/// Whether the size of a file is what its own count of facets needs.
-pub(super) fn counts_fit(bytes: &[u8]) -> bool {
-    count(bytes).is_some_and(|count| {
-        bytes.len() as u64 == (HEAD_BYTES as u64) + (FACET_BYTES as u64) * u64::from(count)
-    })
+/// Whether a file of `size` bytes that begins with `head` is a binary one by its
+/// own count of facets: the one mark that such files have.
+pub(in crate::read) fn size_fits(head: &[u8], size: u64) -> bool {
+    let needed = |count| HEAD_BYTES as u64 + FACET_BYTES as u64 * u64::from(count);
+    count(head).is_some_and(|count| size == needed(count))
 }
 
 fn count(bytes: &[u8]) -> Option<u32> {
@@ -166,8 +166,9 @@ mod tests {
 
     #[test]
     fn sizes_speak_for_counts() {
-        assert!(counts_fit(&file(2, 2)) && counts_fit(&file(0, 0)));
-        assert!(!counts_fit(&file(2, 1)) && !counts_fit(&file(1, 2)));
-        assert!(!counts_fit(b"solid"));
+        let fits = |bytes: &[u8]| size_fits(bytes, bytes.len() as u64);
+        assert!(fits(&file(2, 2)) && fits(&file(0, 0)));
+        assert!(!fits(&file(2, 1)) && !fits(&file(1, 2)));
+        assert!(!fits(b"solid"));
     }
 }

@@ -19,7 +19,8 @@
 mod binary;
 mod text;
 
-use self::binary::{counts_fit, read_binary};
+use self::binary::read_binary;
+pub(super) use self::binary::size_fits;
 use self::text::read_text;
 use super::error::ReadError;
 use super::source::Source;
@@ -37,7 +38,7 @@ const HEAD_BYTES: usize = 1024;
 /// Empty: a count of no triangles. Truncated: not one whole triangle in a
 /// binary file. Number: a coordinate of a text is no number.
 pub(super) fn read_stl(source: &Source, report: &mut Report) -> Result<Model, ReadError> {
-    if !counts_fit(source.bytes) && is_text(source.bytes) {
+    if !size_fits(source.bytes, source.bytes.len() as u64) && is_text(source.bytes) {
         read_text(source, report)
     } else {
         read_binary(source, report)
