@@ -2,8 +2,6 @@
 //! range, finite corners, at least three of them, counts that later stages can
 //! name. A reader may say more, and earlier; it need not.
 
-use rayon::prelude::*;
-
 use super::error::{ReadError, ReadErrorKind};
 use super::source::Source;
 use crate::index::{MAX_INDEX, NONE, to_u32};
@@ -61,7 +59,7 @@ pub(crate) fn check(
 fn check_positions(source: &Source, model: &Model) -> Result<(), ReadError> {
     let count = model.positions.len();
     let is_wrong = |&position: &u32| position as usize >= count;
-    if let Some(corner) = model.corner_positions.par_iter().position_first(is_wrong) {
+    if let Some(corner) = model.corner_positions.iter().position(is_wrong) {
         let polygon = model.polygon_of(corner);
         let index = model.corner_positions[corner];
         let what = format!("a face names vertex {index}, counted from 0, of {count}");
