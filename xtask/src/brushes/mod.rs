@@ -6,6 +6,7 @@
 //! Only +, -, *, / and square roots are used, which are exact to the last bit, so
 //! the pictures are the same on every machine.
 
+mod charcoal;
 mod noise;
 mod pen;
 
@@ -33,8 +34,8 @@ fn folder() -> PathBuf {
 }
 
 /// Every brush and its file.
-fn pictures() -> [(&'static str, GrayAlphaImage); 1] {
-    [("pen.png", pen::picture())]
+fn pictures() -> [(&'static str, GrayAlphaImage); 2] {
+    [("pen.png", pen::picture()), ("charcoal.png", charcoal::picture())]
 }
 
 /// A picture of a coverage given by u and v, the mean of `samples` by `samples`

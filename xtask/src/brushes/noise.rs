@@ -11,6 +11,15 @@ pub(super) fn noise(u: f64, v: f64, cells: u32, seed: u32) -> f64 {
     mix(top, bottom, down)
 }
 
+/// Noise for the grain of paper, in a picture eight times as long as high: its
+/// cells are square, and lie slanted and bent so that the lattice does not show.
+pub(super) fn grain(u: f64, v: f64, cells: u32, seed: u32) -> f64 {
+    let rows = f64::from(cells) / 8.0;
+    let slant = if seed.is_multiple_of(2) { v } else { 1.0 - v };
+    let bend = 1.2 * noise(u, v * rows * 0.37, cells * 2 / 5, seed + 100);
+    noise(u + 0.06 * slant, v * rows + bend, cells, seed)
+}
+
 /// The lattice cell and where in it, eased so that cells join without a kink.
 fn cell_of(position: f64) -> (u32, f64) {
     #[expect(clippy::cast_possible_truncation, reason = "positions are small")]
@@ -55,5 +64,13 @@ mod tests {
             assert!(difference.abs() < 1e-9, "{difference} at {u}, {v}");
         }
         assert!((noise(0.2, 0.0, 7, 3) - noise(0.2, 7.0, 7, 3)).abs() > 0.01);
+    }
+
+    #[test]
+    fn grain_repeats_along_u() {
+        for (u, v) in places() {
+            let difference = grain(u, v, 113, 4) - grain(u + 1.0, v, 113, 4);
+            assert!(difference.abs() < 1e-9, "{difference} at {u}, {v}");
+        }
     }
 }
