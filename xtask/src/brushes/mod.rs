@@ -9,6 +9,7 @@
 mod charcoal;
 mod noise;
 mod pen;
+mod watercolor;
 
 use std::path::PathBuf;
 
@@ -34,8 +35,12 @@ fn folder() -> PathBuf {
 }
 
 /// Every brush and its file.
-fn pictures() -> [(&'static str, GrayAlphaImage); 2] {
-    [("pen.png", pen::picture()), ("charcoal.png", charcoal::picture())]
+fn pictures() -> [(&'static str, GrayAlphaImage); 3] {
+    [
+        ("pen.png", pen::picture()),
+        ("charcoal.png", charcoal::picture()),
+        ("watercolor.png", watercolor::picture()),
+    ]
 }
 
 /// A picture of a coverage given by u and v, the mean of `samples` by `samples`
