@@ -6,7 +6,9 @@
 //! Only +, -, *, / and square roots are used, which are exact to the last bit, so
 //! the pictures are the same on every machine.
 
+mod canvas;
 mod charcoal;
+mod fur;
 mod noise;
 mod pen;
 mod watercolor;
@@ -35,11 +37,12 @@ fn folder() -> PathBuf {
 }
 
 /// Every brush and its file.
-fn pictures() -> [(&'static str, GrayAlphaImage); 3] {
+fn pictures() -> [(&'static str, GrayAlphaImage); 4] {
     [
         ("pen.png", pen::picture()),
         ("charcoal.png", charcoal::picture()),
         ("watercolor.png", watercolor::picture()),
+        ("fur.png", fur::picture()),
     ]
 }
 
