@@ -1,25 +1,56 @@
-// Finds the edges to draw and lists them in the order of the records: each
-// invocation counts the live edges of a run, one workgroup scans the counts,
-// each invocation writes its run from its base on.
+// Finds the edges to draw and lists them by layer, in each in the order of the
+// records: each invocation marks the live edges of a run and counts them, one
+// workgroup scans the counts, each invocation writes its run from its base on.
+//
+// Only what a view changes is worked out for it: which edges are drawn without a
+// contour is marked once (mark_static), and runs whose faces all look one way
+// have no contours.
 //
 // No racing appends: the list, and with it the picture, is the same every time.
 // No barriers over all edges either: software drivers run those slowly, and
 // runs that are scanned by one small workgroup need next to none.
-#import <common/feature.wgsl>
+#import <common/edge_faces.wgsl>
 #import <common/frame.wgsl>
-#import <common/mesh.wgsl>
+#import <common/normal_cone.wgsl>
+#import <common/draw_arguments.wgsl>
 
 // Edges an invocation looks at. Rust twin: EDGES_PER_RUN in mesh_buffers.rs.
 const EDGES_PER_RUN: u32 = 64u;
 
-// The arguments of the indirect draw, and the view's counts. Rust twin: Tally
-// in crates/strokes/src/mesh_buffers.rs.
+// Layers that one object can have. Rust twin: MAX_LAYERS in look.rs.
+const MAX_LAYERS: u32 = 7u;
+
+// Rust twin: DetectUniform in crates/strokes/src/detect.rs.
+struct DetectUniform {
+    layers: u32,
+    drawn: u32,
+    ridge_steps: u32,
+    valley_steps: u32,
+    keeps_hidden: u32,
+    layer_count: u32,
+    draw_count: u32,
+    padding: u32,
+    // Layer and indices an edge of each draw.
+    draws: array<vec4u, MAX_DRAWS>,
+}
+
+// Rust twin: RunState in crates/strokes/src/view_buffers.rs.
+struct RunState {
+    // Edges that are drawn without being contours, one bit each.
+    marked: vec2u,
+    // Those of them that their own solid can hide.
+    solid: vec2u,
+    // Edges drawn in this view.
+    live: vec2u,
+    // 1 where the winding of two faces clashes: their contours are elsewhere.
+    has_clash: u32,
+    padding: u32,
+}
+
+// The counts of a view. Rust twin: Tally in crates/strokes/src/view_buffers.rs.
 struct Tally {
-    vertex_count: u32,
-    instance_count: u32,
-    first_vertex: u32,
-    first_instance: u32,
     contour: atomic<u32>,
+    stroke_count: u32,
     ridge: atomic<u32>,
     valley: atomic<u32>,
     boundary: atomic<u32>,
@@ -28,46 +59,51 @@ struct Tally {
     smoothing: atomic<u32>,
 }
 
-@group(2) @binding(0) var<uniform> mesh: MeshUniform;
-@group(2) @binding(1) var<storage, read> records: array<EdgeRecord>;
-@group(2) @binding(2) var<storage, read> facing: array<u32>;
-@group(2) @binding(3) var<storage, read_write> runs: array<u32>;
-@group(2) @binding(4) var<storage, read_write> live: array<u32>;
-@group(2) @binding(5) var<storage, read_write> tally: Tally;
+@group(1) @binding(0) var<uniform> detect: DetectUniform;
+@group(2) @binding(6) var<storage, read> run_cones: array<NormalCone>;
+@group(3) @binding(1) var<storage, read_write> runs: array<RunState>;
+// Live edges of each run, layer by layer; then where they begin in the list.
+@group(3) @binding(2) var<storage, read_write> counts: array<u32>;
+@group(3) @binding(3) var<storage, read_write> live: array<u32>;
+@group(3) @binding(4) var<storage, read_write> tally: Tally;
+@group(3) @binding(5) var<storage, read_write> draws: array<DrawArguments, MAX_DRAWS>;
 
-fn looks_at_eye(face: u32) -> bool {
-    // A line that is no edge of a face has none that could look anywhere.
-    return face != NONE && (facing[face >> 5u] & (1u << (face & 31u))) != 0u;
+fn class_table() -> ClassTable {
+    return ClassTable(
+        detect.layers,
+        detect.drawn,
+        detect.ridge_steps,
+        detect.valley_steps,
+        detect.keeps_hidden,
+    );
 }
 
-fn line_bits(record: EdgeRecord, is_outside: bool) -> u32 {
-    let has_b = record.face_b != NONE;
-    let b_faces = looks_at_eye(record.face_b);
-    let a_faces = looks_at_eye(record.face_a);
-    return classify_edge(record.flags, has_b, a_faces, b_faces, is_outside);
-}
-
-// Whether the view's eye lies outside of this mesh's box.
-fn is_seen_from_outside() -> bool {
-    return eye_is_outside(frame.eye, mesh.box_min.xyz, mesh.box_max.xyz);
+fn line_of(edge: u32) -> Line {
+    let faces = edge_faces(edge);
+    return classify_edge(edge_word(edge), faces, class_table(), object.eye_is_outside != 0u);
 }
 
 // The first edge of a run, and the one behind its last.
 fn edges_of(run: u32) -> vec2u {
     let first = run * EDGES_PER_RUN;
-    return vec2u(first, min(first + EDGES_PER_RUN, mesh.edge_count));
+    return vec2u(first, min(first + EDGES_PER_RUN, chunk.edge_count));
 }
 
+// The bit of the k-th edge of a run.
+fn bit_of(k: u32) -> vec2u {
+    return select(vec2u(0u, 1u << (k & 31u)), vec2u(1u << k, 0u), k < 32u);
+}
+
+// What no view changes: runs once, and again when the classes change.
 @compute @workgroup_size(64)
-fn count_runs(@builtin(global_invocation_id) id: vec3u) {
+fn mark_static(@builtin(global_invocation_id) id: vec3u) {
     let run = id.x;
-    if run >= mesh.run_count {
+    if run >= chunk.run_count {
         return;
     }
     let edges = edges_of(run);
-    let is_outside = is_seen_from_outside();
-    var live_count = 0u;
-    var contour = 0u;
+    let table = class_table();
+    var state = RunState();
     var ridge = 0u;
     var valley = 0u;
     var boundary = 0u;
@@ -75,23 +111,26 @@ fn count_runs(@builtin(global_invocation_id) id: vec3u) {
     var material = 0u;
     var smoothing = 0u;
     for (var edge = edges.x; edge < edges.y; edge++) {
-        let record = records[edge];
-        let bits = line_bits(record, is_outside);
-        live_count += u32((bits & DRAWN) != 0u);
-        if (record.flags & NON_MANIFOLD) != 0u {
+        let word = edge_word(edge);
+        let bit = bit_of(edge - edges.x);
+        let classes = static_classes(word, table);
+        if (classes & table.drawn) != 0u {
+            state.marked |= bit;
+            state.solid |= select(vec2u(0u), bit, (word & SOLID) != 0u);
+        }
+        state.has_clash |= select(0u, 1u, (word & CLASH) != 0u);
+        if (word & NON_MANIFOLD) != 0u {
             continue;
         }
-        contour += u32((bits & CONTOUR) != 0u);
-        ridge += u32((record.flags & RIDGE) != 0u);
-        valley += u32((record.flags & VALLEY) != 0u);
-        boundary += u32((record.flags & BOUNDARY) != 0u);
-        marked += u32((record.flags & MARKED) != 0u);
-        material += u32((record.flags & MATERIAL) != 0u);
-        smoothing += u32((record.flags & SMOOTHING) != 0u);
+        ridge += (classes >> 5u) & 1u;
+        valley += (classes >> 6u) & 1u;
+        boundary += u32((word & BOUNDARY) != 0u);
+        marked += u32((word & MARKED) != 0u);
+        material += u32((word & MATERIAL) != 0u);
+        smoothing += u32((word & SMOOTHING) != 0u);
     }
-    runs[run] = live_count;
+    runs[run] = state;
     // Sums of whole numbers: the same in any order.
-    if contour > 0u { atomicAdd(&tally.contour, contour); }
     if ridge > 0u { atomicAdd(&tally.ridge, ridge); }
     if valley > 0u { atomicAdd(&tally.valley, valley); }
     if boundary > 0u { atomicAdd(&tally.boundary, boundary); }
@@ -100,56 +139,139 @@ fn count_runs(@builtin(global_invocation_id) id: vec3u) {
     if smoothing > 0u { atomicAdd(&tally.smoothing, smoothing); }
 }
 
+@compute @workgroup_size(64)
+fn count_runs(@builtin(global_invocation_id) id: vec3u) {
+    let run = id.x;
+    if run >= chunk.run_count {
+        return;
+    }
+    var live_bits = runs[run].marked;
+    let whole = cone_facing(run_cones[run], object.eye);
+    if whole == MIXED || runs[run].has_clash != 0u {
+        live_bits = look_at_each(run);
+    } else if whole == ALL_AWAY && object.eye_is_outside != 0u && detect.keeps_hidden == 0u {
+        live_bits &= ~runs[run].solid;
+    }
+    runs[run].live = live_bits;
+    if detect.layer_count == 1u {
+        counts[run] = countOneBits(live_bits.x) + countOneBits(live_bits.y);
+    } else {
+        count_layers(run, live_bits);
+    }
+}
+
+// The live edges of a run that may have contours, one bit each.
+fn look_at_each(run: u32) -> vec2u {
+    let edges = edges_of(run);
+    var live_bits = vec2u(0u);
+    var contour = 0u;
+    for (var edge = edges.x; edge < edges.y; edge++) {
+        let bits = line_of(edge).bits;
+        let bit = bit_of(edge - edges.x);
+        live_bits |= select(vec2u(0u), bit, (bits & DRAWN) != 0u);
+        contour += u32((bits & CONTOUR) != 0u);
+    }
+    if contour > 0u { atomicAdd(&tally.contour, contour); }
+    return live_bits;
+}
+
+fn count_layers(run: u32, live_bits: vec2u) {
+    var of_layer = array<u32, MAX_LAYERS>();
+    for (var half = 0u; half < 2u; half++) {
+        var rest = live_bits[half];
+        while rest != 0u {
+            let edge = run * EDGES_PER_RUN + 32u * half + countTrailingZeros(rest);
+            of_layer[min(line_of(edge).layer, MAX_LAYERS - 1u)] += 1u;
+            rest &= rest - 1u;
+        }
+    }
+    for (var layer = 0u; layer < detect.layer_count; layer++) {
+        counts[layer * chunk.run_count + run] = of_layer[layer];
+    }
+}
+
 const SCAN_WIDTH: u32 = 256u;
 var<workgroup> sums: array<u32, SCAN_WIDTH>;
 
-// One workgroup: turns the counts into bases, and sets the draw's arguments.
+// One workgroup: turns the counts into bases, and sets the draws' arguments.
 @compute @workgroup_size(SCAN_WIDTH)
 fn scan_runs(@builtin(local_invocation_index) lane: u32) {
-    let chunk = (mesh.run_count + SCAN_WIDTH - 1u) / SCAN_WIDTH;
-    let first = min(lane * chunk, mesh.run_count);
-    let last = min(first + chunk, mesh.run_count);
+    let size = detect.layer_count * chunk.run_count;
+    let part = (size + SCAN_WIDTH - 1u) / SCAN_WIDTH;
+    let first = min(lane * part, size);
+    let last = min(first + part, size);
     var sum = 0u;
-    for (var run = first; run < last; run++) {
-        sum += runs[run];
+    for (var at = first; at < last; at++) {
+        sum += counts[at];
     }
     sums[lane] = sum;
     workgroupBarrier();
     if lane == 0u {
-        var base = 0u;
+        var total = 0u;
         for (var other = 0u; other < SCAN_WIDTH; other++) {
             let count = sums[other];
-            sums[other] = base;
-            base += count;
+            sums[other] = total;
+            total += count;
         }
-        tally.vertex_count = 12u;
-        tally.instance_count = base;
-        tally.first_vertex = 0u;
-        tally.first_instance = 0u;
+        tally.stroke_count = total;
     }
     workgroupBarrier();
     var base = sums[lane];
-    for (var run = first; run < last; run++) {
-        let count = runs[run];
-        runs[run] = base;
+    for (var at = first; at < last; at++) {
+        let count = counts[at];
+        counts[at] = base;
         base += count;
     }
+    storageBarrier();
+    if lane < detect.draw_count {
+        set_arguments(lane);
+    }
+}
+
+// Where the edges of a layer begin in the list.
+fn first_of(layer: u32) -> u32 {
+    if layer >= detect.layer_count {
+        return tally.stroke_count;
+    }
+    return counts[layer * chunk.run_count];
+}
+
+const EXPAND_WIDTH: u32 = 64u;
+
+fn set_arguments(draw: u32) {
+    let layer = detect.draws[draw].x;
+    let index_count = detect.draws[draw].y;
+    let first = first_of(layer);
+    let count = first_of(layer + 1u) - first;
+    let expanded = min(count, chunk.capacity);
+    draws[draw] = DrawArguments(
+        index_count * expanded, 1u, 0u, 0u, 0u,
+        (expanded + EXPAND_WIDTH - 1u) / EXPAND_WIDTH, 1u, 1u,
+        index_count * (count - expanded), 1u, index_count * expanded, 0u,
+        first, expanded, vec2u(0u),
+    );
 }
 
 @compute @workgroup_size(64)
 fn write_runs(@builtin(global_invocation_id) id: vec3u) {
     let run = id.x;
-    if run >= mesh.run_count {
+    if run >= chunk.run_count {
         return;
     }
-    let edges = edges_of(run);
-    let is_outside = is_seen_from_outside();
-    var place = runs[run];
-    for (var edge = edges.x; edge < edges.y; edge++) {
-        let bits = line_bits(records[edge], is_outside);
-        if (bits & DRAWN) != 0u {
-            live[place] = edge | (bits & (CONTOUR | A_FACES));
-            place++;
+    var place = array<u32, MAX_LAYERS>();
+    for (var layer = 0u; layer < detect.layer_count; layer++) {
+        place[layer] = counts[layer * chunk.run_count + run];
+    }
+    let live_bits = runs[run].live;
+    for (var half = 0u; half < 2u; half++) {
+        var rest = live_bits[half];
+        while rest != 0u {
+            let edge = run * EDGES_PER_RUN + 32u * half + countTrailingZeros(rest);
+            let line = line_of(edge);
+            let layer = min(line.layer, MAX_LAYERS - 1u);
+            live[place[layer]] = edge | (line.bits & ~(DRAWN | EDGE_INDEX_MASK));
+            place[layer] += 1u;
+            rest &= rest - 1u;
         }
     }
 }

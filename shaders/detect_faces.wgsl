@@ -1,22 +1,30 @@
 // One facing bit a face, 32 to a word, one word an invocation: a run of faces
-// each keeps the cost per invocation small, and needs no atomics.
+// each keeps the cost per invocation small, and needs no atomics. Most words need
+// one look at the cone around their normals.
 #import <common/facing.wgsl>
 #import <common/frame.wgsl>
+#import <common/normal_cone.wgsl>
 
-@group(2) @binding(0) var<uniform> mesh: MeshUniform;
-@group(2) @binding(1) var<storage, read> planes: array<FacePlane>;
-@group(2) @binding(2) var<storage, read_write> facing: array<u32>;
+@group(2) @binding(2) var<storage, read> planes: array<FacePlane>;
+@group(2) @binding(3) var<storage, read> cones: array<NormalCone>;
+@group(3) @binding(0) var<storage, read_write> facing: array<u32>;
 
 @compute @workgroup_size(64)
 fn detect_faces(@builtin(global_invocation_id) id: vec3u) {
     let first = id.x * 32u;
-    if first >= mesh.face_count {
+    if first >= chunk.face_count {
         return;
     }
-    let count = min(32u, mesh.face_count - first);
+    let count = min(32u, chunk.face_count - first);
+    let all = select((1u << count) - 1u, 0xffffffffu, count == 32u);
+    let whole = cone_facing(cones[id.x], object.eye);
+    if whole != MIXED {
+        facing[id.x] = select(0u, all, whole == ALL_FACE);
+        return;
+    }
     var word = 0u;
     for (var bit = 0u; bit < count; bit++) {
-        word |= select(0u, 1u << bit, faces_eye(planes[first + bit], frame.eye));
+        word |= select(0u, 1u << bit, faces_eye(planes[first + bit], object.eye));
     }
     facing[id.x] = word;
 }

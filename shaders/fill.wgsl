@@ -9,9 +9,14 @@ struct FillUniform {
 
 @group(1) @binding(0) var<uniform> fill: FillUniform;
 
+struct FillVarying {
+    // The same depth in every pass, so that a second one can ask for it.
+    @builtin(position) @invariant position: vec4f,
+}
+
 @vertex
-fn fill_vertex(@location(0) position: vec3f) -> @builtin(position) vec4f {
-    return frame.clip_from_world * vec4f(position, 1.0);
+fn fill_vertex(@location(0) position: vec3f) -> FillVarying {
+    return FillVarying(object.clip_from_object * vec4f(position, 1.0));
 }
 
 @fragment

@@ -1,6 +1,6 @@
 // Which edges are features of a view (McGuire and Hughes, Equation 1).
-// Rust twins: EdgeFlags in crates/edgemesh/src/record.rs, the rest in
-// crates/edgemesh/src/oracle/feature.rs.
+// Rust twins: EdgeFlags in crates/edgemesh/src/record.rs, the crease's angle in
+// edge_word.rs, the rest in crates/edgemesh/src/oracle/feature.rs.
 
 const BOUNDARY: u32 = 1u;
 const RIDGE: u32 = 2u;
@@ -12,36 +12,81 @@ const DIAGONAL: u32 = 64u;
 const CLASH: u32 = 128u;
 const SOLID: u32 = 256u;
 const SMOOTHING: u32 = 512u;
-const ALWAYS_DRAWN: u32 = 575u; // all before DIAGONAL, and SMOOTHING
 
-// Line bits: what a view says of an edge. The live list carries the first two
+const CREASE_SHIFT: u32 = 10u;
+const CREASE_STEPS: u32 = 0x1fffu;
+const CONCAVE: u32 = 0x800000u;
+
+// Line bits: what a view says of an edge. The live list carries the first three
 // above the edge's index.
 const CONTOUR: u32 = 0x80000000u;
 const A_FACES: u32 = 0x40000000u;
-const DRAWN: u32 = 0x20000000u;
-const EDGE_INDEX_MASK: u32 = 0x3fffffffu;
+const BEHIND_SOLID: u32 = 0x20000000u;
+const DRAWN: u32 = 0x10000000u;
+const EDGE_INDEX_MASK: u32 = 0x1fffffffu;
 
-fn classify_edge(
-    flags: u32,
+const NO_LAYER: u32 = 15u;
+
+struct ClassTable {
+    // Four bits a class, the strongest lowest.
+    layers: u32,
+    // One bit a class.
+    drawn: u32,
+    // Thresholds in steps; 0 for the creases as built.
+    ridge_steps: u32,
+    valley_steps: u32,
+    // 1 where edges that their own solid hides are drawn too.
+    keeps_hidden: u32,
+}
+
+struct EdgeFaces {
     has_b: bool,
     a_faces: bool,
     b_faces: bool,
-    eye_is_outside: bool,
-) -> u32 {
-    let b_faces_as_seen = b_faces != ((flags & CLASH) != 0u);
-    let is_manifold = has_b && (flags & NON_MANIFOLD) == 0u;
-    // Contour where exactly one of the two faces looks at the eye.
-    let is_contour = is_manifold && a_faces != b_faces_as_seen;
-    // The solid itself hides what turns away from an eye outside of it.
-    let is_behind_solid = (flags & SOLID) != 0u && eye_is_outside
-        && !a_faces && !b_faces_as_seen;
-    let is_drawn = is_contour || ((flags & ALWAYS_DRAWN) != 0u && !is_behind_solid);
-    return select(0u, CONTOUR, is_contour)
-        | select(0u, A_FACES, a_faces)
-        | select(0u, DRAWN, is_drawn);
 }
 
-// Whether the eye lies outside of the box, and so outside of every solid in it.
-fn eye_is_outside(eye: vec4f, box_min: vec3f, box_max: vec3f) -> bool {
-    return eye.w == 0.0 || any(eye.xyz < box_min) || any(eye.xyz > box_max);
+struct Line {
+    bits: u32,
+    layer: u32,
+}
+
+// One bit for each class but contours: 1 marked, 2 boundary, 3 material,
+// 4 smoothing, 5 ridge, 6 valley.
+fn static_classes(word: u32, table: ClassTable) -> u32 {
+    let steps = (word >> CREASE_SHIFT) & CREASE_STEPS;
+    let is_concave = (word & CONCAVE) != 0u;
+    let is_ridge = select(
+        !is_concave && steps >= table.ridge_steps,
+        (word & RIDGE) != 0u,
+        table.ridge_steps == 0u,
+    );
+    let is_valley = select(
+        is_concave && steps >= table.valley_steps,
+        (word & VALLEY) != 0u,
+        table.valley_steps == 0u,
+    );
+    return select(0u, 2u, (word & MARKED) != 0u)
+        | select(0u, 4u, (word & (BOUNDARY | NON_MANIFOLD)) != 0u)
+        | select(0u, 8u, (word & MATERIAL) != 0u)
+        | select(0u, 16u, (word & SMOOTHING) != 0u)
+        | select(0u, 32u, is_ridge)
+        | select(0u, 64u, is_valley);
+}
+
+fn classify_edge(word: u32, faces: EdgeFaces, table: ClassTable, eye_is_outside: bool) -> Line {
+    let b_faces = faces.b_faces != ((word & CLASH) != 0u);
+    let is_manifold = faces.has_b && (word & NON_MANIFOLD) == 0u;
+    // Contour where exactly one of the two faces looks at the eye.
+    let is_contour = is_manifold && faces.a_faces != b_faces;
+    let classes = (static_classes(word, table) | u32(is_contour)) & table.drawn;
+    // The solid itself hides what turns away from an eye outside of it.
+    let is_behind = eye_is_outside && (word & SOLID) != 0u && !faces.a_faces && !b_faces;
+    let is_drawn = classes != 0u && (!is_behind || table.keeps_hidden != 0u);
+    let bits = select(0u, CONTOUR, is_contour)
+        | select(0u, A_FACES, faces.a_faces)
+        | select(0u, BEHIND_SOLID, is_behind)
+        | select(0u, DRAWN, is_drawn);
+    let class_index = countTrailingZeros(classes) & 7u;
+    let layer = select(NO_LAYER, (table.layers >> (4u * class_index)) & 15u, is_drawn);
+    return Line(bits, layer);
 }

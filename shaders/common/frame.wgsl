@@ -1,13 +1,32 @@
-// What one view needs, the same for every pass. Rust twin: FrameUniform in
-// crates/strokes/src/frame.rs.
+// What one view needs, the same for every pass, and what it makes of one object.
+// Rust twins: FrameUniform and ObjectUniform in crates/strokes/src/frame.rs.
 
 struct FrameUniform {
-    // Takes world positions to clip space; depth 1 near, 0 far.
-    clip_from_world: mat4x4f,
-    // The eye with w = 1, or the direction to the viewer with w = 0.
-    eye: vec4f,
     viewport_px: vec2f,
-    padding: vec2f,
+    // Pixels a unit of the world has at w = 1.
+    px_per_unit: f32,
+    padding: f32,
+}
+
+struct ObjectUniform {
+    // Takes the object's positions to clip space; depth 1 near, 0 far.
+    clip_from_object: mat4x4f,
+    // Takes its normals to clip space, as directions of a unit of the world.
+    clip_from_normal: mat4x4f,
+    // The eye in the object's space with w = 1, or the direction to the viewer
+    // with w = 0.
+    eye: vec4f,
+    // The distance from the eye along the line of sight is dot(position, this).
+    distance: vec4f,
+    origin_px: vec2f,
+    // -1 where the object is seen as in a mirror, else 1.
+    mirror: f32,
+    // 1 where the eye is outside of the object's box, else 0.
+    eye_is_outside: u32,
+    // Replicated at 16 bits: the position of step 0, and units a step.
+    center: vec3f,
+    step: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: FrameUniform;
+@group(2) @binding(0) var<uniform> object: ObjectUniform;

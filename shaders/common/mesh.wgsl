@@ -1,5 +1,5 @@
 // The edge mesh on the GPU. Rust twins: EdgeRecord and edge_random in
-// crates/edgemesh/src/record.rs, FacePlane in edge_mesh.rs, MeshUniform in
+// crates/edgemesh/src/record.rs, FacePlane in edge_mesh.rs, ChunkUniform in
 // crates/strokes/src/mesh_buffers.rs.
 
 const NONE: u32 = 0xffffffffu;
@@ -19,14 +19,21 @@ struct FacePlane {
     point: vec4f,
 }
 
-struct MeshUniform {
+// One chunk of a mesh.
+struct ChunkUniform {
     face_count: u32,
     edge_count: u32,
     run_count: u32,
-    padding: u32,
-    // The box around the mesh; w is unused.
-    box_min: vec4f,
-    box_max: vec4f,
+    // Strokes that there is room for between expansion and drawing.
+    capacity: u32,
+}
+
+@group(2) @binding(1) var<uniform> chunk: ChunkUniform;
+
+// The position of 16-bit steps. Rust twin: Quantization in
+// crates/edgemesh/src/replicate.rs.
+fn dequantize(steps: vec3f, center: vec3f, step: f32) -> vec3f {
+    return center + steps * step;
 }
 
 // The edge's random scalar in [0, 1): a hash of its ends, either way round.

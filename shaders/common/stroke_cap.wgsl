@@ -1,4 +1,5 @@
-// Start and finish caps (McGuire and Hughes, Equations 4 and 5).
+// Start and finish caps (McGuire and Hughes, Equations 4 and 5), and the half
+// disks of section 6 in their place.
 // Rust twin: crates/edgemesh/src/oracle/stroke_cap.rs.
 //
 //          m                the gap between two quads is filled by
@@ -6,6 +7,9 @@
 //   p  /   |   \  p'
 //    |_____s_____|
 #import <common/stroke_quad.wgsl>
+
+// Triangles of a half disk.
+const DISK_STEPS: u32 = 8u;
 
 // The paper's j: the triangle is walked backward where outside is -1.
 fn cap_corner(outside: f32, i: u32) -> u32 {
@@ -21,4 +25,16 @@ fn stroke_cap(s: vec2f, p: vec2f, m: vec2f, outside: f32, reach_px: f32, j: u32)
         return s + p * (outside * reach_px);
     }
     return s + m * (stroke_sign(dot(m, p)) * outside * reach_px);
+}
+
+// Where step k of the half disk lies, from the end of the spine: from the left
+// rim (p) around the end to the right one. `left_px` and `right_px` are how far
+// the quad reaches to each side; a half quad has a quarter disk.
+fn half_disk(p: vec2f, forward: f32, left_px: f32, right_px: f32, k: u32) -> vec2f {
+    let angle = 3.14159265 * f32(k) / f32(DISK_STEPS);
+    let beyond = vec2f(p.y, -p.x) * forward;
+    let reach_px = select(right_px, left_px, 2u * k < DISK_STEPS);
+    // Both radii end at the middle step; a half quad's one must not be cut off.
+    let radius_px = select(reach_px, max(left_px, right_px), 2u * k == DISK_STEPS);
+    return (p * cos(angle) + beyond * sin(angle)) * radius_px;
 }

@@ -8,16 +8,20 @@
 //   0 ---------------- 1    s - p
 #import <common/spine.wgsl>
 
-fn stroke_quad(spine: Spine, half_width_px: f32, i: u32) -> vec2f {
-    let s = select(spine.s0, spine.s1, i == 1u || i == 2u);
-    let side = select(-1.0, 1.0, i >= 2u);
-    return s + spine.p * (half_width_px * side);
-}
+// Where a stroke lies on its spine.
+const CENTRED: u32 = 0u;
+const OUTSIDE: u32 = 1u;
+const INSIDE: u32 = 2u;
+// Contours outside, everything else centred.
+const AUTOMATIC: u32 = 3u;
 
-fn half_quad(spine: Spine, width_px: f32, outside: f32, i: u32) -> vec2f {
-    let s = select(spine.s0, spine.s1, i == 1u || i == 2u);
-    let reach = select(0.0, outside * width_px, i >= 2u);
-    return s + spine.p * reach;
+// How far the near side (corners 0 and 1) and the far side (2 and 3) lie from
+// the spine along p, for a stroke of this width.
+fn quad_offsets(placement: u32, outside: f32, width_px: f32) -> vec2f {
+    if placement == CENTRED {
+        return vec2f(-0.5, 0.5) * width_px;
+    }
+    return vec2f(0.0, select(outside, -outside, placement == INSIDE) * width_px);
 }
 
 // The paper's sign: -1 for a negative argument and +1 for any other.

@@ -1,145 +1,149 @@
-// One vertex of a stroke: quad, caps, and where the brush lies on them.
-// Rust twin, with the reasons: crates/edgemesh/src/oracle/stroke_vertex.rs.
-#import <common/feature.wgsl>
-#import <common/stroke_cap.wgsl>
+// One vertex of a stroke: of a thin line, a quad, a cap, a half disk or a fin.
+// Rust twin: crates/edgemesh/src/oracle/stroke_vertex.rs.
+#import <common/stroke_segment.wgsl>
 
 // Behind the near plane, where nothing is seen (section 3.2).
-const BEHIND: vec4f = vec4f(0.0, 0.0, -1.0, 1.0);
+const BEHIND: vec3f = vec3f(0.0, 0.0, -1.0);
 
-const EDGE_ON_FACING: f32 = 0.05;
-const LIFTED_FACING: f32 = 0.2;
-
-struct ClipEdge {
-    c0: vec4f,
-    c1: vec4f,
-    // Third vertices of face A and B; c3 = c0 where there is no B.
-    c2: vec4f,
-    c3: vec4f,
-    // How squarely faces A and B look at the eye, 0 to 1.
-    facing: vec2f,
-    n0: vec4f,
-    n1: vec4f,
-    r: f32,
-}
-
-struct StrokeShape {
-    viewport_px: vec2f,
-    width_px: f32,
-    brush_aspect: f32,
-}
+// Vertices an end of a quad has besides those of the quad.
+const CAP_VERTICES: u32 = 3u;
+const DISK_VERTICES: u32 = DISK_STEPS + 2u;
 
 struct StrokeVertex {
-    position: vec4f,
-    uv: vec2f,
+    // Of the clip volume with w = 1, so that everything is linear on the screen.
+    position: vec3f,
+    u: f32,
+    v: f32,
+    opacity: f32,
 }
 
-fn stroke_vertex(edge: ClipEdge, shape: StrokeShape, bits: u32, index: u32) -> StrokeVertex {
+fn stroke_vertex(edge: ClipEdge, shape: StrokeShape, bits: u32, corner: u32) -> StrokeVertex {
+    if shape.kind == FIN {
+        return fin_vertex(edge, shape, corner);
+    }
+    return segment_vertex(stroke_segment(edge, shape, bits), shape, corner);
+}
+
+fn segment_vertex(segment: Segment, shape: StrokeShape, corner: u32) -> StrokeVertex {
+    let spine = segment.spine;
+    if !segment.is_drawn {
+        return StrokeVertex(BEHIND, 0.0, 0.0, 0.0);
+    }
+    if shape.kind == THIN {
+        let is_end = corner == 1u;
+        return at_end(segment, shape, is_end, vec2f(0.0), 0.0, 0.5);
+    }
+    if corner < 4u {
+        let is_end = corner == 1u || corner == 2u;
+        if corner < 2u {
+            let offset = spine.p * of_end(segment.near_px, is_end);
+            return at_end(segment, shape, is_end, offset, segment.near_rise, segment.v_near);
+        }
+        let offset = spine.p * of_end(segment.far_px, is_end);
+        var vertex = at_end(segment, shape, is_end, offset, segment.far_rise, segment.v_far);
+        vertex.u = of_end(segment.u_far, is_end);
+        return vertex;
+    }
+    let per_end = select(DISK_VERTICES, CAP_VERTICES, shape.kind == QUAD_AND_CAPS);
+    let is_end = corner >= 4u + per_end;
+    // A clipped end is no vertex of the mesh, and nobody meets it there.
+    if select(spine.t0 > 0.0, spine.t1 < 1.0, is_end) {
+        return StrokeVertex(BEHIND, 0.0, 0.0, 0.0);
+    }
+    let i = (corner - 4u) % per_end;
+    if shape.kind == QUAD_AND_CAPS {
+        return cap_vertex(segment, shape, is_end, i);
+    }
+    return disk_vertex(segment, shape, is_end, i);
+}
+
+fn cap_vertex(segment: Segment, shape: StrokeShape, is_end: bool, i: u32) -> StrokeVertex {
+    let side = of_end(segment.cap_side, is_end);
+    let j = cap_corner(side, i);
+    if j == 0u {
+        return at_end(segment, shape, is_end, vec2f(0.0), 0.0, segment.v_spine);
+    }
+    let m = select(segment.m0, segment.m1, is_end);
+    let far_px = of_end(segment.far_px, is_end);
+    let offset = stroke_cap(vec2f(0.0), segment.spine.p, m, side, abs(far_px), j);
+    let is_far = stroke_sign(far_px) == side;
+    let rise = select(segment.near_rise, segment.far_rise, is_far);
+    let v = select(segment.v_near, segment.v_far, is_far);
+    var vertex = at_end(segment, shape, is_end, offset, rise, v);
+    if j == 1u {
+        vertex.u = of_end(select(segment.u, segment.u_far, is_far), is_end);
+    }
+    return vertex;
+}
+
+fn disk_vertex(segment: Segment, shape: StrokeShape, is_end: bool, i: u32) -> StrokeVertex {
+    if i == 0u {
+        return at_end(segment, shape, is_end, vec2f(0.0), 0.0, segment.v_spine);
+    }
+    let near_px = of_end(segment.near_px, is_end);
+    let far_px = of_end(segment.far_px, is_end);
+    let left_px = max(max(near_px, far_px), 0.0);
+    let right_px = max(-min(near_px, far_px), 0.0);
+    let forward = select(-1.0, 1.0, is_end);
+    let offset = half_disk(segment.spine.p, forward, left_px, right_px, i - 1u);
+    let is_left = 2u * (i - 1u) < DISK_STEPS;
+    let is_far = (far_px > 0.0) == is_left;
+    let rise = select(segment.near_rise, segment.far_rise, is_far);
+    let v = select(segment.v_near, segment.v_far, is_far);
+    return at_end(segment, shape, is_end, offset, rise, v);
+}
+
+// A vertex this far from one end of the spine.
+fn at_end(
+    segment: Segment,
+    shape: StrokeShape,
+    is_end: bool,
+    offset_px: vec2f,
+    rise: f32,
+    v: f32,
+) -> StrokeVertex {
+    let s = select(segment.spine.s0, segment.spine.s1, is_end) + offset_px;
+    let z = select(segment.spine.z0, segment.spine.z1, is_end) + rise;
+    let u = of_end(segment.u, is_end);
+    let opacity = of_end(segment.opacity, is_end);
+    return StrokeVertex(vec3f(s / (shape.viewport_px * 0.5), z), u, v, opacity);
+}
+
+fn of_end(values: vec2f, is_end: bool) -> f32 {
+    return select(values.x, values.y, is_end);
+}
+
+// A fin (Card and Mitchell, Listing 1): a quad that stands on the edge along the
+// vertex normals. Corners as those of the quad, 2 and 3 pushed out.
+fn fin_vertex(edge: ClipEdge, shape: StrokeShape, corner: u32) -> StrokeVertex {
+    let hidden = StrokeVertex(BEHIND, 0.0, 0.0, 0.0);
     let spine = project_spine(edge.c0, edge.c1, shape.viewport_px);
-    let hidden = StrokeVertex(BEHIND, vec2f(0.0));
     if all(spine.p == vec2f(0.0)) {
         return hidden;
     }
-    let m0 = screen_normal(lerp(edge.c0, edge.c1, spine.t0), edge.n0, shape.viewport_px);
-    let m1 = screen_normal(lerp(edge.c0, edge.c1, spine.t1), edge.n1, shape.viewport_px);
-    let is_half = (bits & CONTOUR) != 0u;
-    // p lies left of the edge, and so does face A where it looks at the eye.
-    let contour_side = select(1.0, -1.0, (bits & A_FACES) != 0u);
-    let side0 = select(stroke_sign(dot(m0, spine.p)), contour_side, is_half);
-    let side1 = select(stroke_sign(dot(m1, spine.p)), contour_side, is_half);
-    let length_px = length(spine.s1 - spine.s0);
-    let u0 = edge.r;
-    let u1 = edge.r + side0 * length_px / (shape.width_px * shape.brush_aspect);
-
-    let reach_px = select(shape.width_px * 0.5, shape.width_px, is_half);
-
-    if index < 6u {
-        // Corners 0, 1, 2 and 0, 2, 3.
-        let i = select(index, index - 3u + u32(index > 3u), index >= 3u);
-        let s = select(
-            stroke_quad(spine, reach_px, i),
-            half_quad(spine, reach_px, side0, i),
-            is_half,
-        );
-        let is_end = i == 1u || i == 2u;
-        let rim = select(side0 * 0.5 + 0.5, 1.0, is_half);
-        let uv = vec2f(select(u0, u1, is_end), select(rim, 1.0 - rim, i >= 2u));
-        var z = select(spine.z0, spine.z1, is_end);
-        if !is_half {
-            z += quad_rise(edge, spine, shape.viewport_px, select(-1.0, 1.0, i >= 2u), reach_px);
-        }
-        return on_screen(s, z, uv, shape);
-    }
-    let is_start = index < 9u;
-    // A clipped end is no vertex of the mesh, and nobody meets it there.
-    if (is_start && spine.t0 > 0.0) || (!is_start && spine.t1 < 1.0) {
+    let start = lerp(edge.c0, edge.c1, spine.t0);
+    let end = lerp(edge.c0, edge.c1, spine.t1);
+    let start_tip = start + lerp(edge.n0, edge.n1, spine.t0) * fin_height(start, shape);
+    let end_tip = end + lerp(edge.n0, edge.n1, spine.t1) * fin_height(end, shape);
+    if start_tip.w - start_tip.z <= 0.0 || end_tip.w - end_tip.z <= 0.0 {
         return hidden;
     }
-    let m = select(m1, m0, is_start);
-    let side = select(side1, side0, is_start);
-    let j = cap_corner(side, index % 3u);
-    let s = select(spine.s1, spine.s0, is_start);
-    var z = select(spine.z1, spine.z0, is_start);
-    if j != 0u && !is_half {
-        z += quad_rise(edge, spine, shape.viewport_px, side, reach_px);
+    let is_end = corner == 1u || corner == 2u;
+    let is_tip = corner >= 2u;
+    let clip = select(select(start, end, is_end), select(start_tip, end_tip, is_end), is_tip);
+    let m0 = screen_normal(start, edge.n0, shape.viewport_px);
+    let side = stroke_sign(dot(m0, spine.p));
+    let width_px = max(width_at(start, shape), MIN_LENGTH_PX);
+    let u = of_end(stroke_u(spine, shape, side, width_px, edge.r), is_end);
+    let t = select(spine.t0, spine.t1, is_end);
+    let opacity = opacity_at(edge.distance.x * (1.0 - t) + edge.distance.y * t, shape);
+    return StrokeVertex(clip.xyz / clip.w, u, select(1.0, 0.0, is_tip), opacity);
+}
+
+// In units of the world; scaled by the distance, a width in pixels stays one.
+fn fin_height(clip: vec4f, shape: StrokeShape) -> f32 {
+    if shape.is_world_width {
+        return shape.width;
     }
-    let uv = vec2f(select(u1, u0, is_start), select(0.0, select(0.5, 1.0, is_half), j == 0u));
-    return on_screen(stroke_cap(s, spine.p, m, side, reach_px, j), z, uv, shape);
-}
-
-// How much nearer than the edge the rim of a full quad must lie on one side.
-fn quad_rise(edge: ClipEdge, spine: Spine, viewport_px: vec2f, side: f32, reach_px: f32) -> f32 {
-    let middle = lerp(edge.c0, edge.c1, (spine.t0 + spine.t1) * 0.5);
-    let a = in_front(middle, edge.c2);
-    let b = in_front(middle, edge.c3);
-    return max(
-        rise_toward_eye(spine, a, edge.facing.x, viewport_px, side, reach_px),
-        rise_toward_eye(spine, b, edge.facing.y, viewport_px, side, reach_px),
-    );
-}
-
-// A point of the face for its third vertex, in front of the near plane.
-fn in_front(middle: vec4f, apex: vec4f) -> vec4f {
-    let middle_distance = middle.w - middle.z;
-    let apex_distance = apex.w - apex.z;
-    if apex_distance > 0.0 {
-        return apex;
-    }
-    return lerp(middle, apex, 0.5 * middle_distance / (middle_distance - apex_distance));
-}
-
-// How much nearer the face with the point `apex` lies, reach_px away.
-fn rise_toward_eye(
-    spine: Spine,
-    apex: vec4f,
-    facing: f32,
-    viewport_px: vec2f,
-    side: f32,
-    reach_px: f32,
-) -> f32 {
-    if apex.w <= 0.0 {
-        return 0.0;
-    }
-    let along = spine.s1 - spine.s0;
-    let to_apex = to_pixels(apex, viewport_px) - spine.s0;
-    let distance_px = dot(to_apex, spine.p) * side;
-    if distance_px < MIN_LENGTH_PX {
-        return 0.0;
-    }
-    let t = dot(to_apex, along) / dot(along, along);
-    let edge_depth = spine.z0 + (spine.z1 - spine.z0) * t;
-    let rise = apex.z / apex.w - edge_depth;
-    let share = lift_share(facing, distance_px / reach_px);
-    return max(rise * min(reach_px / distance_px, 1.0) * share, 0.0);
-}
-
-// How much of a face's rise counts: nothing of a narrow wall seen edge on.
-fn lift_share(facing: f32, reaches_wide: f32) -> f32 {
-    let seen = (facing - EDGE_ON_FACING) / (LIFTED_FACING - EDGE_ON_FACING);
-    let wide = 0.5 * reaches_wide - 1.0;
-    return clamp(max(seen, wide), 0.0, 1.0);
-}
-
-fn on_screen(position_px: vec2f, depth: f32, uv: vec2f, shape: StrokeShape) -> StrokeVertex {
-    // w = 1 after our own divide: every varying is linear on the screen.
-    return StrokeVertex(vec4f(position_px / (shape.viewport_px * 0.5), depth, 1.0), uv);
+    return shape.width * clip.w / shape.px_per_unit;
 }

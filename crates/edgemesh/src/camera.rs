@@ -47,6 +47,9 @@ pub struct View {
     pub clip_from_world: Mat4,
     /// The eye with w = 1, or the direction to the viewer with w = 0.
     pub eye: Vec4,
+    /// The distance of a point (with w = 1) from the eye along the direction of
+    /// sight is its product with this.
+    pub distance: Vec4,
 }
 
 impl Camera {
@@ -92,6 +95,7 @@ impl Camera {
         View {
             clip_from_world: (clip_from_view * view_from_world).as_mat4(),
             eye: self.eye_for_facing(forward),
+            distance: forward.extend(-forward.dot(self.eye)).as_vec4(),
         }
     }
 

@@ -1,7 +1,7 @@
 //! The edge mesh: what the preprocessor makes and the GPU draws.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{DVec3, Vec3};
+use glam::{DMat4, DVec3, Vec3};
 
 use crate::build::Frame;
 use crate::index::NONE;
@@ -155,6 +155,24 @@ impl Bounds {
             min: Vec3::from(self.min).min(other.min.into()).into(),
             max: Vec3::from(self.max).max(other.max.into()).into(),
         }
+    }
+
+    /// The box around this one's corners, moved by `transform`.
+    #[must_use]
+    pub fn transformed(&self, transform: &DMat4) -> Self {
+        if *transform == DMat4::IDENTITY {
+            return *self;
+        }
+        let [low, high] = [self.min, self.max].map(|corner| Vec3::from(corner).as_dvec3());
+        let corners: Vec<[f32; 3]> = (0..8)
+            .map(|corner| {
+                let pick =
+                    |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
+                let corner = DVec3::new(pick(0), pick(1), pick(2));
+                transform.transform_point3(corner).as_vec3().to_array()
+            })
+            .collect();
+        Self::of(&corners)
     }
 
     /// The middle of the box.

@@ -37,6 +37,7 @@ pub mod camera;
 #[cfg(feature = "command")]
 pub mod command;
 pub mod edge_mesh;
+pub mod edge_word;
 pub mod export;
 pub mod file;
 pub mod index;

@@ -12,7 +12,7 @@
 //!            v1              face A = <v0, v1, v2>, left of v0 -> v1
 //!           /|\              face B = <v3, v1, v0>, right of it
 //!         /  |  \
-//!      v2  A | B  v3         boundary and marked edges: v3 = v0
+//!      v2  A | B  v3         boundary edges: v3 = v0
 //!         \  |  /
 //!           \|/
 //!            v0
@@ -20,6 +20,8 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
+
+use crate::edge_word::EdgeWord;
 
 bitflags::bitflags! {
     /// What is known of an edge before there is a view.
@@ -120,7 +122,7 @@ pub struct EdgeVertex16 {
     pub v1: [i16; 3],
     /// Third vertex of face A.
     pub v2: [i16; 3],
-    /// Third vertex of face B; equal to `v0` for boundary and marked edges.
+    /// Third vertex of face B; equal to `v0` for boundary edges.
     pub v3: [i16; 3],
     /// Welded vertex normal at `v0`.
     pub n0: [i16; 3],
@@ -129,7 +131,7 @@ pub struct EdgeVertex16 {
     /// The corner index i, 0 to 3, in the low two bits; the edge's random
     /// scalar in the six above, in steps of 1 / 64.
     pub corner_and_random: u8,
-    /// [`EdgeFlags`], the lowest byte first.
+    /// The edge's [`EdgeWord`], the lowest byte first.
     pub flags: [u8; 3],
 }
 
@@ -146,11 +148,17 @@ impl EdgeVertex16 {
         f32::from(self.corner_and_random >> 2) / 64.0
     }
 
+    /// The classes and the angle of the crease.
+    #[must_use]
+    pub const fn word(&self) -> EdgeWord {
+        let [low, middle, high] = self.flags;
+        EdgeWord(u32::from_le_bytes([low, middle, high, 0]))
+    }
+
     /// The class bits.
     #[must_use]
     pub const fn flags(&self) -> EdgeFlags {
-        let [low, middle, high] = self.flags;
-        EdgeFlags::from_bits_truncate(u32::from_le_bytes([low, middle, high, 0]))
+        self.word().flags()
     }
 }
 
@@ -164,7 +172,7 @@ pub struct EdgeVertex {
     pub v1: [f32; 3],
     /// Third vertex of face A.
     pub v2: [f32; 3],
-    /// Third vertex of face B; equal to `v0` for boundary and marked edges.
+    /// Third vertex of face B; equal to `v0` for boundary edges.
     pub v3: [f32; 3],
     /// Welded vertex normal at `v0`.
     pub n0: [f32; 3],
@@ -172,7 +180,7 @@ pub struct EdgeVertex {
     pub n1: [f32; 3],
     /// The edge's random scalar, 0 to 1.
     pub r: f32,
-    /// The corner index i, 0 to 3, in the low two bits; [`EdgeFlags`] from bit
+    /// The corner index i, 0 to 3, in the low two bits; the edge's [`EdgeWord`] from bit
     /// [`Self::FLAGS_SHIFT`] on.
     pub corner_and_flags: u32,
 }
@@ -187,10 +195,16 @@ impl EdgeVertex {
         self.corner_and_flags & 3
     }
 
+    /// The classes and the angle of the crease.
+    #[must_use]
+    pub const fn word(&self) -> EdgeWord {
+        EdgeWord(self.corner_and_flags >> Self::FLAGS_SHIFT)
+    }
+
     /// The class bits.
     #[must_use]
     pub const fn flags(&self) -> EdgeFlags {
-        EdgeFlags::from_bits_truncate(self.corner_and_flags >> Self::FLAGS_SHIFT)
+        self.word().flags()
     }
 }
 

@@ -6,48 +6,86 @@
 //! moves by more than half a step along an axis, plus its rounding; normals err
 //! by half of 1 / 32767 a component.
 //!
+//! A face without area faces the eye as its neighbour does. The edge vertex has
+//! no room to say so, so the third vertex of such a face is set off the edge, in
+//! its neighbour's plane.
+//!
+//! The paper sets `v3 = v0` for marked edges too. A marked edge would lose its
+//! second face by that, and with it its contour and what hides it; the class
+//! bits say that it is marked, and it keeps its vertex.
+//!
 //! Rejected: steps of their own along each axis. A flat mesh would gain digits
 //! across it, and every normal would have to be bent.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
+use crate::build::planes::{corners_of, face_normal};
 use crate::edge_mesh::{Bounds, EdgeMesh};
+use crate::edge_word::{EdgeWord, edge_words};
 use crate::index::NONE;
-use crate::record::{EdgeFlags, EdgeRecord, EdgeVertex, EdgeVertex16, edge_random};
+use crate::record::{EdgeRecord, EdgeVertex, EdgeVertex16, edge_random};
 
 /// The largest 16-bit step from the middle.
 const LARGEST_STEP: f64 = 32767.0;
 
-/// Four edge vertices a record, in order, made of the record and the vertices
-/// that stand for the paper's v0 to v3.
-fn replicate_with<T: Send, F: FnMut(u8) -> T>(
+/// What the edge vertices of one record have in common.
+struct EdgeCorners {
+    /// The paper's v0 to v3.
+    positions: [[f32; 3]; 4],
+    /// The vertex normals at v0 and v1.
+    normals: [[f32; 3]; 2],
+    word: EdgeWord,
+}
+
+impl EdgeCorners {
+    fn of(mesh: &EdgeMesh, record: &EdgeRecord, word: EdgeWord) -> Self {
+        let ends = [record.v0, record.v1].map(|vertex| mesh.positions[vertex as usize]);
+        let normals = [record.v0, record.v1].map(|vertex| mesh.vertex_normals[vertex as usize]);
+        let third = |face: u32, side: f32| {
+            let vertex = mesh.apex(face, record);
+            if face == NONE {
+                return ends[0];
+            }
+            let plane = Vec3::from_slice(&mesh.face_planes[face as usize].normal);
+            let corners = corners_of(&mesh.positions, mesh.triangles[face as usize]);
+            if face_normal(corners) != DVec3::ZERO || plane == Vec3::ZERO {
+                return mesh.positions[vertex as usize];
+            }
+            let [v0, v1] = ends.map(Vec3::from);
+            // A quarter of the edge's length off its middle, left of it for face A.
+            (v0.midpoint(v1) + plane.cross(v1 - v0) * (0.25 * side)).to_array()
+        };
+        let positions = [ends[0], ends[1], third(record.face_a, 1.0), third(record.face_b, -1.0)];
+        Self { positions, normals, word }
+    }
+
+    fn random(&self) -> f32 {
+        edge_random(self.positions[0].into(), self.positions[1].into())
+    }
+}
+
+/// Four edge vertices a record, in order.
+fn replicate_with<T: Send>(
     mesh: &EdgeMesh,
-    corners_of: impl Fn(&EdgeRecord, [u32; 4]) -> F + Sync,
+    vertex: impl Fn(&EdgeCorners, u8) -> T + Sync,
 ) -> Vec<T> {
-    let of_record = |record: &EdgeRecord| {
-        let hides_b = record.flags.intersects(EdgeFlags::BOUNDARY | EdgeFlags::MARKED)
-            || record.face_b == NONE;
-        let v3 = if hides_b { record.v0 } else { mesh.apex(record.face_b, record) };
-        let vertices = [record.v0, record.v1, mesh.apex(record.face_a, record), v3];
-        [0, 1, 2, 3].map(corners_of(record, vertices))
+    let words = edge_words(mesh);
+    let of_record = |(record, &word): (&EdgeRecord, &EdgeWord)| {
+        let corners = EdgeCorners::of(mesh, record, word);
+        [0, 1, 2, 3].map(|corner| vertex(&corners, corner))
     };
-    mesh.records.par_iter().flat_map_iter(of_record).collect()
+    mesh.records.par_iter().zip(&words).flat_map_iter(of_record).collect()
 }
 
 /// Writes out the paper's edge mesh in 32-bit floats: four edge vertices a
 /// record, in order.
 #[must_use]
 pub fn replicate(mesh: &EdgeMesh) -> Vec<EdgeVertex> {
-    replicate_with(mesh, |record, vertices| {
-        let [v0, v1, v2, v3] = vertices.map(|vertex| mesh.positions[vertex as usize]);
-        let [n0, n1, ..] = vertices.map(|vertex| mesh.vertex_normals[vertex as usize]);
-        let r = edge_random(v0.into(), v1.into());
-        let flags = record.flags.bits() << EdgeVertex::FLAGS_SHIFT;
-        move |corner| {
-            let corner_and_flags = u32::from(corner) | flags;
-            EdgeVertex { v0, v1, v2, v3, n0, n1, r, corner_and_flags }
-        }
+    replicate_with(mesh, |edge, corner| {
+        let ([v0, v1, v2, v3], [n0, n1]) = (edge.positions, edge.normals);
+        let corner_and_flags = u32::from(corner) | edge.word.0 << EdgeVertex::FLAGS_SHIFT;
+        EdgeVertex { v0, v1, v2, v3, n0, n1, r: edge.random(), corner_and_flags }
     })
 }
 
@@ -56,18 +94,12 @@ pub fn replicate(mesh: &EdgeMesh) -> Vec<EdgeVertex> {
 #[must_use]
 pub fn replicate_16(mesh: &EdgeMesh) -> Vec<EdgeVertex16> {
     let quantization = Quantization::of(&mesh.bounds);
-    replicate_with(mesh, |record, vertices| {
-        let positions = vertices.map(|vertex| mesh.positions[vertex as usize]);
-        let [v0, v1, v2, v3] = positions.map(|position| quantization.quantize(position));
-        let [n0, n1, ..] =
-            vertices.map(|vertex| mesh.vertex_normals[vertex as usize].map(quantize_normal));
-        let random = quantize_random(edge_random(positions[0].into(), positions[1].into()));
-        let [low, middle, high, _] = record.flags.bits().to_le_bytes();
-        move |corner| {
-            let corner_and_random = corner | random << 2;
-            let flags = [low, middle, high];
-            EdgeVertex16 { v0, v1, v2, v3, n0, n1, corner_and_random, flags }
-        }
+    replicate_with(mesh, |edge, corner| {
+        let [v0, v1, v2, v3] = edge.positions.map(|position| quantization.quantize(position));
+        let [n0, n1] = edge.normals.map(|normal| normal.map(quantize_normal));
+        let corner_and_random = corner | quantize_random(edge.random()) << 2;
+        let [low, middle, high, _] = edge.word.0.to_le_bytes();
+        EdgeVertex16 { v0, v1, v2, v3, n0, n1, corner_and_random, flags: [low, middle, high] }
     })
 }
 
@@ -129,6 +161,7 @@ mod tests {
     use super::*;
     use crate::build::{BuildOptions, build_edge_mesh};
     use crate::model::Model;
+    use crate::record::EdgeFlags;
     use crate::report::Report;
 
     #[test]
@@ -149,14 +182,33 @@ mod tests {
     }
 
     #[test]
-    fn a_marked_edge_hides_its_second_face() {
+    fn a_marked_edge_keeps_its_second_face() {
         let positions = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [1., 1., 1.]];
         let model = Model::from_polygons(&positions, &[&[0, 1, 2], &[1, 3, 2]]);
         let mut mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
-        for record in &mut mesh.records {
-            record.flags |= EdgeFlags::MARKED;
+        let inner = mesh.records.iter().position(|record| record.face_b != NONE).unwrap();
+        mesh.records[inner].flags |= EdgeFlags::MARKED;
+        let vertex = &replicate(&mesh)[4 * inner];
+        assert!(vertex.v3 != vertex.v0 && vertex.flags().contains(EdgeFlags::MARKED));
+    }
+
+    /// A face of three points on a line faces the eye as its neighbour does.
+    #[test]
+    fn a_face_without_area_stands_in_its_neighbours_plane() {
+        let positions = [[0., 0., 0.], [1., 0., 0.], [2., 0., 0.], [1., 1., 0.]];
+        let model = Model::from_polygons(&positions, &[&[0, 2, 3], &[0, 1, 2]]);
+        let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
+        assert_eq!(mesh.triangles.len(), 2, "the face stays");
+        for (record, vertex) in mesh.records.iter().zip(replicate(&mesh).iter().step_by(4)) {
+            let [v0, v1, v2, v3] = [vertex.v0, vertex.v1, vertex.v2, vertex.v3].map(Vec3::from);
+            let normal_a = (v1 - v0).cross(v2 - v0).normalize_or_zero();
+            let plane = |face: u32| Vec3::from_slice(&mesh.face_planes[face as usize].normal);
+            assert!(normal_a.dot(plane(record.face_a)) > 0.99, "{record:?} {vertex:?}");
+            if record.face_b != NONE {
+                let normal_b = (v3 - v0).cross(v1 - v0).normalize_or_zero();
+                assert!(normal_b.dot(plane(record.face_b)) > 0.99, "{record:?} {vertex:?}");
+            }
         }
-        assert!(replicate(&mesh).iter().all(|vertex| vertex.v3 == vertex.v0));
     }
 
     #[test]

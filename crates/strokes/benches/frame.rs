@@ -1,112 +1,252 @@
-//! What a frame costs on the GPU: `cargo bench -p strokes`.
+//! What frames cost on the GPU: `cargo bench -p strokes`.
 //!
-//! Passes are measured by timestamp queries; the fill alone is the yardstick.
-//! `EDGEMESH_BENCH_MODEL=FILE.obj` measures a model of your own, else the
-//! project's torus knot. `WGPU_BACKEND` chooses the backend.
+//! Frames are timed by timestamp queries from the start of the first pass to the
+//! end of the last, so that detection counts with the strokes. The fill alone,
+//! into the same targets, is the yardstick: each line of the tables is a look, its
+//! median frame, and how many times the fill's median that is. The frames of all
+//! looks of a table take turns, so that a slow moment slows all of them.
+//!
+//! `cargo bench -p strokes -- bunny` runs the tables whose title contains the
+//! word. `EDGEMESH_BENCH_MODELS=A.obj:B.ply` measures models of your own beside the
+//! project's; `WGPU_BACKEND` chooses the backend.
 
 #![expect(clippy::unwrap_used, reason = "a bench fails by panicking")]
-#![expect(clippy::print_stderr, reason = "the adapter and the medians of the passes")]
+#![expect(clippy::print_stdout, reason = "the tables are its result")]
 
-use std::path::PathBuf;
+use std::path::Path;
+use std::sync::Arc;
 
-use criterion::{Criterion, criterion_group, criterion_main};
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::camera::Camera;
+use edgemesh::camera::{Camera, View};
 use edgemesh::edge_mesh::EdgeMesh;
+use edgemesh::model::Model;
+use edgemesh::oracle::feature::EdgeClass;
+use edgemesh::oracle::stroke_segment::LineKind;
 use edgemesh::read::read_model;
-use glam::Vec2;
+use edgemesh::report::Report;
 use strokes::brush::Brush;
-use strokes::frame::FrameUniform;
 use strokes::gpu::{self, Gpu};
-use strokes::gpu_time::GpuTimer;
-use strokes::mesh_buffers::MeshBuffers;
-use strokes::renderer::{Look, MeshDraw, PASS_NAMES, Renderer};
-use strokes::stroke::StrokeStyle;
-use strokes::targets::Targets;
+use strokes::gpu_time::{GpuTimer, GpuTimes};
+use strokes::look::{Layer, Look, StrokeStyle, Width};
+use strokes::mesh_buffers::{Layout, MeshBuffers};
+use strokes::object::Object;
+use strokes::renderer::{DetectionPath, PASS_NAMES, Renderer, RendererOptions};
+use strokes::targets::{TargetFormats, Targets};
 
 const SIZE_PX: u32 = 1024;
 
-/// Frames whose passes are measured; the median is printed.
-const MEASURED_FRAMES: usize = 20;
+/// Frames of each look; the median counts.
+const FRAMES: usize = 21;
+
+/// A look with its name.
+struct Contender {
+    name: String,
+    look: Look,
+    layout: Layout,
+    path: DetectionPath,
+}
+
+/// A look on the GPU.
+struct Runner {
+    name: String,
+    renderer: Renderer,
+    objects: Vec<Object>,
+    timer: GpuTimer,
+    times: Vec<GpuTimes>,
+    byte_count: u64,
+}
+
+fn look(classes: &[EdgeClass], style: StrokeStyle) -> Look {
+    let layer = Layer { classes: classes.to_vec(), visible: Some(style), hidden: None };
+    Look { fill_color: Some([1.0; 4]), layers: vec![layer], ..Look::default() }
+}
+
+fn fill_alone() -> Look {
+    Look { fill_color: Some([1.0; 4]), ..Look::default() }
+}
+
+fn style(kind: LineKind, is_textured: bool) -> StrokeStyle {
+    let brush = is_textured.then(|| Brush::named("pen").unwrap().unwrap());
+    StrokeStyle { kind, brush, width: Width::Pixels(2.0), ..StrokeStyle::default() }
+}
+
+impl Contender {
+    fn new(name: &str, look: Look) -> Self {
+        let (layout, path) = (Layout::Indexed, DetectionPath::Compute);
+        Self { name: name.into(), look, layout, path }
+    }
+}
+
+impl Runner {
+    fn new(gpu: &Gpu, mesh: &EdgeMesh, formats: TargetFormats, contender: &Contender) -> Self {
+        let Contender { layout, path, .. } = *contender;
+        let mut renderer = Renderer::new(gpu, RendererOptions { layout, path, formats }).unwrap();
+        let look = renderer.prepare(gpu, &contender.look).unwrap();
+        let buffers = Arc::new(MeshBuffers::new(&gpu.device, mesh, layout).unwrap());
+        let byte_count = buffers.byte_count();
+        let objects = vec![renderer.object(gpu, &buffers, &look)];
+        let passes = u32::try_from(PASS_NAMES.len()).unwrap();
+        let timer = GpuTimer::new(gpu, passes).expect("an adapter with timestamps");
+        let name = contender.name.clone();
+        Self { name, renderer, objects, timer, times: Vec::new(), byte_count }
+    }
+
+    fn frame(&mut self, gpu: &Gpu, targets: &Targets, view: &View) {
+        let timer = Some(&self.timer);
+        self.renderer.render(gpu, targets, view, [1.0; 4], &mut self.objects, timer);
+        gpu.device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
+        self.times.push(self.timer.read(gpu).unwrap());
+    }
+
+    fn median(&self, value: impl Fn(&GpuTimes) -> f64) -> f64 {
+        let mut values: Vec<f64> = self.times.iter().map(value).collect();
+        values.sort_by(f64::total_cmp);
+        values[values.len() / 2]
+    }
+}
 
 struct Bench {
     gpu: Gpu,
-    mesh: EdgeMesh,
-    view: FrameUniform,
+    /// Of tables to run; empty for all.
+    wanted: String,
 }
 
 impl Bench {
-    fn new() -> Self {
-        let model = std::env::var_os("EDGEMESH_BENCH_MODEL").map_or_else(
-            || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../models/torus_knot.obj")),
-            PathBuf::from,
-        );
-        let (source, mut report) = read_model(&model).unwrap();
-        let mesh = build_edge_mesh(&source, &BuildOptions::default(), &mut report);
+    /// Measures the contenders in turns, the fill first, and prints the table.
+    fn table(&self, title: &str, mesh: &EdgeMesh, samples: u32, contenders: &[Contender]) {
+        if !title.contains(&self.wanted) {
+            return;
+        }
+        let formats = TargetFormats::new(samples);
+        let targets = Targets::new(&self.gpu.device, [SIZE_PX; 2], formats);
         let view = Camera::default_view(&mesh.bounds).view(&mesh.bounds, 1.0);
-        let gpu = pollster::block_on(gpu::open(None)).unwrap();
-        eprintln!(
-            "{}: {} triangles, {} edges, on {}",
-            model.display(),
-            mesh.triangles.len(),
-            mesh.records.len(),
-            gpu.info.name
-        );
-        Self { gpu, mesh, view: FrameUniform::new(&view, Vec2::splat(1024.0)) }
-    }
-
-    /// Measures frames of one look, and prints the median of each pass.
-    fn measure(
-        &self,
-        criterion: &mut Criterion,
-        name: &str,
-        samples: u32,
-        strokes: Option<StrokeStyle>,
-    ) {
-        let look = Look { background: [1.0; 4], fill_color: [1.0; 4], strokes };
-        let device = &self.gpu.device;
-        let renderer = Renderer::new(&self.gpu, &look, samples).unwrap();
-        let buffers = MeshBuffers::new(device, &self.mesh).unwrap();
-        let meshes: [MeshDraw; 1] = [renderer.mesh_draw(device, buffers)];
-        let targets = Targets::new(device, [SIZE_PX; 2], samples);
-        let timer = GpuTimer::new(&self.gpu, 3);
-        let frame = || {
-            renderer.render(&self.gpu, &targets, &self.view, &meshes, timer.as_ref());
-            device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
-        };
-        let mut group = criterion.benchmark_group("frame");
-        group.sample_size(20).bench_function(name, |bencher| bencher.iter(frame));
-        group.finish();
-        let Some(timer) = &timer else { return };
-        let mut passes = vec![Vec::new(); PASS_NAMES.len()];
-        for _ in 0..MEASURED_FRAMES {
-            frame();
-            for (times, ms) in passes.iter_mut().zip(timer.read_ms(&self.gpu).unwrap()) {
-                times.push(ms);
+        let fill = Contender::new("fill alone", fill_alone());
+        let mut runners: Vec<Runner> = std::iter::once(&fill)
+            .chain(contenders)
+            .map(|contender| Runner::new(&self.gpu, mesh, formats, contender))
+            .collect();
+        for frame in 0..=FRAMES {
+            for runner in &mut runners {
+                runner.frame(&self.gpu, &targets, &view);
+                if frame == 0 {
+                    // Pipelines settle, and what no view changes is worked out.
+                    runner.times.clear();
+                }
             }
         }
-        for (pass, times) in PASS_NAMES.iter().zip(&mut passes) {
-            times.sort_by(f64::total_cmp);
-            eprintln!("    {pass:<8} {:8.2} ms on the GPU", times[times.len() / 2]);
+        let (triangles, edges) = (mesh.triangles.len(), mesh.records.len());
+        println!("\n{title}: {triangles} triangles, {edges} edges, {samples} samples");
+        print!("{:<44}{:>9}{:>8}", "", "ms", "ratio");
+        for pass in PASS_NAMES {
+            print!("{pass:>9}");
+        }
+        println!("{:>11}{:>10}", "strokes", "MB");
+        let yardstick = runners[0].median(|times| times.frame_ms);
+        for runner in &runners {
+            let frame = runner.median(|times| times.frame_ms);
+            print!("{:<44}{frame:>9.2}{:>8.2}", runner.name, frame / yardstick);
+            for pass in 0..PASS_NAMES.len() {
+                print!("{:>9.2}", runner.median(|times| times.passes_ms[pass]));
+            }
+            let tally = runner.objects[0].read_tally(&self.gpu).unwrap();
+            #[expect(clippy::cast_precision_loss, reason = "megabytes")]
+            let megabytes = runner.byte_count as f64 / 1e6;
+            println!("{:>11}{megabytes:>10.1}", tally.stroke_count);
         }
     }
-}
 
-fn frames(criterion: &mut Criterion) {
-    let bench = Bench::new();
-    let style = |brush| StrokeStyle { color: [0.0, 0.0, 0.0, 1.0], width_px: 2.0, brush };
-    for samples in [1, 4] {
-        let name = |what: &str| format!("{what}, {samples} samples");
-        bench.measure(criterion, &name("fill alone"), samples, None);
-        bench.measure(criterion, &name("fill and ink"), samples, Some(style(None)));
-        bench.measure(
-            criterion,
-            &name("fill and pen"),
-            samples,
-            Some(style(Some(Brush::pen().unwrap()))),
-        );
+    fn kinds(&self, name: &str, mesh: &EdgeMesh, samples: u32) {
+        let all = EdgeClass::ALL;
+        let contenders = [
+            ("thin lines", look(&all, style(LineKind::Thin, false))),
+            ("quads", look(&all, style(LineKind::Quad, false))),
+            ("quads with caps", look(&all, style(LineKind::QuadAndCaps, false))),
+            ("quads with caps, textured", look(&all, style(LineKind::QuadAndCaps, true))),
+            ("quads with half disks", look(&all, style(LineKind::QuadAndDisks, false))),
+            ("fins", look(&all, style(LineKind::Fin, false))),
+            (
+                "quads with caps, contours only",
+                look(&[EdgeClass::Contour], style(LineKind::QuadAndCaps, false)),
+            ),
+        ]
+        .map(|(name, look)| Contender::new(name, look));
+        self.table(&format!("{name}, kinds of lines"), mesh, samples, &contenders);
+    }
+
+    fn layouts(&self, name: &str, mesh: &EdgeMesh, samples: u32) {
+        let mut contenders = Vec::new();
+        for (layout_name, layout) in [
+            ("indexed", Layout::Indexed),
+            ("replicated f32", Layout::Replicated),
+            ("replicated 16-bit", Layout::Replicated16),
+        ] {
+            for (path_name, path) in
+                [("compute", DetectionPath::Compute), ("vertex shader", DetectionPath::Vertex)]
+            {
+                let name = format!("{layout_name}, detected in {path_name}");
+                let look = look(&EdgeClass::ALL, style(LineKind::QuadAndCaps, true));
+                contenders.push(Contender { name, look, layout, path });
+            }
+        }
+        self.table(&format!("{name}, layouts and paths"), mesh, samples, &contenders);
     }
 }
 
-criterion_group!(benches, frames);
-criterion_main!(benches);
+/// A ball with waves on it, of about `triangles` triangles.
+fn ball(triangles: u32) -> EdgeMesh {
+    let rings = (f64::from(triangles) / 4.0).sqrt();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
+    let rings = rings as u32;
+    let around = 2 * rings;
+    let mut positions = Vec::new();
+    for ring in 0..=rings {
+        for step in 0..around {
+            let theta = std::f64::consts::PI * f64::from(ring) / f64::from(rings);
+            let phi = std::f64::consts::TAU * f64::from(step) / f64::from(around);
+            let radius = 1.0 + 0.15 * (5.0 * phi).sin() * (4.0 * theta).sin() * theta.sin();
+            let flat = theta.sin() * radius;
+            let point = [flat * phi.cos(), theta.cos() * radius, flat * phi.sin()];
+            #[expect(clippy::cast_possible_truncation, reason = "meshes are in 32 bits")]
+            positions.push(point.map(|coordinate| coordinate as f32));
+        }
+    }
+    let corner = |ring: u32, step: u32| ring * around + step % around;
+    let polygons: Vec<[u32; 3]> = (0..rings)
+        .flat_map(|ring| (0..around).map(move |step| (ring, step)))
+        .flat_map(|(ring, step)| {
+            let [a, b] = [corner(ring, step), corner(ring, step + 1)];
+            let [c, d] = [corner(ring + 1, step), corner(ring + 1, step + 1)];
+            [[a, b, d], [a, d, c]]
+        })
+        .collect();
+    let polygons: Vec<&[u32]> = polygons.iter().map(|polygon| &polygon[..]).collect();
+    let model = Model::from_polygons(&positions, &polygons);
+    build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default())
+}
+
+fn load(path: &Path) -> EdgeMesh {
+    let (model, mut report) = read_model(path).unwrap();
+    build_edge_mesh(&model, &BuildOptions::default(), &mut report)
+}
+
+fn main() {
+    let mut words = std::env::args().skip(1).filter(|word| !word.starts_with("--"));
+    let wanted = words.next_back().unwrap_or_default();
+    let gpu = pollster::block_on(gpu::open(None)).unwrap();
+    println!("{} ({}), {SIZE_PX}x{SIZE_PX}", gpu.info.name, gpu.info.backend);
+    let bench = Bench { gpu, wanted };
+    let mut meshes = vec![
+        ("ball of 10 thousand".to_owned(), ball(10_000)),
+        ("ball of 100 thousand".to_owned(), ball(100_000)),
+        ("ball of 1.1 million".to_owned(), ball(1_100_000)),
+    ];
+    if let Some(models) = std::env::var_os("EDGEMESH_BENCH_MODELS") {
+        for path in std::env::split_paths(&models) {
+            meshes.push((path.file_stem().unwrap().to_string_lossy().into_owned(), load(&path)));
+        }
+    }
+    for (name, mesh) in &meshes {
+        bench.kinds(name, mesh, 4);
+        bench.layouts(name, mesh, 4);
+    }
+}

@@ -5,41 +5,120 @@
 //! is the stroke's. Mip levels are averages of the level above, so that a brush
 //! drawn small keeps its amount of ink.
 
-use image::GrayImage;
+use std::path::{Path, PathBuf};
 
-/// The pen brush that the project makes itself (`brushes/pen.png`).
-const PEN_PNG: &[u8] = include_bytes!("../../../brushes/pen.png");
+use image::GrayImage;
+use thiserror::Error;
+
+/// The brushes that the project makes itself (`brushes/`).
+const OWN: [(&str, &[u8]); 5] = [
+    ("pen", include_bytes!("../../../brushes/pen.png")),
+    ("charcoal", include_bytes!("../../../brushes/charcoal.png")),
+    ("watercolor", include_bytes!("../../../brushes/watercolor.png")),
+    ("fur", include_bytes!("../../../brushes/fur.png")),
+    ("dash", include_bytes!("../../../brushes/dash.png")),
+];
+
+/// The longest side of a brush: what every adapter can hold.
+pub const MAX_SIDE: u32 = 8192;
+
+/// A brush cannot be used.
+#[derive(Debug, Error)]
+pub enum BrushError {
+    /// The file cannot be read.
+    #[error("{}: cannot be read: {reason}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: std::io::Error,
+    },
+    /// It is no PNG.
+    #[error("{name}: is no PNG that can be read: {reason}")]
+    Picture {
+        /// The file, or the brush.
+        name: String,
+        /// Why.
+        reason: image::ImageError,
+    },
+    /// It is too large.
+    #[error("{name}: is {width}x{height} pixels; a brush has at most {MAX_SIDE} a side")]
+    TooLarge {
+        /// The file, or the brush.
+        name: String,
+        /// Its width.
+        width: u32,
+        /// Its height.
+        height: u32,
+    },
+}
 
 /// A brush as coverage, one byte a texel.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Brush {
     coverage: GrayImage,
 }
 
 impl Brush {
+    /// The names of the project's own brushes.
+    pub const NAMES: [&'static str; OWN.len()] = {
+        let mut names = [""; OWN.len()];
+        let mut at = 0;
+        while at < OWN.len() {
+            names[at] = OWN[at].0;
+            at += 1;
+        }
+        names
+    };
+
     /// A brush that covers everything.
     #[must_use]
     pub fn solid() -> Self {
         Self { coverage: GrayImage::from_pixel(1, 1, image::Luma([255])) }
     }
 
-    /// The pen.
+    /// One of the project's own brushes.
     ///
     /// # Errors
-    /// Where the embedded picture cannot be read; a test reads it.
-    pub fn pen() -> image::ImageResult<Self> {
-        Self::from_png(PEN_PNG)
+    /// Where the embedded picture cannot be read; a test reads all of them.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Result<Self, BrushError>> {
+        let (name, png) = OWN.iter().find(|(known, _)| *known == name)?;
+        Some(Self::from_png(name, png))
     }
 
-    /// A brush from a PNG; its alpha is the coverage.
+    /// A brush from a PNG file.
     ///
     /// # Errors
-    /// Where the picture cannot be read.
-    pub fn from_png(png: &[u8]) -> image::ImageResult<Self> {
-        let picture = image::load_from_memory_with_format(png, image::ImageFormat::Png)?;
-        let picture = picture.to_luma_alpha8();
-        let coverage = GrayImage::from_fn(picture.width(), picture.height(), |x, y| {
-            image::Luma([picture.get_pixel(x, y).0[1]])
+    /// As [`Self::from_png`], and where the file cannot be read.
+    pub fn from_file(path: &Path) -> Result<Self, BrushError> {
+        let png = std::fs::read(path)
+            .map_err(|reason| BrushError::File { path: path.to_owned(), reason })?;
+        Self::from_png(&path.display().to_string(), &png)
+    }
+
+    /// A brush from a PNG called `name`: its alpha is the coverage, or in an
+    /// opaque picture how dark it is.
+    ///
+    /// # Errors
+    /// Where the picture cannot be read or is too large.
+    pub fn from_png(name: &str, png: &[u8]) -> Result<Self, BrushError> {
+        let wrong = |reason| BrushError::Picture { name: name.to_owned(), reason };
+        let mut reader =
+            image::ImageReader::with_format(std::io::Cursor::new(png), image::ImageFormat::Png);
+        // Room for the largest brush at 16 bits a channel, and no more.
+        let mut limits = image::Limits::default();
+        limits.max_alloc = Some(u64::from(MAX_SIDE) * u64::from(MAX_SIDE) * 8);
+        reader.limits(limits);
+        let picture = reader.decode().map_err(wrong)?.to_luma_alpha8();
+        let (width, height) = picture.dimensions();
+        if width.max(height) > MAX_SIDE {
+            return Err(BrushError::TooLarge { name: name.to_owned(), width, height });
+        }
+        let is_opaque = picture.pixels().all(|pixel| pixel.0[1] == u8::MAX);
+        let coverage = GrayImage::from_fn(width, height, |x, y| {
+            let [gray, alpha] = picture.get_pixel(x, y).0;
+            image::Luma([if is_opaque { u8::MAX - gray } else { alpha }])
         });
         Ok(Self { coverage })
     }
@@ -132,17 +211,50 @@ pub fn brush_sampler(device: &wgpu::Device) -> wgpu::Sampler {
 mod tests {
     use super::*;
 
+    fn own() -> impl Iterator<Item = Brush> {
+        Brush::NAMES.into_iter().map(|name| Brush::named(name).unwrap().unwrap())
+    }
+
     #[test]
     fn mip_levels_keep_the_ink_and_end_at_one_texel() {
-        let pen = Brush::pen().unwrap();
-        let levels = pen.mip_levels();
-        assert_eq!(levels.last().map(GrayImage::dimensions), Some((1, 1)));
-        let ink = |level: &GrayImage| {
-            level.iter().map(|&alpha| f64::from(alpha)).sum::<f64>() / level.len() as f64
-        };
-        for level in &levels {
-            assert!((ink(level) - ink(&levels[0])).abs() < 3.0, "{:?}", level.dimensions());
+        for brush in own() {
+            let levels = brush.mip_levels();
+            assert_eq!(levels.last().map(GrayImage::dimensions), Some((1, 1)));
+            let ink = |level: &GrayImage| {
+                level.iter().map(|&alpha| f64::from(alpha)).sum::<f64>() / level.len() as f64
+            };
+            for level in &levels {
+                assert!((ink(level) - ink(&levels[0])).abs() < 3.0, "{:?}", level.dimensions());
+            }
+            assert!(ink(&levels[0]) > 40.0, "a brush has ink");
         }
-        assert!(ink(&levels[0]) > 40.0, "a pen has ink");
+    }
+
+    fn png(picture: &image::DynamicImage) -> Vec<u8> {
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        picture.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+        bytes.into_inner()
+    }
+
+    #[test]
+    fn a_brush_is_its_alpha_or_else_its_darkness() {
+        let opaque = GrayImage::from_raw(2, 1, vec![0, 200]).unwrap();
+        let opaque = Brush::from_png("opaque", &png(&opaque.into())).unwrap();
+        assert_eq!(opaque.coverage.as_raw(), &[255, 55]);
+        let alpha = image::GrayAlphaImage::from_raw(2, 1, vec![9, 255, 200, 30]).unwrap();
+        let alpha = Brush::from_png("alpha", &png(&alpha.into())).unwrap();
+        assert_eq!(alpha.coverage.as_raw(), &[255, 30]);
+        assert!((alpha.aspect() - 2.0).abs() < f32::EPSILON);
+    }
+
+    #[test]
+    fn what_is_no_brush_says_why() {
+        let error = Brush::from_png("a.png", b"not a picture").unwrap_err().to_string();
+        assert!(error.starts_with("a.png: is no PNG"), "{error}");
+        let long = GrayImage::new(MAX_SIDE + 1, 1);
+        let error = Brush::from_png("long.png", &png(&long.into())).unwrap_err().to_string();
+        assert!(error.contains("8193x1"), "{error}");
+        assert!(Brush::from_file(Path::new("no/such.png")).is_err());
+        assert!(Brush::named("oil").is_none());
     }
 }

@@ -1,142 +1,265 @@
-//! Detection: one facing bit a face, then the live edges in order.
+//! Detection: one facing bit a face, then the live edges by layer, in order.
 //!
-//! Four small dispatches: `detect_faces` packs 32 facing bits an invocation;
-//! `count_runs`, `scan_runs` and `write_runs` list the edges to draw without any
-//! race, so that the same view always gives the same list.
+//! Small dispatches: `detect_faces` packs 32 facing bits an invocation, most of
+//! them by one look at a cone of normals; `count_runs`, `scan_runs` and
+//! `write_runs` list the edges to draw without any race, so that the same view
+//! always gives the same list. `mark_static` goes before them when the classes
+//! change, and works out what no view does.
 //!
-//! Rejected: the paper's own way, sending every edge through the vertex shader
-//! and moving what is no feature behind the near plane; it runs the whole vertex
-//! program for edges of which 95 in 100 are thrown away. Appending with one
-//! atomic counter, which is as fast but gives another order every time.
+//! Rejected: appending with one atomic counter, which is as fast but gives another
+//! order every time. The paper's own way, every edge through the vertex shader,
+//! is in [`crate::stroke`], to compare with.
 
+use bytemuck::{Pod, Zeroable};
 use wgpu::ShaderStages;
 
-use crate::frame::{storage_entry, uniform_entry};
-use crate::mesh_buffers::{MeshBuffers, Tally};
+use crate::frame::{bind_buffers, storage_entry, uniform_buffer, uniform_entry};
+use crate::look::{Look, MAX_DRAWS};
+use crate::mesh_buffers::{ChunkBuffers, EdgeSource, FACES_PER_WORD, Layout};
 use crate::shader::{ShaderError, ShaderSource};
+use crate::view_buffers::{Tally, ViewBuffers};
 
 /// Invocations a workgroup, as in the shaders.
 const WORKGROUP: u32 = 64;
 
-/// Faces an invocation of `detect_faces`.
-const FACES_PER_WORD: u32 = 32;
+/// What detection must know of a look. WGSL twin: `shaders/detect_edges.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct DetectUniform {
+    /// The fields of a [`edgemesh::oracle::feature::ClassTable`].
+    pub layers: u32,
+    /// As there.
+    pub drawn: u32,
+    /// As there.
+    pub ridge_steps: u32,
+    /// As there.
+    pub valley_steps: u32,
+    /// As there.
+    pub keeps_hidden: u32,
+    /// Layers of the look.
+    pub layer_count: u32,
+    /// Draws of the look.
+    pub draw_count: u32,
+    /// Unused.
+    pub padding: u32,
+    /// Layer and indices an edge of each draw.
+    pub draws: [[u32; 4]; MAX_DRAWS],
+}
 
-/// The four compute pipelines.
+impl DetectUniform {
+    /// The uniform of a look.
+    #[must_use]
+    pub fn new(look: &Look) -> Self {
+        let table = look.class_table();
+        let mut draws = [[0; 4]; MAX_DRAWS];
+        let styled = look.draws();
+        for (draw, styled) in draws.iter_mut().zip(&styled) {
+            let index_count = edgemesh::index::to_u32(styled.style.kind.indices().len());
+            *draw = [styled.layer, index_count, 0, 0];
+        }
+        Self {
+            layers: table.layers,
+            drawn: table.drawn,
+            ridge_steps: table.ridge_steps,
+            valley_steps: table.valley_steps,
+            keeps_hidden: table.keeps_hidden,
+            layer_count: edgemesh::index::to_u32(look.layers.len()).max(1),
+            draw_count: edgemesh::index::to_u32(styled.len()),
+            padding: 0,
+            draws,
+        }
+    }
+}
+
+/// The compute pipelines of one layout.
 #[derive(Debug)]
-pub struct DetectPipeline {
-    faces_layout: wgpu::BindGroupLayout,
-    edges_layout: wgpu::BindGroupLayout,
-    detect_faces: wgpu::ComputePipeline,
+pub(crate) struct DetectPipeline {
+    layouts: Layouts,
+    faces: Option<wgpu::ComputePipeline>,
+    mark_static: wgpu::ComputePipeline,
     count_runs: wgpu::ComputePipeline,
     scan_runs: wgpu::ComputePipeline,
     write_runs: wgpu::ComputePipeline,
 }
 
-/// What detection needs of one mesh.
 #[derive(Debug)]
-pub struct DetectDraw {
-    faces: wgpu::BindGroup,
-    edges: wgpu::BindGroup,
+struct Layouts {
+    pass: wgpu::BindGroupLayout,
+    faces_draw: wgpu::BindGroupLayout,
+    faces_view: wgpu::BindGroupLayout,
+    edges_draw: wgpu::BindGroupLayout,
+    edges_view: wgpu::BindGroupLayout,
+}
+
+/// What detection needs of one chunk of one object.
+#[derive(Debug)]
+pub(crate) struct DetectDraw {
+    faces: Option<[wgpu::BindGroup; 2]>,
+    edges: [wgpu::BindGroup; 2],
     face_groups: u32,
     run_groups: u32,
 }
 
 impl DetectPipeline {
-    /// Builds the pipelines.
-    ///
-    /// # Errors
-    /// Where a shader cannot be put together.
-    pub fn new(
+    pub(crate) fn new(
         device: &wgpu::Device,
         frame_layout: &wgpu::BindGroupLayout,
+        layout: Layout,
     ) -> Result<Self, ShaderError> {
-        let compute = ShaderStages::COMPUTE;
-        let layout = |label: &str, entries: &[wgpu::BindGroupLayoutEntry]| {
-            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                label: Some(label),
-                entries,
-            })
+        let layouts = Layouts::new(device, layout);
+        let pipeline =
+            |module: &wgpu::ShaderModule, entry, groups: &[Option<&wgpu::BindGroupLayout>]| {
+                compute_pipeline(device, module, entry, groups, &[])
+            };
+        let faces = if layout == Layout::Indexed {
+            let module =
+                ShaderSource::embedded("detect_faces.wgsl")?.module(device, "detect faces");
+            let groups =
+                [Some(frame_layout), None, Some(&layouts.faces_draw), Some(&layouts.faces_view)];
+            Some(pipeline(&module, "detect_faces", &groups))
+        } else {
+            None
         };
-        let faces_layout = layout(
-            "detect faces",
-            &[
-                uniform_entry(0, compute),
-                storage_entry(1, compute, true),
-                storage_entry(2, compute, false),
-            ],
-        );
-        let edges_layout = layout(
-            "detect edges",
-            &[
-                uniform_entry(0, compute),
-                storage_entry(1, compute, true),
-                storage_entry(2, compute, true),
-                storage_entry(3, compute, false),
-                storage_entry(4, compute, false),
-                storage_entry(5, compute, false),
-            ],
-        );
-        let faces = ShaderSource::embedded("detect_faces.wgsl")?.module(device, "detect faces");
-        let edges = ShaderSource::embedded("detect_edges.wgsl")?.module(device, "detect edges");
-        let pipeline = |module: &wgpu::ShaderModule, layout, entry| {
-            compute_pipeline(device, frame_layout, layout, module, entry)
-        };
+        let source = ShaderSource::embedded_for("detect_edges.wgsl", layout)?;
+        let module = source.module(device, "detect edges");
+        let groups = [
+            Some(frame_layout),
+            Some(&layouts.pass),
+            Some(&layouts.edges_draw),
+            Some(&layouts.edges_view),
+        ];
         Ok(Self {
-            detect_faces: pipeline(&faces, &faces_layout, "detect_faces"),
-            count_runs: pipeline(&edges, &edges_layout, "count_runs"),
-            scan_runs: pipeline(&edges, &edges_layout, "scan_runs"),
-            write_runs: pipeline(&edges, &edges_layout, "write_runs"),
-            faces_layout,
-            edges_layout,
+            faces,
+            mark_static: pipeline(&module, "mark_static", &groups),
+            count_runs: pipeline(&module, "count_runs", &groups),
+            scan_runs: pipeline(&module, "scan_runs", &groups),
+            write_runs: pipeline(&module, "write_runs", &groups),
+            layouts,
         })
     }
 
-    /// Prepares one mesh.
-    #[must_use]
-    pub fn draw(&self, device: &wgpu::Device, mesh: &MeshBuffers) -> DetectDraw {
-        let faces = [&mesh.uniform, &mesh.planes, &mesh.facing];
-        let edges =
-            [&mesh.uniform, &mesh.records, &mesh.facing, &mesh.runs, &mesh.live, &mesh.tally];
+    /// The group of a look.
+    pub(crate) fn pass(&self, device: &wgpu::Device, look: &Look) -> wgpu::BindGroup {
+        let uniform = uniform_buffer(device, "detect", &DetectUniform::new(look));
+        bind_buffers(device, "detect", &self.layouts.pass, &[(0, &uniform)])
+    }
+
+    pub(crate) fn draw(
+        &self,
+        device: &wgpu::Device,
+        object: &wgpu::Buffer,
+        chunk: &ChunkBuffers,
+        view: &ViewBuffers,
+    ) -> DetectDraw {
+        let bind = |label, layout, buffers: &[(u32, &wgpu::Buffer)]| {
+            bind_buffers(device, label, layout, buffers)
+        };
+        let uniform = &chunk.uniform;
+        let (faces, edges) = match &chunk.source {
+            EdgeSource::Indexed { planes, face_cones, records, .. } => {
+                let draw = [(0, object), (1, uniform), (2, planes), (3, face_cones)];
+                let draw = bind("detect faces", &self.layouts.faces_draw, &draw);
+                let view = [(0, &view.facing)];
+                let view = bind("detect faces", &self.layouts.faces_view, &view);
+                (Some([draw, view]), records)
+            }
+            EdgeSource::Replicated { vertices } => (None, vertices),
+        };
+        let draw = [(0, object), (1, uniform), (2, edges), (6, &chunk.run_cones)];
+        let mut lists = vec![
+            (1, &view.runs),
+            (2, &view.counts),
+            (3, &view.live),
+            (4, &view.tally),
+            (5, &view.draws),
+        ];
+        if faces.is_some() {
+            lists.push((0, &view.facing));
+        }
         DetectDraw {
-            faces: bind_buffers(device, "detect faces", &self.faces_layout, &faces),
-            edges: bind_buffers(device, "detect edges", &self.edges_layout, &edges),
-            face_groups: mesh.size.face_count.div_ceil(FACES_PER_WORD * WORKGROUP),
-            run_groups: mesh.size.run_count.div_ceil(WORKGROUP),
+            faces,
+            edges: [
+                bind("detect edges", &self.layouts.edges_draw, &draw),
+                bind("detect edges", &self.layouts.edges_view, &lists),
+            ],
+            face_groups: groups(chunk.size.face_count as usize, FACES_PER_WORD),
+            run_groups: groups(chunk.size.run_count as usize, 1),
         }
     }
 
-    /// Forgets the last view's counts; before [`Self::record`], outside of a pass.
-    pub fn clear(encoder: &mut wgpu::CommandEncoder, mesh: &MeshBuffers) {
-        encoder.clear_buffer(&mesh.tally, 0, Some(size_of::<Tally>() as u64));
+    /// Forgets the last view's counts, and with `is_stale` what the classes gave;
+    /// before [`Self::record`], outside of a pass.
+    pub(crate) fn clear(encoder: &mut wgpu::CommandEncoder, view: &ViewBuffers, is_stale: bool) {
+        let bytes = if is_stale { size_of::<Tally>() as u64 } else { Tally::VIEW_BYTES };
+        encoder.clear_buffer(&view.tally, 0, Some(bytes));
     }
 
-    /// Records the detection of one mesh; `@group(0)` must be the frame.
-    pub fn record(&self, pass: &mut wgpu::ComputePass, draw: &DetectDraw) {
-        pass.set_bind_group(2, &draw.faces, &[]);
-        pass.set_pipeline(&self.detect_faces);
-        pass.dispatch_workgroups(draw.face_groups, 1, 1);
-        pass.set_bind_group(2, &draw.edges, &[]);
-        for (pipeline, groups) in [
+    /// Records the detection of one chunk; `@group(0)` must be the frame and
+    /// `@group(1)` the look.
+    pub(crate) fn record(&self, pass: &mut wgpu::ComputePass, draw: &DetectDraw, is_stale: bool) {
+        if let (Some(pipeline), Some([faces, view])) = (&self.faces, &draw.faces) {
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(2, faces, &[]);
+            pass.set_bind_group(3, view, &[]);
+            pass.dispatch_workgroups(draw.face_groups, 1, 1);
+        }
+        for (group, edges) in (2..).zip(&draw.edges) {
+            pass.set_bind_group(group, edges, &[]);
+        }
+        let steps = [
+            (&self.mark_static, if is_stale { draw.run_groups } else { 0 }),
             (&self.count_runs, draw.run_groups),
             (&self.scan_runs, 1),
             (&self.write_runs, draw.run_groups),
-        ] {
+        ];
+        for (pipeline, groups) in steps.into_iter().filter(|step| step.1 > 0) {
             pass.set_pipeline(pipeline);
             pass.dispatch_workgroups(groups, 1, 1);
         }
     }
 }
 
-fn compute_pipeline(
+impl Layouts {
+    fn new(device: &wgpu::Device, layout: Layout) -> Self {
+        let compute = ShaderStages::COMPUTE;
+        let uniform = |binding| uniform_entry(binding, compute);
+        let read = |binding| storage_entry(binding, compute, true);
+        let write = |binding| storage_entry(binding, compute, false);
+        let make = |label: &str, entries: &[wgpu::BindGroupLayoutEntry]| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(label),
+                entries,
+            })
+        };
+        let mut lists = vec![write(1), write(2), write(3), write(4), write(5)];
+        if layout == Layout::Indexed {
+            lists.push(read(0));
+        }
+        Self {
+            pass: make("detect", &[uniform(0)]),
+            faces_draw: make("detect faces", &[uniform(0), uniform(1), read(2), read(3)]),
+            faces_view: make("detect faces", &[write(0)]),
+            edges_draw: make("detect edges", &[uniform(0), uniform(1), read(2), read(6)]),
+            edges_view: make("detect edges", &lists),
+        }
+    }
+}
+
+/// Workgroups for `count` items, so many an invocation.
+fn groups(count: usize, per_invocation: usize) -> u32 {
+    edgemesh::index::to_u32(count.div_ceil(per_invocation)).div_ceil(WORKGROUP)
+}
+
+pub(crate) fn compute_pipeline(
     device: &wgpu::Device,
-    frame_layout: &wgpu::BindGroupLayout,
-    layout: &wgpu::BindGroupLayout,
     module: &wgpu::ShaderModule,
     entry: &str,
+    groups: &[Option<&wgpu::BindGroupLayout>],
+    constants: &[(&str, f64)],
 ) -> wgpu::ComputePipeline {
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some(entry),
-        bind_group_layouts: &[Some(frame_layout), None, Some(layout)],
+        bind_group_layouts: groups,
         immediate_size: 0,
     });
     device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -144,28 +267,10 @@ fn compute_pipeline(
         layout: Some(&layout),
         module,
         entry_point: Some(entry),
-        compilation_options: wgpu::PipelineCompilationOptions::default(),
+        compilation_options: wgpu::PipelineCompilationOptions {
+            constants,
+            ..wgpu::PipelineCompilationOptions::default()
+        },
         cache: None,
-    })
-}
-
-/// Binds whole buffers in order.
-pub(crate) fn bind_buffers(
-    device: &wgpu::Device,
-    label: &str,
-    layout: &wgpu::BindGroupLayout,
-    buffers: &[&wgpu::Buffer],
-) -> wgpu::BindGroup {
-    let entries: Vec<wgpu::BindGroupEntry> = (0..)
-        .zip(buffers)
-        .map(|(binding, buffer)| wgpu::BindGroupEntry {
-            binding,
-            resource: buffer.as_entire_binding(),
-        })
-        .collect();
-    device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some(label),
-        layout,
-        entries: &entries,
     })
 }

@@ -11,18 +11,17 @@
 //! strokes, as hidden lines then show through along every silhouette.
 
 use bytemuck::{Pod, Zeroable};
-use wgpu::ShaderStages;
+use wgpu::{CompareFunction, ShaderStages, StencilFaceState, StencilOperation};
 
-use crate::detect::bind_buffers;
-use crate::frame::{uniform_buffer, uniform_entry};
+use crate::frame::{bind_buffers, uniform_buffer, uniform_entry};
 use crate::mesh_buffers::MeshBuffers;
 use crate::shader::{ShaderError, ShaderSource};
-use crate::targets::{COLOR_FORMAT, DEPTH_FORMAT};
+use crate::targets::TargetFormats;
 
 /// The constant part of the push, in steps of the depth buffer.
 const PUSH_STEPS: i32 = 8;
 
-/// What every pass of one fill shares. WGSL twin: `shaders/fill.wgsl`.
+/// What every draw of one fill shares. WGSL twin: `shaders/fill.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct FillUniform {
@@ -30,84 +29,152 @@ pub struct FillUniform {
     pub color: [f32; 4],
 }
 
-/// The pipeline with its colour.
+/// What a fill writes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FillKind {
+    /// Colour, depth and stencil.
+    Whole,
+    /// Depth and stencil: what lies behind shows through.
+    Clear,
+    /// The stencil alone, where the surface is what one sees.
+    Mark,
+}
+
+/// The pipelines of the fill.
 #[derive(Debug)]
-pub struct FillPipeline {
-    pipeline: wgpu::RenderPipeline,
-    pass_group: wgpu::BindGroup,
+pub(crate) struct FillPipeline {
+    whole: wgpu::RenderPipeline,
+    clear: wgpu::RenderPipeline,
+    mark: wgpu::RenderPipeline,
+    pass_layout: wgpu::BindGroupLayout,
+    draw_layout: wgpu::BindGroupLayout,
 }
 
 impl FillPipeline {
-    /// Builds the pipeline.
-    ///
-    /// # Errors
-    /// Where the shader cannot be put together.
-    pub fn new(
+    pub(crate) fn new(
         device: &wgpu::Device,
         frame_layout: &wgpu::BindGroupLayout,
-        samples: u32,
-        color: [f32; 4],
+        formats: &TargetFormats,
     ) -> Result<Self, ShaderError> {
-        let pass_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        let layout = |label: &str, visibility| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(label),
+                entries: &[uniform_entry(0, visibility)],
+            })
+        };
+        let pass_layout = layout("fill", ShaderStages::FRAGMENT);
+        let draw_layout = layout("fill object", ShaderStages::VERTEX);
+        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("fill"),
-            entries: &[uniform_entry(0, ShaderStages::FRAGMENT)],
-        });
-        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("fill"),
-            bind_group_layouts: &[Some(frame_layout), Some(&pass_layout)],
+            bind_group_layouts: &[Some(frame_layout), Some(&pass_layout), Some(&draw_layout)],
             immediate_size: 0,
         });
         let module = ShaderSource::embedded("fill.wgsl")?.module(device, "fill");
-        let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("fill"),
-            layout: Some(&layout),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some("fill_vertex"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: &[Some(wgpu::VertexBufferLayout {
-                    array_stride: 12,
-                    step_mode: wgpu::VertexStepMode::Vertex,
-                    attributes: &wgpu::vertex_attr_array![0 => Float32x3],
-                })],
-            },
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: Some(wgpu::DepthStencilState {
-                format: DEPTH_FORMAT,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(wgpu::CompareFunction::Greater),
-                stencil: wgpu::StencilState::default(),
-                bias: push_away(),
-            }),
-            multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some("fill_fragment"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &[Some(COLOR_FORMAT.into())],
-            }),
-            multiview_mask: None,
-            cache: None,
-        });
+        let pipeline = |kind| pipeline(device, &pipeline_layout, &module, formats, kind);
+        Ok(Self {
+            whole: pipeline(FillKind::Whole),
+            clear: pipeline(FillKind::Clear),
+            mark: pipeline(FillKind::Mark),
+            pass_layout,
+            draw_layout,
+        })
+    }
+
+    /// The group of a colour.
+    pub(crate) fn pass(&self, device: &wgpu::Device, color: [f32; 4]) -> wgpu::BindGroup {
         let uniform = uniform_buffer(device, "fill", &FillUniform { color });
-        let pass_group = bind_buffers(device, "fill", &pass_layout, &[&uniform]);
-        Ok(Self { pipeline, pass_group })
+        bind_buffers(device, "fill", &self.pass_layout, &[(0, &uniform)])
     }
 
-    /// Sets the pipeline and its colour.
-    pub fn bind(&self, pass: &mut wgpu::RenderPass) {
-        pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(1, &self.pass_group, &[]);
+    /// The group of an object.
+    pub(crate) fn draw(&self, device: &wgpu::Device, object: &wgpu::Buffer) -> wgpu::BindGroup {
+        bind_buffers(device, "fill object", &self.draw_layout, &[(0, object)])
     }
 
-    /// Draws one mesh; after [`Self::bind`], `@group(0)` must be the frame.
-    pub fn record(&self, pass: &mut wgpu::RenderPass, mesh: &MeshBuffers) {
-        if mesh.size.face_count == 0 {
-            return;
+    pub(crate) fn set(&self, pass: &mut wgpu::RenderPass, kind: FillKind) {
+        pass.set_pipeline(match kind {
+            FillKind::Whole => &self.whole,
+            FillKind::Clear => &self.clear,
+            FillKind::Mark => &self.mark,
+        });
+    }
+
+    /// Draws one mesh; after [`Self::set`], `@group(0)` must be the frame,
+    /// `@group(1)` the colour, `@group(2)` the object.
+    pub(crate) fn record(pass: &mut wgpu::RenderPass, mesh: &MeshBuffers) {
+        for part in mesh.fill.iter().filter(|part| part.index_count > 0) {
+            pass.set_vertex_buffer(0, part.positions.slice(..));
+            pass.set_index_buffer(part.triangles.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed(0..part.index_count, 0, 0..1);
         }
-        pass.set_vertex_buffer(0, mesh.positions.slice(..));
-        pass.set_index_buffer(mesh.triangles.slice(..), wgpu::IndexFormat::Uint32);
-        pass.draw_indexed(0..mesh.size.face_count * 3, 0, 0..1);
+    }
+}
+
+fn pipeline(
+    device: &wgpu::Device,
+    layout: &wgpu::PipelineLayout,
+    module: &wgpu::ShaderModule,
+    formats: &TargetFormats,
+    kind: FillKind,
+) -> wgpu::RenderPipeline {
+    let write_mask = match kind {
+        FillKind::Whole => wgpu::ColorWrites::ALL,
+        FillKind::Clear | FillKind::Mark => wgpu::ColorWrites::empty(),
+    };
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("fill"),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some("fill_vertex"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &[Some(wgpu::VertexBufferLayout {
+                array_stride: 12,
+                step_mode: wgpu::VertexStepMode::Vertex,
+                attributes: &wgpu::vertex_attr_array![0 => Float32x3],
+            })],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: Some(depth_stencil(formats, kind)),
+        multisample: wgpu::MultisampleState { count: formats.samples, ..Default::default() },
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some("fill_fragment"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &[Some(wgpu::ColorTargetState {
+                format: formats.color,
+                blend: None,
+                write_mask,
+            })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn depth_stencil(formats: &TargetFormats, kind: FillKind) -> wgpu::DepthStencilState {
+    // Marking comes after all fills, and finds the depth of its own.
+    let depth_compare = match kind {
+        FillKind::Whole | FillKind::Clear => CompareFunction::Greater,
+        FillKind::Mark => CompareFunction::Equal,
+    };
+    let face = StencilFaceState {
+        compare: CompareFunction::Always,
+        fail_op: StencilOperation::Keep,
+        depth_fail_op: StencilOperation::Keep,
+        pass_op: StencilOperation::Replace,
+    };
+    let stencil = if formats.has_stencil() {
+        wgpu::StencilState { front: face, back: face, read_mask: 0xff, write_mask: 0xff }
+    } else {
+        wgpu::StencilState::default()
+    };
+    wgpu::DepthStencilState {
+        format: formats.depth,
+        depth_write_enabled: Some(kind != FillKind::Mark),
+        depth_compare: Some(depth_compare),
+        stencil,
+        bias: push_away(),
     }
 }
 

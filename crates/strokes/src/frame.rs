@@ -1,34 +1,112 @@
-//! What one view needs, the same for every pass: `@group(0)` everywhere.
+//! What one view needs, the same for every pass, and what it makes of one object.
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh::camera::View;
-use glam::Vec2;
+use edgemesh::edge_mesh::Bounds;
+use edgemesh::oracle::feature::eye_is_outside;
+use edgemesh::oracle::spine::to_pixels;
+use edgemesh::replicate::Quantization;
+use glam::{DMat3, DMat4, Mat4, Vec2, Vec4};
 use wgpu::util::DeviceExt as _;
 
-/// The uniform of a view. WGSL twin: `shaders/common/frame.wgsl`.
+/// The uniform of a view: `@group(0)` everywhere. WGSL twin:
+/// `shaders/common/frame.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct FrameUniform {
-    /// Takes world positions to clip space; depth 1 near, 0 far.
-    pub clip_from_world: [[f32; 4]; 4],
-    /// The eye with w = 1, or the direction to the viewer with w = 0.
-    pub eye: [f32; 4],
     /// Size of the picture.
     pub viewport_px: [f32; 2],
+    /// Pixels that a unit of the world has at w = 1.
+    pub px_per_unit: f32,
     /// Unused.
-    pub padding: [f32; 2],
+    pub padding: f32,
 }
 
 impl FrameUniform {
     /// The uniform of `view` on a picture of `viewport_px`.
     #[must_use]
     pub fn new(view: &View, viewport_px: Vec2) -> Self {
-        Self {
-            clip_from_world: view.clip_from_world.to_cols_array_2d(),
-            eye: view.eye.to_array(),
-            viewport_px: viewport_px.to_array(),
-            padding: [0.0; 2],
+        // How long the row that makes y is, in units of the clip volume.
+        let y_row = view.clip_from_world.row(1).truncate();
+        let px_per_unit = y_row.length() * viewport_px.y * 0.5;
+        Self { viewport_px: viewport_px.to_array(), px_per_unit, padding: 0.0 }
+    }
+}
+
+/// What a view makes of one object. WGSL twin: `shaders/common/frame.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct ObjectUniform {
+    /// Takes the object's positions to clip space; depth 1 near, 0 far.
+    pub clip_from_object: [[f32; 4]; 4],
+    /// Takes its normals to clip space, as directions of a unit of the world.
+    pub clip_from_normal: [[f32; 4]; 4],
+    /// The eye in the object's space with w = 1, or the direction to the viewer
+    /// with w = 0.
+    pub eye: [f32; 4],
+    /// The distance from the eye along the line of sight is the product of a
+    /// position with this.
+    pub distance: [f32; 4],
+    /// The object's origin on the screen, from the middle.
+    pub origin_px: [f32; 2],
+    /// -1 where the object is seen as in a mirror, else 1.
+    pub mirror: f32,
+    /// 1 where the eye is outside of the object's box, else 0.
+    pub eye_is_outside: u32,
+    /// Replicated at 16 bits: the position of step 0.
+    pub center: [f32; 3],
+    /// Replicated at 16 bits: units a step.
+    pub step: f32,
+}
+
+impl ObjectUniform {
+    /// What `view` makes of an object with `bounds` that `world_from_object`
+    /// places in the world. A transform that cannot be undone draws nothing.
+    #[must_use]
+    pub fn new(
+        view: &View,
+        viewport_px: Vec2,
+        world_from_object: DMat4,
+        bounds: &Bounds,
+    ) -> Option<Self> {
+        let determinant = DMat3::from_mat4(world_from_object).determinant();
+        let object_from_world = world_from_object.inverse();
+        if determinant == 0.0 || !determinant.is_finite() || !object_from_world.is_finite() {
+            return None;
         }
+        let clip_from_world = view.clip_from_world.as_dmat4();
+        let clip_from_object = (clip_from_world * world_from_object).as_mat4();
+        // Normals go by the inverse transposed; of unit length where the scale is
+        // the same along all axes.
+        let normals = DMat3::from_mat4(object_from_world).transpose() * determinant.abs().cbrt();
+        let clip_from_normal = (clip_from_world * DMat4::from_mat3(normals)).as_mat4();
+        let eye = (object_from_world * view.eye.as_dvec4()).as_vec4();
+        let origin = clip_from_object * Vec4::W;
+        // Behind the eye the origin has no place; any will do that stays.
+        let is_in_front = origin.w > f32::EPSILON;
+        let origin_px = if is_in_front { to_pixels(origin, viewport_px) } else { Vec2::ZERO };
+        let distance = (world_from_object.transpose() * view.distance.as_dvec4()).as_vec4();
+        let quantization = Quantization::of(bounds);
+        #[expect(clippy::cast_possible_truncation, reason = "as the shader has it")]
+        let step = quantization.step as f32;
+        let is_outside = eye_is_outside(eye, bounds.min.into(), bounds.max.into());
+        Some(Self {
+            clip_from_object: clip_from_object.to_cols_array_2d(),
+            clip_from_normal: clip_from_normal.to_cols_array_2d(),
+            eye: eye.to_array(),
+            distance: distance.to_array(),
+            origin_px: origin_px.to_array(),
+            mirror: if determinant < 0.0 { -1.0 } else { 1.0 },
+            eye_is_outside: u32::from(is_outside),
+            center: quantization.center.as_vec3().to_array(),
+            step,
+        })
+    }
+
+    /// The matrix that takes the object's positions to clip space.
+    #[must_use]
+    pub fn clip_from_object(&self) -> Mat4 {
+        Mat4::from_cols_array_2d(&self.clip_from_object)
     }
 }
 
@@ -113,4 +191,25 @@ const fn buffer_entry(
         ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None },
         count: None,
     }
+}
+
+/// Binds whole buffers by their numbers.
+pub(crate) fn bind_buffers(
+    device: &wgpu::Device,
+    label: &str,
+    layout: &wgpu::BindGroupLayout,
+    buffers: &[(u32, &wgpu::Buffer)],
+) -> wgpu::BindGroup {
+    let entries: Vec<wgpu::BindGroupEntry> = buffers
+        .iter()
+        .map(|(binding, buffer)| wgpu::BindGroupEntry {
+            binding: *binding,
+            resource: buffer.as_entire_binding(),
+        })
+        .collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some(label),
+        layout,
+        entries: &entries,
+    })
 }

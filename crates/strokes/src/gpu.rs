@@ -127,6 +127,18 @@ pub fn lacking(adapter: &Adapter) -> Vec<String> {
 /// # Errors
 /// [`GpuError`] with what was tried and what was found.
 pub async fn open(name: Option<&str>) -> Result<Gpu, GpuError> {
+    open_with(name, |_| ()).await
+}
+
+/// As [`open`], with limits that `adjust` may lower, to see what happens on
+/// smaller adapters.
+///
+/// # Errors
+/// As [`open`].
+pub async fn open_with(
+    name: Option<&str>,
+    adjust: impl FnOnce(&mut Limits),
+) -> Result<Gpu, GpuError> {
     let (instance, backends) = instance();
     let adapter = match name {
         None => instance.request_adapter(&wgpu::RequestAdapterOptions::default()).await.ok(),
@@ -138,10 +150,11 @@ pub async fn open(name: Option<&str>) -> Result<Gpu, GpuError> {
     if !lacks.is_empty() {
         return Err(GpuError::Unsuitable { name: info.name, lacks });
     }
-    let (device, queue) =
-        adapter.request_device(&device_descriptor(&adapter)).await.map_err(|error| {
-            GpuError::NoDevice { name: info.name.clone(), reason: error.to_string() }
-        })?;
+    let mut descriptor = device_descriptor(&adapter);
+    adjust(&mut descriptor.required_limits);
+    let (device, queue) = adapter.request_device(&descriptor).await.map_err(|error| {
+        GpuError::NoDevice { name: info.name.clone(), reason: error.to_string() }
+    })?;
     Ok(Gpu { info, device, queue })
 }
 
@@ -149,7 +162,8 @@ fn device_descriptor(adapter: &Adapter) -> wgpu::DeviceDescriptor<'static> {
     let has = adapter.limits();
     wgpu::DeviceDescriptor {
         label: Some("edgemesh"),
-        required_features: adapter.features() & Features::TIMESTAMP_QUERY,
+        required_features: adapter.features()
+            & (Features::TIMESTAMP_QUERY | Features::DEPTH32FLOAT_STENCIL8),
         required_limits: Limits {
             max_storage_buffer_binding_size: has.max_storage_buffer_binding_size,
             max_buffer_size: has.max_buffer_size,

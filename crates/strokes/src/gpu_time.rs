@@ -60,19 +60,28 @@ impl GpuTimer {
         encoder.resolve_query_set(&self.queries, 0..2 * self.pass_count, &self.resolved, 0);
     }
 
-    /// Milliseconds of each pass of the last submission.
+    /// Milliseconds of each pass of the last submission, and from the start of the
+    /// first to the end of the last.
     ///
     /// # Errors
     /// Where the device is lost.
-    #[expect(clippy::cast_precision_loss, reason = "a pass takes far less than 2^52 ticks")]
-    pub fn read_ms(&self, gpu: &Gpu) -> Result<Vec<f64>, ReadbackError> {
+    pub fn read(&self, gpu: &Gpu) -> Result<GpuTimes, ReadbackError> {
         let ticks: Vec<u64> = read_buffer(gpu, &self.resolved, 2 * self.pass_count as usize)?;
         let ns_per_tick = f64::from(gpu.queue.get_timestamp_period());
-        Ok(ticks
-            .as_chunks::<2>()
-            .0
-            .iter()
-            .map(|[start, end]| end.saturating_sub(*start) as f64 * ns_per_tick / 1e6)
-            .collect())
+        #[expect(clippy::cast_precision_loss, reason = "a frame takes far less than 2^52 ticks")]
+        let ms = |start: u64, end: u64| end.saturating_sub(start) as f64 * ns_per_tick / 1e6;
+        let passes_ms = ticks.as_chunks::<2>().0.iter().map(|&[start, end]| ms(start, end));
+        let first = ticks.iter().min().copied().unwrap_or_default();
+        let last = ticks.iter().max().copied().unwrap_or_default();
+        Ok(GpuTimes { passes_ms: passes_ms.collect(), frame_ms: ms(first, last) })
     }
+}
+
+/// How long a frame took on the GPU.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GpuTimes {
+    /// Each pass.
+    pub passes_ms: Vec<f64>,
+    /// All of them, with what lies between.
+    pub frame_ms: f64,
 }

@@ -2,31 +2,41 @@
 //! strokes, with no work on the CPU that grows with the mesh.
 //!
 //! Based on M. McGuire and J. F. Hughes, *Hardware-Determined Feature Edges*
-//! (NPAR 2004), sections 3 to 3.3, with compute shaders where the paper had
-//! vertex programs only.
+//! (NPAR 2004), sections 3 and 4, with compute shaders where the paper had vertex
+//! programs only; its own path and layouts are there too, to compare with.
 //!
 //! ```text
-//! EdgeMesh --upload--> MeshBuffers
-//!     detect: facing bit a face -> live edges, in order -> arguments of the draw
-//!     fill:   depth and a flat colour
-//!     strokes: 12 vertices a live edge, pulled by index
+//! EdgeMesh --upload--> MeshBuffers (in chunks) --+
+//! Look --prepare--> PreparedLook ----------------+--> Object
+//!                                                       |
+//!     detect: facing bit a face -> live edges by layer  |  each frame
+//!     expand: the vertices of each live stroke, once    |
+//!     fill:   depth, a flat colour, stencil             |
+//!     strokes: hidden, visible, silhouettes             v
 //! ```
 //!
 //! Each primitive is one file with the same skeleton: an `XPipeline`, built once
-//! and never changed, and what one mesh needs for it in [`mesh_buffers`]. The
-//! crate knows no file format, no technique and no window.
+//! and never changed, and what one mesh needs for it. The crate knows no file
+//! format, no technique and no window.
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 pub mod brush;
+mod chunk;
 pub mod detect;
+mod expand;
 pub mod fill;
 pub mod frame;
 pub mod gpu;
 pub mod gpu_time;
+pub mod look;
 pub mod mesh_buffers;
+pub mod object;
 pub mod readback;
 pub mod renderer;
 pub mod shader;
+mod silhouette;
 pub mod stroke;
+mod stroke_layouts;
 pub mod targets;
+pub mod view_buffers;

@@ -1,92 +1,74 @@
-//! One edge mesh on the GPU.
+//! One edge mesh on the GPU, in one of three layouts, in chunks that the adapter
+//! can bind.
 //!
-//! | buffer | bytes | read by |
+//! | buffer | bytes | in the layouts |
 //! |---|---|---|
-//! | positions | 12 a vertex | fill, strokes |
-//! | vertex normals | 12 a vertex | strokes |
-//! | triangles | 12 a face | fill, strokes |
-//! | face planes | 32 a face | facing, strokes |
-//! | facing | 1 bit a face | detection |
-//! | edge records | 20 an edge | detection, strokes |
-//! | live edges | 4 an edge | strokes |
-//! | runs | 4 for 64 edges | detection |
-//! | tally | 44 | the indirect draw, the counts |
+//! | edge records | 20 an edge | indexed |
+//! | positions, vertex normals | 12 a vertex each | indexed |
+//! | triangles | 12 a face | indexed |
+//! | face planes | 32 a face | indexed |
+//! | cones around 32 faces | 1 a face | indexed |
+//! | edge vertices | 320 or 160 an edge | replicated |
+//! | cones around 64 edges | 0.5 an edge | all |
+//! | positions and triangles of the fill | 12 a vertex, 12 a face | replicated, or in chunks |
+//!
+//! In the indexed layout the fill and the strokes share positions and triangles.
+//! What a view makes of a chunk is in [`crate::view_buffers`].
+
+use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
-use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::index::to_u32;
-use edgemesh::oracle::FeatureCounts;
+use edgemesh::edge_mesh::{Bounds, EdgeMesh, FacePlane};
+use edgemesh::edge_word::{EdgeWord, edge_words};
+use edgemesh::index::{MAX_INDEX, NONE, to_u32};
+use edgemesh::oracle::normal_cone::NormalCone;
+use edgemesh::record::{EdgeVertex, EdgeVertex16};
+use edgemesh::replicate::{Quantization, replicate, replicate_16};
+use rayon::prelude::*;
 use thiserror::Error;
 use wgpu::BufferUsages;
 use wgpu::util::DeviceExt as _;
 
+use crate::chunk::{Chunk, ChunkLimits, chunks};
 use crate::frame::uniform_buffer;
+use crate::view_buffers::{MAX_EXPANDED_BYTES, RunState};
 
 /// Edges that one invocation looks at. WGSL twin: the constant of this name in
 /// `shaders/detect_edges.wgsl`.
 pub const EDGES_PER_RUN: u32 = 64;
 
-/// How large the mesh is. WGSL twin: `MeshUniform` in `shaders/common/mesh.wgsl`.
+/// Faces whose facing bits are one word.
+pub(crate) const FACES_PER_WORD: usize = 32;
+
+/// Of this many edges one has room between expansion and drawing; small meshes
+/// have room for all. What finds none is drawn straight from the list.
+const EDGES_PER_EXPANDED: usize = 16;
+const MIN_EXPANDED: usize = 1 << 14;
+
+/// How edges lie in memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Layout {
+    /// Records of indices: 20 bytes an edge.
+    #[default]
+    Indexed,
+    /// The paper's, in 32-bit floats: 320 bytes an edge.
+    Replicated,
+    /// The paper's, at 16 bits: 160 bytes an edge.
+    Replicated16,
+}
+
+/// How large a chunk is. WGSL twin: `ChunkUniform` in `shaders/common/mesh.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
-pub struct MeshUniform {
+pub struct ChunkUniform {
     /// Triangles.
     pub face_count: u32,
     /// Edge records.
     pub edge_count: u32,
     /// Runs of [`EDGES_PER_RUN`] edges.
     pub run_count: u32,
-    /// Unused.
-    pub padding: u32,
-    /// Lower corner of the box around the mesh; w is unused.
-    pub box_min: [f32; 4],
-    /// Upper corner.
-    pub box_max: [f32; 4],
-}
-
-/// The arguments of the indirect draw and the view's counts, as the GPU writes
-/// them. WGSL twin: `Tally` in `shaders/detect_edges.wgsl`.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
-#[repr(C)]
-pub struct Tally {
-    /// Vertices an edge.
-    pub vertex_count: u32,
-    /// Live edges.
-    pub instance_count: u32,
-    /// Always 0.
-    pub first_vertex: u32,
-    /// Always 0.
-    pub first_instance: u32,
-    /// See [`FeatureCounts`], as all the others.
-    pub contour: u32,
-    /// Convex creases.
-    pub ridge: u32,
-    /// Concave creases.
-    pub valley: u32,
-    /// Edges of one face.
-    pub boundary: u32,
-    /// Edges that the artist chose.
-    pub marked: u32,
-    /// Edges between two materials.
-    pub material: u32,
-    /// Edges between two smoothing groups.
-    pub smoothing: u32,
-}
-
-impl Tally {
-    /// The counts without the draw.
-    #[must_use]
-    pub const fn features(&self) -> FeatureCounts {
-        FeatureCounts {
-            contour: self.contour,
-            ridge: self.ridge,
-            valley: self.valley,
-            boundary: self.boundary,
-            marked: self.marked,
-            material: self.material,
-            smoothing: self.smoothing,
-        }
-    }
+    /// Strokes that there is room for between expansion and drawing.
+    pub capacity: u32,
 }
 
 /// The mesh does not fit the device.
@@ -100,125 +82,252 @@ pub struct MeshTooLarge {
     pub what: &'static str,
     /// Bytes needed.
     pub need: u64,
-    /// Bytes that the device binds at most.
+    /// Bytes that the device takes at most.
     pub limit: u64,
+}
+
+/// The edges of a chunk.
+#[derive(Debug)]
+pub(crate) enum EdgeSource {
+    Indexed {
+        records: wgpu::Buffer,
+        positions: wgpu::Buffer,
+        normals: wgpu::Buffer,
+        triangles: wgpu::Buffer,
+        planes: wgpu::Buffer,
+        face_cones: wgpu::Buffer,
+    },
+    Replicated {
+        vertices: wgpu::Buffer,
+    },
+}
+
+/// A chunk.
+#[derive(Debug)]
+pub(crate) struct ChunkBuffers {
+    pub(crate) size: ChunkUniform,
+    pub(crate) uniform: wgpu::Buffer,
+    pub(crate) source: EdgeSource,
+    pub(crate) run_cones: wgpu::Buffer,
+}
+
+/// Triangles to fill.
+#[derive(Debug)]
+pub(crate) struct FillBuffers {
+    pub(crate) positions: wgpu::Buffer,
+    pub(crate) triangles: wgpu::Buffer,
+    pub(crate) index_count: u32,
 }
 
 /// The buffers of one mesh.
 #[derive(Debug)]
 pub struct MeshBuffers {
-    pub(crate) size: MeshUniform,
-    pub(crate) uniform: wgpu::Buffer,
-    pub(crate) positions: wgpu::Buffer,
-    pub(crate) normals: wgpu::Buffer,
-    pub(crate) triangles: wgpu::Buffer,
-    pub(crate) planes: wgpu::Buffer,
-    pub(crate) records: wgpu::Buffer,
-    pub(crate) facing: wgpu::Buffer,
-    pub(crate) runs: wgpu::Buffer,
-    pub(crate) live: wgpu::Buffer,
-    pub(crate) tally: wgpu::Buffer,
+    pub(crate) layout: Layout,
+    pub(crate) chunks: Vec<ChunkBuffers>,
+    pub(crate) fill: Vec<FillBuffers>,
+    pub(crate) bounds: Bounds,
+    byte_count: u64,
 }
 
 impl MeshBuffers {
     /// Uploads `mesh`.
     ///
     /// # Errors
-    /// [`MeshTooLarge`], before anything is uploaded.
-    pub fn new(device: &wgpu::Device, mesh: &EdgeMesh) -> Result<Self, MeshTooLarge> {
-        let edge_count = to_u32(mesh.records.len());
-        let corner = |[x, y, z]: [f32; 3]| [x, y, z, 0.0];
-        let size = MeshUniform {
-            face_count: to_u32(mesh.triangles.len()),
-            edge_count,
-            run_count: edge_count.div_ceil(EDGES_PER_RUN),
-            padding: 0,
-            box_min: corner(mesh.bounds.min),
-            box_max: corner(mesh.bounds.max),
+    /// [`MeshTooLarge`], before anything is uploaded: where the adapter cannot
+    /// bind what a single edge needs, or the mesh has more edges than an index
+    /// can tell apart.
+    pub fn new(
+        device: &wgpu::Device,
+        mesh: &EdgeMesh,
+        layout: Layout,
+    ) -> Result<Self, MeshTooLarge> {
+        let limits = chunk_limits(device, layout)?;
+        let words = edge_words(mesh);
+        let parts = chunks(mesh, &words, &limits);
+        let upload = Upload { device, byte_count: std::cell::Cell::new(0) };
+        let quantization = Quantization::of(&mesh.bounds);
+        let replicated = match layout {
+            Layout::Indexed => Vec::new(),
+            Layout::Replicated => bytemuck::pod_collect_to_vec(&replicate(mesh)),
+            Layout::Replicated16 => bytemuck::pod_collect_to_vec::<_, u32>(&replicate_16(mesh)),
         };
-        check_sizes(device, mesh)?;
-        let storage = BufferUsages::STORAGE;
-        let words = |label: &str, count: u32, usage: BufferUsages| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                // A binding must not be empty.
-                size: 4 * u64::from(count.max(1)),
-                usage: storage | usage,
-                mapped_at_creation: false,
-            })
+        let words_per_edge = replicated.len() / mesh.records.len().max(1);
+        let chunk_buffers = |part: &Chunk| {
+            let words = |edges: &Range<usize>| {
+                &replicated[edges.start * words_per_edge..edges.end * words_per_edge]
+            };
+            let source = match layout {
+                Layout::Indexed => upload.indexed(part),
+                _ => EdgeSource::Replicated {
+                    vertices: upload.items(
+                        "edge vertices",
+                        words(&part.edges),
+                        BufferUsages::STORAGE | BufferUsages::VERTEX,
+                    ),
+                },
+            };
+            upload.chunk(part, source)
         };
-        let tally_words = to_u32(size_of::<Tally>() / 4);
-        let tally_usage = BufferUsages::INDIRECT | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
-        Ok(Self {
-            size,
-            uniform: uniform_buffer(device, "mesh size", &size),
-            positions: upload(device, "positions", &mesh.positions, storage | BufferUsages::VERTEX),
-            normals: upload(device, "vertex normals", &mesh.vertex_normals, storage),
-            triangles: upload(device, "triangles", &mesh.triangles, storage | BufferUsages::INDEX),
-            planes: upload(device, "face planes", &mesh.face_planes, storage),
-            records: upload(device, "edge records", &mesh.records, storage),
-            facing: words("facing", size.face_count.div_ceil(32), BufferUsages::COPY_SRC),
-            runs: words("runs", size.run_count, BufferUsages::empty()),
-            live: words("live edges", edge_count, BufferUsages::COPY_SRC),
-            tally: words("tally", tally_words, tally_usage),
-        })
+        let chunks: Vec<ChunkBuffers> = parts.iter().map(chunk_buffers).collect();
+        let fill = match &chunks[..] {
+            [ChunkBuffers { source: EdgeSource::Indexed { positions, triangles, .. }, .. }] => {
+                vec![FillBuffers {
+                    positions: positions.clone(),
+                    triangles: triangles.clone(),
+                    index_count: to_u32(3 * mesh.triangles.len()),
+                }]
+            }
+            _ => upload.fill(mesh, layout, &quantization),
+        };
+        let byte_count = upload.byte_count.get();
+        Ok(Self { layout, chunks, fill, bounds: mesh.bounds, byte_count })
     }
 
-    /// Triangles and edge records.
+    /// Bytes of all buffers that no view changes.
     #[must_use]
-    pub const fn size(&self) -> MeshUniform {
-        self.size
+    pub const fn byte_count(&self) -> u64 {
+        self.byte_count
     }
 
-    /// The buffer of the [`Tally`], for reading back.
+    /// How many chunks the mesh is in.
     #[must_use]
-    pub const fn tally(&self) -> &wgpu::Buffer {
-        &self.tally
-    }
-
-    /// The buffer of live edges: record index, and the contour and facing bits
-    /// of `LineBits` above it; in the order of the records.
-    #[must_use]
-    pub const fn live(&self) -> &wgpu::Buffer {
-        &self.live
-    }
-
-    /// The buffer of facing bits, 32 to a word.
-    #[must_use]
-    pub const fn facing(&self) -> &wgpu::Buffer {
-        &self.facing
+    pub const fn chunk_count(&self) -> usize {
+        self.chunks.len()
     }
 }
 
-fn check_sizes(device: &wgpu::Device, mesh: &EdgeMesh) -> Result<(), MeshTooLarge> {
+/// What the device can bind of a mesh at once.
+fn chunk_limits(device: &wgpu::Device, layout: Layout) -> Result<ChunkLimits, MeshTooLarge> {
     let limits = device.limits();
     let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+    let bytes_per_edge = match layout {
+        Layout::Indexed => 20,
+        Layout::Replicated => 4 * size_of::<EdgeVertex>(),
+        Layout::Replicated16 => 4 * size_of::<EdgeVertex16>(),
+    };
+    let bytes = usize::try_from(limit).unwrap_or(usize::MAX);
+    // A run of edges and its faces are the least that can be worked on.
+    let run = EDGES_PER_RUN as usize;
     let needs = [
-        ("positions", size_of_val(&*mesh.positions)),
-        ("face planes", size_of_val(&*mesh.face_planes)),
-        ("edge records", size_of_val(&*mesh.records)),
+        ("edges", run * bytes_per_edge),
+        ("face planes", 2 * run * size_of::<FacePlane>()),
+        ("run states", size_of::<RunState>()),
     ];
     for (what, need) in needs {
-        let need = need as u64;
-        if need > limit {
-            return Err(MeshTooLarge { what, need, limit });
+        if need > bytes {
+            return Err(MeshTooLarge { what, need: need as u64, limit });
         }
     }
-    Ok(())
+    // The live list has three bits of each entry for other things.
+    let edges = (bytes / bytes_per_edge).min(MAX_INDEX / 2);
+    Ok(ChunkLimits { edges, faces: bytes / size_of::<FacePlane>(), vertices: bytes / 12 })
 }
 
-fn upload<T: Pod>(
-    device: &wgpu::Device,
-    label: &str,
-    items: &[T],
-    usage: BufferUsages,
-) -> wgpu::Buffer {
-    // A binding must not be empty, nor smaller than one element.
-    let blank = [T::zeroed()];
-    let items = if items.is_empty() { &blank } else { items };
-    device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-        label: Some(label),
-        contents: bytemuck::cast_slice(items),
-        usage,
-    })
+struct Upload<'a> {
+    device: &'a wgpu::Device,
+    byte_count: std::cell::Cell<u64>,
+}
+
+impl Upload<'_> {
+    fn items<T: Pod>(&self, label: &str, items: &[T], usage: BufferUsages) -> wgpu::Buffer {
+        // A binding must not be empty, nor smaller than one element.
+        let blank = [T::zeroed(); 2];
+        let items = if items.is_empty() { &blank } else { items };
+        let contents = bytemuck::cast_slice(items);
+        self.byte_count.set(self.byte_count.get() + contents.len() as u64);
+        let label = Some(label);
+        self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label, contents, usage })
+    }
+
+    fn indexed(&self, part: &Chunk) -> EdgeSource {
+        let storage = BufferUsages::STORAGE;
+        let cones: Vec<NormalCone> = part
+            .planes
+            .par_chunks(FACES_PER_WORD)
+            .map(|planes| NormalCone::of(planes.iter()))
+            .collect();
+        EdgeSource::Indexed {
+            records: self.items("edge records", &part.records, storage),
+            positions: self.items("positions", &part.positions, storage | BufferUsages::VERTEX),
+            normals: self.items("vertex normals", &part.normals, storage),
+            triangles: self.items("triangles", &part.triangles, storage | BufferUsages::INDEX),
+            planes: self.items("face planes", &part.planes, storage),
+            face_cones: self.items("face cones", &cones, storage),
+        }
+    }
+
+    fn chunk(&self, part: &Chunk, source: EdgeSource) -> ChunkBuffers {
+        let edge_count = part.records.len();
+        let most = MAX_EXPANDED_BYTES.min(self.device.limits().max_storage_buffer_binding_size);
+        let most = most / u64::from(crate::expand::BYTES_PER_STROKE);
+        let most = usize::try_from(most).unwrap_or(usize::MAX);
+        let size = ChunkUniform {
+            face_count: to_u32(part.triangles.len()),
+            edge_count: to_u32(edge_count),
+            run_count: to_u32(edge_count).div_ceil(EDGES_PER_RUN),
+            capacity: to_u32(
+                edge_count.min(MIN_EXPANDED.max(edge_count / EDGES_PER_EXPANDED)).min(most),
+            ),
+        };
+        let cones: Vec<NormalCone> = part
+            .records
+            .par_chunks(EDGES_PER_RUN as usize)
+            .map(|run| run_cone(run, &part.planes))
+            .collect();
+        ChunkBuffers {
+            size,
+            uniform: uniform_buffer(self.device, "chunk", &size),
+            source,
+            run_cones: self.items("run cones", &cones, BufferUsages::STORAGE),
+        }
+    }
+
+    /// Triangles for the fill alone, in parts that fit a buffer.
+    fn fill(
+        &self,
+        mesh: &EdgeMesh,
+        layout: Layout,
+        quantization: &Quantization,
+    ) -> Vec<FillBuffers> {
+        let position = |position: [f32; 3]| match layout {
+            Layout::Replicated16 => quantization.dequantize(quantization.quantize(position)),
+            _ => position,
+        };
+        let most = usize::try_from(self.device.limits().max_buffer_size).unwrap_or(usize::MAX) / 12;
+        let buffers = |positions: &[[f32; 3]], triangles: &[[u32; 3]]| FillBuffers {
+            positions: self.items("fill positions", positions, BufferUsages::VERTEX),
+            triangles: self.items("fill triangles", triangles, BufferUsages::INDEX),
+            index_count: to_u32(3 * triangles.len()),
+        };
+        if mesh.positions.len() <= most && mesh.triangles.len() <= most {
+            let positions: Vec<[f32; 3]> =
+                mesh.positions.par_iter().map(|&p| position(p)).collect();
+            return vec![buffers(&positions, &mesh.triangles)];
+        }
+        // Each triangle with corners of its own: no part has more than it can hold.
+        let corners = |part: &[[u32; 3]]| {
+            let positions: Vec<[f32; 3]> = part
+                .iter()
+                .flatten()
+                .map(|&vertex| position(mesh.positions[vertex as usize]))
+                .collect();
+            let triangles: Vec<[u32; 3]> = (0..to_u32(part.len()))
+                .map(|face| [3 * face, 3 * face + 1, 3 * face + 2])
+                .collect();
+            buffers(&positions, &triangles)
+        };
+        mesh.triangles.chunks((most / 3).max(1)).map(corners).collect()
+    }
+}
+
+/// The cone around the faces of a run of edges.
+fn run_cone(run: &[[u32; 5]], planes: &[FacePlane]) -> NormalCone {
+    let faces = run.iter().flat_map(|&[_, _, face_a, face_b, _]| [face_a, face_b]);
+    NormalCone::of(faces.filter(|&face| face != NONE).map(|face| &planes[face as usize]))
+}
+
+/// The words of edges, for the oracle's side of a comparison.
+#[must_use]
+pub fn words_of(mesh: &EdgeMesh) -> Vec<EdgeWord> {
+    edge_words(mesh)
 }

@@ -20,13 +20,27 @@ impl ReadbackError {
     }
 }
 
-/// Reads an RGBA texture of one sample; waits for all submitted work.
+/// Reads an RGBA texture of 8 bits a channel and one sample; waits for all
+/// submitted work.
 ///
 /// # Errors
 /// Where the device is lost or has no room for the copy.
 pub fn read_picture(gpu: &Gpu, texture: &wgpu::Texture) -> Result<RgbaImage, ReadbackError> {
+    RgbaImage::from_raw(texture.width(), texture.height(), read_texels(gpu, texture, 4)?)
+        .ok_or_else(|| ReadbackError::new("it gave too few bytes"))
+}
+
+/// Reads a texture of one sample and so many bytes a texel, row by row.
+///
+/// # Errors
+/// Where the device is lost or has no room for the copy.
+pub fn read_texels<T: Pod>(
+    gpu: &Gpu,
+    texture: &wgpu::Texture,
+    bytes_per_texel: u32,
+) -> Result<Vec<T>, ReadbackError> {
     let (width, height) = (texture.width(), texture.height());
-    let row_bytes = 4 * width;
+    let row_bytes = bytes_per_texel * width;
     let padded_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     let buffer = staging(gpu, u64::from(padded_bytes) * u64::from(height))?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -45,8 +59,8 @@ pub fn read_picture(gpu: &Gpu, texture: &wgpu::Texture) -> Result<RgbaImage, Rea
     gpu.queue.submit([encoder.finish()]);
     let bytes = map(gpu, &buffer)?;
     let rows = bytes.chunks(padded_bytes as usize).flat_map(|row| &row[..row_bytes as usize]);
-    RgbaImage::from_raw(width, height, rows.copied().collect())
-        .ok_or_else(|| ReadbackError::new("it gave too few bytes"))
+    let bytes: Vec<u8> = rows.copied().collect();
+    Ok(bytemuck::pod_collect_to_vec(&bytes))
 }
 
 /// Reads the first `count` items of a buffer that may be copied from.

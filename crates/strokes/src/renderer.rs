@@ -1,171 +1,531 @@
-//! One frame: detect, fill, strokes, in one command buffer and without reading
-//! anything back.
+//! One frame: detect, expand, fill, strokes, in one command buffer and without
+//! reading anything back.
 
-use crate::detect::{DetectDraw, DetectPipeline};
-use crate::fill::FillPipeline;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+use std::sync::Arc;
+
+use edgemesh::camera::View;
+use edgemesh::oracle::stroke_segment::LineKind;
+use wgpu::util::DeviceExt as _;
+
+use crate::detect::DetectPipeline;
+use crate::expand::ExpandPipeline;
+use crate::fill::{FillKind, FillPipeline};
 use crate::frame::{Frame, FrameUniform, frame_layout};
 use crate::gpu::Gpu;
 use crate::gpu_time::GpuTimer;
-use crate::mesh_buffers::MeshBuffers;
+use crate::look::{Look, Visibility};
+use crate::mesh_buffers::{Layout, MeshBuffers};
+use crate::object::{Object, ObjectPart};
 use crate::shader::ShaderError;
-use crate::stroke::{StrokeDraw, StrokePipeline, StrokeStyle};
-use crate::targets::Targets;
+use crate::silhouette::{NO_OBJECT, StencilValues};
+use crate::stroke::{StrokeVariant, VertexSource, stroke_pipeline, style_group};
+use crate::stroke_layouts::StrokeLayouts;
+use crate::targets::{TargetFormats, Targets};
+use crate::view_buffers::{DrawArguments, REST_OFFSET};
 
 /// The passes of a frame, in order, as [`GpuTimer`] numbers them.
-pub const PASS_NAMES: [&str; 3] = ["detect", "fill", "strokes"];
+pub const PASS_NAMES: [&str; 4] = ["detect", "expand", "fill", "strokes"];
 
-/// How a picture looks.
-#[derive(Debug, Clone)]
-pub struct Look {
-    /// Premultiplied colour behind everything.
-    pub background: [f64; 4],
-    /// Premultiplied colour of the surface.
-    pub fill_color: [f32; 4],
-    /// The strokes; `None` draws the fill alone.
-    pub strokes: Option<StrokeStyle>,
+/// Where feature edges are detected.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum DetectionPath {
+    /// In compute shaders, which list the edges to draw.
+    #[default]
+    Compute,
+    /// In the vertex shader, as in the paper: every edge is drawn, and what is no
+    /// feature lies behind the near plane.
+    Vertex,
 }
 
-/// The pipelines of a look for a number of samples.
+/// What a renderer is made for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RendererOptions {
+    /// How the edges of all meshes lie in memory.
+    pub layout: Layout,
+    /// Where features are detected.
+    pub path: DetectionPath,
+    /// What is drawn into.
+    pub formats: TargetFormats,
+}
+
+/// The pipelines for one kind of target and mesh.
 #[derive(Debug)]
 pub struct Renderer {
-    background: wgpu::Color,
+    pub(crate) options: RendererOptions,
+    pub(crate) layouts: StrokeLayouts,
+    pub(crate) detect: DetectPipeline,
+    pub(crate) fill: FillPipeline,
     frame: Frame,
-    detect: DetectPipeline,
-    fill: FillPipeline,
-    stroke: Option<StrokePipeline>,
+    expand: HashMap<LineKind, Arc<ExpandPipeline>>,
+    strokes: HashMap<StrokeVariant, wgpu::RenderPipeline>,
+    indices: HashMap<IndexKey, IndexBuffer>,
 }
 
-/// A mesh prepared for a [`Renderer`].
+/// A look with its pipelines and its textures.
 #[derive(Debug)]
-pub struct MeshDraw {
-    /// Its buffers.
-    pub buffers: MeshBuffers,
-    detect: DetectDraw,
-    stroke: Option<StrokeDraw>,
+pub struct PreparedLook {
+    pub(crate) layer_count: u32,
+    pub(crate) draws: Vec<PreparedDraw>,
+    detect_pass: wgpu::BindGroup,
+    fill_pass: wgpu::BindGroup,
+    fill_kind: FillKind,
+}
+
+/// One draw of strokes.
+#[derive(Debug)]
+pub(crate) struct PreparedDraw {
+    pub(crate) kind: LineKind,
+    pub(crate) visibility: Visibility,
+    style: wgpu::BindGroup,
+    vertices: DrawVertices,
+}
+
+#[derive(Debug)]
+enum DrawVertices {
+    Lists {
+        expand: Arc<ExpandPipeline>,
+        expanded: wgpu::RenderPipeline,
+        listed: wgpu::RenderPipeline,
+    },
+    All(wgpu::RenderPipeline),
+    Attributes(wgpu::RenderPipeline),
 }
 
 impl Renderer {
-    /// Builds the pipelines.
+    /// Builds the pipelines that every look needs.
     ///
     /// # Errors
     /// Where a shader cannot be put together.
-    pub fn new(gpu: &Gpu, look: &Look, samples: u32) -> Result<Self, ShaderError> {
+    pub fn new(gpu: &Gpu, options: RendererOptions) -> Result<Self, ShaderError> {
         let device = &gpu.device;
-        let layout = frame_layout(device);
-        let [r, g, b, a] = look.background;
-        let stroke = look.strokes.as_ref();
+        let frame = frame_layout(device);
         Ok(Self {
-            background: wgpu::Color { r, g, b, a },
-            frame: Frame::new(device, &layout, &bytemuck::Zeroable::zeroed()),
-            detect: DetectPipeline::new(device, &layout)?,
-            fill: FillPipeline::new(device, &layout, samples, look.fill_color)?,
-            stroke: stroke
-                .map(|style| StrokePipeline::new(gpu, &layout, samples, style))
-                .transpose()?,
+            layouts: StrokeLayouts::new(device, &frame, options.layout),
+            detect: DetectPipeline::new(device, &frame, options.layout)?,
+            fill: FillPipeline::new(device, &frame, &options.formats)?,
+            frame: Frame::new(device, &frame, &bytemuck::Zeroable::zeroed()),
+            options,
+            expand: HashMap::new(),
+            strokes: HashMap::new(),
+            indices: HashMap::new(),
         })
     }
 
-    /// Prepares uploaded buffers for drawing.
+    /// Prepares a look.
+    ///
+    /// # Errors
+    /// Where a shader cannot be put together.
+    pub fn prepare(&mut self, gpu: &Gpu, look: &Look) -> Result<Arc<PreparedLook>, ShaderError> {
+        let table = look.class_table();
+        let mut draws = Vec::new();
+        for (index, draw) in look.draws().iter().enumerate() {
+            let style = style_group(gpu, &self.layouts, draw, index, &table);
+            let RendererOptions { path, layout, .. } = self.options;
+            let mut pipeline = |source| self.stroke(gpu, StrokeVariant::new(source, draw));
+            let kind = draw.style.kind;
+            let vertices = match (path, layout) {
+                (DetectionPath::Compute, _) => DrawVertices::Lists {
+                    expanded: pipeline(VertexSource::Expanded)?,
+                    listed: pipeline(VertexSource::Listed)?,
+                    expand: self.expansion(gpu, kind)?,
+                },
+                (DetectionPath::Vertex, Layout::Indexed) => {
+                    DrawVertices::All(pipeline(VertexSource::All)?)
+                }
+                (DetectionPath::Vertex, _) => {
+                    DrawVertices::Attributes(pipeline(VertexSource::Attributes)?)
+                }
+            };
+            draws.push(PreparedDraw { kind, visibility: draw.visibility, style, vertices });
+        }
+        let fill_kind = if look.fill_color.is_some() { FillKind::Whole } else { FillKind::Clear };
+        Ok(Arc::new(PreparedLook {
+            layer_count: edgemesh::index::to_u32(look.layers.len()).max(1),
+            draws,
+            detect_pass: self.detect.pass(&gpu.device, look),
+            fill_pass: self.fill.pass(&gpu.device, look.fill_color.unwrap_or_default()),
+            fill_kind,
+        }))
+    }
+
+    /// Prepares an object; its mesh must be in the renderer's layout.
+    ///
+    /// # Panics
+    /// Where the mesh is in another layout.
     #[must_use]
-    pub fn mesh_draw(&self, device: &wgpu::Device, buffers: MeshBuffers) -> MeshDraw {
-        MeshDraw {
-            detect: self.detect.draw(device, &buffers),
-            stroke: self.stroke.as_ref().map(|stroke| stroke.draw(device, &buffers)),
-            buffers,
+    pub fn object(
+        &mut self,
+        gpu: &Gpu,
+        mesh: &Arc<MeshBuffers>,
+        look: &Arc<PreparedLook>,
+    ) -> Object {
+        assert_eq!(mesh.layout, self.options.layout, "a mesh in the renderer's layout");
+        for draw in &look.draws {
+            for chunk in &mesh.chunks {
+                for key in IndexKey::of(draw) {
+                    let count = match key {
+                        IndexKey::Expanded(_) => chunk.size.capacity,
+                        _ => chunk.size.edge_count,
+                    };
+                    self.make_indices(&gpu.device, key, count);
+                }
+            }
+        }
+        Object::new(gpu, self, mesh.clone(), look.clone())
+    }
+
+    fn stroke(
+        &mut self,
+        gpu: &Gpu,
+        variant: StrokeVariant,
+    ) -> Result<wgpu::RenderPipeline, ShaderError> {
+        Ok(match self.strokes.entry(variant) {
+            Entry::Occupied(known) => known.get().clone(),
+            Entry::Vacant(new) => {
+                let RendererOptions { layout, formats, .. } = &self.options;
+                let made = stroke_pipeline(&gpu.device, &self.layouts, *layout, formats, variant)?;
+                new.insert(made).clone()
+            }
+        })
+    }
+
+    fn expansion(&mut self, gpu: &Gpu, kind: LineKind) -> Result<Arc<ExpandPipeline>, ShaderError> {
+        Ok(match self.expand.entry(kind) {
+            Entry::Occupied(known) => known.get().clone(),
+            Entry::Vacant(new) => {
+                let layout = self.options.layout;
+                let made = ExpandPipeline::new(&gpu.device, &self.layouts, layout, kind)?;
+                new.insert(Arc::new(made)).clone()
+            }
+        })
+    }
+
+    fn make_indices(&mut self, device: &wgpu::Device, key: IndexKey, count: u32) {
+        if self.indices.get(&key).is_none_or(|known| known.count < count) {
+            self.indices.insert(key, IndexBuffer::new(device, key, count));
         }
     }
 
-    /// Submits one frame of `meshes` as `view` sees them.
+    /// Submits one frame of `objects` as `view` sees them, over `background`
+    /// (premultiplied).
     pub fn render(
         &self,
         gpu: &Gpu,
         targets: &Targets,
-        view: &FrameUniform,
-        meshes: &[MeshDraw],
+        view: &View,
+        background: [f64; 4],
+        objects: &mut [Object],
         timer: Option<&GpuTimer>,
     ) {
-        self.frame.write(&gpu.queue, view);
+        let viewport_px = targets.viewport_px();
+        self.frame.write(&gpu.queue, &FrameUniform::new(view, viewport_px));
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.encode_detect(&mut encoder, meshes, timer);
-        self.encode_fill(&mut encoder, targets, meshes, timer);
-        self.encode_strokes(&mut encoder, targets, meshes, timer);
+        for object in objects.iter_mut() {
+            object.look_from(gpu, view, viewport_px);
+        }
+        let placed: Vec<&Object> = objects.iter().filter(|object| object.is_placed).collect();
+        self.encode_detect(&mut encoder, &placed, timer);
+        self.encode_expand(&mut encoder, &placed, timer);
+        let frame = FrameEncoder { renderer: self, targets, objects: &placed };
+        let values = frame.stencil_values();
+        frame.encode_fill(&mut encoder, background, &values, timer);
+        frame.encode_strokes(&mut encoder, &values, timer);
         if let Some(timer) = timer {
             timer.resolve(&mut encoder);
         }
         gpu.queue.submit([encoder.finish()]);
+        for object in objects.iter_mut().filter(|object| object.is_placed) {
+            object.is_stale = false;
+        }
     }
 
     fn encode_detect(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        meshes: &[MeshDraw],
+        objects: &[&Object],
         timer: Option<&GpuTimer>,
     ) {
-        for mesh in meshes {
-            DetectPipeline::clear(encoder, &mesh.buffers);
+        for object in objects {
+            for lists in object.parts.iter().filter_map(|part| part.lists.as_ref()) {
+                DetectPipeline::clear(encoder, &lists.view, object.is_stale);
+            }
         }
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some(PASS_NAMES[0]),
             timestamp_writes: timer.map(|timer| timer.compute(0)),
         });
-        if self.stroke.is_none() {
-            return;
-        }
         pass.set_bind_group(0, &self.frame.bind_group, &[]);
-        for mesh in meshes {
-            self.detect.record(&mut pass, &mesh.detect);
+        for object in objects.iter().filter(|object| !object.look.draws.is_empty()) {
+            pass.set_bind_group(1, &object.look.detect_pass, &[]);
+            for lists in object.parts.iter().filter_map(|part| part.lists.as_ref()) {
+                self.detect.record(&mut pass, &lists.detect, object.is_stale);
+            }
         }
+    }
+
+    fn encode_expand(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        objects: &[&Object],
+        timer: Option<&GpuTimer>,
+    ) {
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some(PASS_NAMES[1]),
+            timestamp_writes: timer.map(|timer| timer.compute(1)),
+        });
+        pass.set_bind_group(0, &self.frame.bind_group, &[]);
+        for object in objects {
+            for (index, draw) in object.look.draws.iter().enumerate() {
+                let DrawVertices::Lists { expand, .. } = &draw.vertices else { continue };
+                pass.set_bind_group(1, &draw.style, &[]);
+                for part in &object.parts {
+                    let Some(lists) = &part.lists else { continue };
+                    pass.set_bind_group(2, &part.edges, &[]);
+                    expand.record(&mut pass, &lists.expand[index], &lists.view, index);
+                }
+            }
+        }
+    }
+
+    fn set_indices(&self, pass: &mut wgpu::RenderPass, key: IndexKey) {
+        if let Some(indices) = self.indices.get(&key) {
+            pass.set_index_buffer(indices.buffer.slice(..), wgpu::IndexFormat::Uint32);
+        }
+    }
+}
+
+/// The part of a frame that draws.
+struct FrameEncoder<'a> {
+    renderer: &'a Renderer,
+    targets: &'a Targets,
+    objects: &'a [&'a Object],
+}
+
+/// The stencil values of the objects, cut where the stencil must be cleared.
+struct StencilBatches {
+    /// One an object; [`NO_OBJECT`] for those without a silhouette.
+    values: Vec<u32>,
+    /// The first object of each batch behind the first one.
+    clears: Vec<usize>,
+}
+
+impl StencilBatches {
+    /// The objects of each batch, as ranges.
+    fn ranges(&self) -> Vec<std::ops::Range<usize>> {
+        let starts = std::iter::once(0).chain(self.clears.iter().copied());
+        let ends = self.clears.iter().copied().chain([self.values.len()]);
+        starts.zip(ends).map(|(start, end)| start..end).collect()
+    }
+}
+
+impl FrameEncoder<'_> {
+    fn stencil_values(&self) -> StencilBatches {
+        let mut counter = StencilValues::default();
+        let mut batches = StencilBatches { values: Vec::new(), clears: Vec::new() };
+        for (index, object) in self.objects.iter().enumerate() {
+            if !object.has_silhouette() {
+                batches.values.push(NO_OBJECT);
+                continue;
+            }
+            let (value, must_clear) = counter.next();
+            batches.values.push(value);
+            if must_clear {
+                batches.clears.push(index);
+            }
+        }
+        batches
     }
 
     fn encode_fill(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        targets: &Targets,
-        meshes: &[MeshDraw],
+        [r, g, b, a]: [f64; 4],
+        batches: &StencilBatches,
         timer: Option<&GpuTimer>,
     ) {
-        let color = targets.color_attachment(wgpu::LoadOp::Clear(self.background), false);
+        let background = wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a });
+        let color = self.targets.color_attachment(background, false);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(PASS_NAMES[1]),
+            label: Some(PASS_NAMES[2]),
             color_attachments: &[Some(color)],
-            // Reversed depth: 0 is the far plane.
-            depth_stencil_attachment: Some(
-                targets.depth_attachment(wgpu::LoadOp::Clear(0.0), wgpu::StoreOp::Store),
-            ),
-            timestamp_writes: timer.map(|timer| timer.render(1)),
+            depth_stencil_attachment: Some(self.targets.cleared_depth()),
+            timestamp_writes: timer.map(|timer| timer.render(2)),
             ..Default::default()
         });
-        pass.set_bind_group(0, &self.frame.bind_group, &[]);
-        self.fill.bind(&mut pass);
-        for mesh in meshes {
-            self.fill.record(&mut pass, &mesh.buffers);
+        let first_batch = batches.clears.first().copied().unwrap_or(self.objects.len());
+        for (index, object) in self.objects.iter().enumerate() {
+            let value = if index < first_batch { batches.values[index] } else { NO_OBJECT };
+            self.fill(&mut pass, object, object.look.fill_kind, value);
         }
+    }
+
+    fn fill(&self, pass: &mut wgpu::RenderPass, object: &Object, kind: FillKind, value: u32) {
+        self.renderer.fill.set(pass, kind);
+        pass.set_bind_group(0, &self.renderer.frame.bind_group, &[]);
+        pass.set_bind_group(1, &object.look.fill_pass, &[]);
+        pass.set_bind_group(2, &object.fill_group, &[]);
+        pass.set_stencil_reference(value);
+        FillPipeline::record(pass, &object.mesh);
     }
 
     fn encode_strokes(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        targets: &Targets,
-        meshes: &[MeshDraw],
+        batches: &StencilBatches,
         timer: Option<&GpuTimer>,
     ) {
-        let color = targets.color_attachment(wgpu::LoadOp::Load, true);
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(PASS_NAMES[2]),
-            color_attachments: &[Some(color)],
-            depth_stencil_attachment: Some(
-                targets.depth_attachment(wgpu::LoadOp::Load, wgpu::StoreOp::Discard),
-            ),
-            timestamp_writes: timer.map(|timer| timer.render(2)),
-            ..Default::default()
-        });
-        let Some(stroke) = &self.stroke else { return };
-        pass.set_bind_group(0, &self.frame.bind_group, &[]);
-        stroke.bind(&mut pass);
-        for mesh in meshes {
-            if let Some(draw) = &mesh.stroke {
-                stroke.record(&mut pass, &mesh.buffers, draw);
+        let ranges = batches.ranges();
+        for (batch, range) in ranges.iter().enumerate() {
+            let is_first = batch == 0;
+            let is_last = batch + 1 == ranges.len();
+            let store = if is_last { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store };
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some(PASS_NAMES[3]),
+                color_attachments: &[Some(
+                    self.targets.color_attachment(wgpu::LoadOp::Load, is_last),
+                )],
+                depth_stencil_attachment: Some(self.targets.kept_depth(!is_first, store)),
+                timestamp_writes: timer.filter(|_| is_first).map(|timer| timer.render(3)),
+                ..Default::default()
+            });
+            if is_first {
+                for visibility in [Visibility::Hidden, Visibility::Visible] {
+                    for object in self.objects {
+                        self.strokes(&mut pass, object, visibility);
+                    }
+                }
+            } else {
+                for index in range.clone() {
+                    let value = batches.values[index];
+                    self.fill(&mut pass, self.objects[index], FillKind::Mark, value);
+                }
+            }
+            for index in range.clone().filter(|&index| batches.values[index] != NO_OBJECT) {
+                pass.set_stencil_reference(batches.values[index]);
+                self.strokes(&mut pass, self.objects[index], Visibility::Silhouette);
             }
         }
+    }
+
+    fn strokes(&self, pass: &mut wgpu::RenderPass, object: &Object, visibility: Visibility) {
+        let draws = object.look.draws.iter().enumerate();
+        for (index, draw) in draws.filter(|(_, draw)| draw.visibility == visibility) {
+            pass.set_bind_group(0, &self.renderer.frame.bind_group, &[]);
+            pass.set_bind_group(1, &draw.style, &[]);
+            for (chunk, part) in object.mesh.chunks.iter().zip(&object.parts) {
+                match &draw.vertices {
+                    DrawVertices::Lists { expanded, listed, .. } => {
+                        self.listed_strokes(pass, part, draw, index, [expanded, listed]);
+                    }
+                    DrawVertices::All(pipeline) => {
+                        let index_count = edgemesh::index::to_u32(draw.kind.indices().len());
+                        pass.set_pipeline(pipeline);
+                        pass.set_bind_group(2, &part.edges, &[]);
+                        pass.set_bind_group(3, part.planes.as_ref(), &[]);
+                        pass.draw(0..index_count * chunk.size.edge_count, 0..1);
+                    }
+                    DrawVertices::Attributes(pipeline) => {
+                        let crate::mesh_buffers::EdgeSource::Replicated { vertices } =
+                            &chunk.source
+                        else {
+                            continue;
+                        };
+                        pass.set_pipeline(pipeline);
+                        pass.set_bind_group(2, &part.edges, &[]);
+                        pass.set_vertex_buffer(0, vertices.slice(..));
+                        self.attribute_strokes(pass, draw.kind, chunk.size.edge_count);
+                    }
+                }
+            }
+        }
+    }
+
+    /// What was expanded, then the rest of the list.
+    fn listed_strokes(
+        &self,
+        pass: &mut wgpu::RenderPass,
+        part: &ObjectPart,
+        draw: &PreparedDraw,
+        index: usize,
+        [expanded, listed]: [&wgpu::RenderPipeline; 2],
+    ) {
+        let Some(lists) = &part.lists else { return };
+        let arguments = (index * size_of::<DrawArguments>()) as u64;
+        pass.set_pipeline(expanded);
+        pass.set_vertex_buffer(0, lists.view.vertices[index].slice(..));
+        self.renderer.set_indices(pass, IndexKey::Expanded(draw.kind));
+        pass.draw_indexed_indirect(&lists.view.draws, arguments);
+        pass.set_pipeline(listed);
+        pass.set_bind_group(2, &part.edges, &[]);
+        pass.set_bind_group(3, &lists.listed, &[]);
+        pass.draw_indirect(&lists.view.draws, arguments + REST_OFFSET);
+    }
+
+    /// The paper's passes: all quads, then all ends, a triangle of each at a time.
+    fn attribute_strokes(&self, pass: &mut wgpu::RenderPass, kind: LineKind, edge_count: u32) {
+        let key = if kind == LineKind::Thin { IndexKey::Lines } else { IndexKey::Quads };
+        let per_edge = edgemesh::index::to_u32(key.pattern().0.len());
+        self.renderer.set_indices(pass, key);
+        pass.draw_indexed(0..per_edge * edge_count, 0, 0..1);
+        let parts = edgemesh::index::to_u32(kind.indices().len() / 3).saturating_sub(2);
+        if parts > 0 {
+            self.renderer.set_indices(pass, IndexKey::Ends);
+            pass.draw_indexed(0..3 * edge_count, 0, 1..1 + parts);
+        }
+    }
+}
+
+/// Index buffers that all meshes share.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+enum IndexKey {
+    /// Vertices that were expanded.
+    Expanded(LineKind),
+    /// Of four vertices an edge the first two.
+    Lines,
+    /// The quads of four vertices an edge.
+    Quads,
+    /// One triangle of an end from four vertices an edge.
+    Ends,
+}
+
+impl IndexKey {
+    fn of(draw: &PreparedDraw) -> Vec<Self> {
+        match &draw.vertices {
+            DrawVertices::Lists { .. } => vec![Self::Expanded(draw.kind)],
+            DrawVertices::All(_) => Vec::new(),
+            DrawVertices::Attributes(_) => vec![Self::Lines, Self::Quads, Self::Ends],
+        }
+    }
+
+    /// The indices of the first edge, and how many vertices an edge has.
+    fn pattern(self) -> (Vec<u32>, u32) {
+        match self {
+            Self::Expanded(kind) => (kind.indices(), kind.vertex_count()),
+            Self::Lines => (vec![0, 1], 4),
+            Self::Quads => (vec![0, 1, 2, 0, 2, 3], 4),
+            Self::Ends => (vec![0, 1, 2], 4),
+        }
+    }
+}
+
+#[derive(Debug)]
+struct IndexBuffer {
+    count: u32,
+    buffer: wgpu::Buffer,
+}
+
+impl IndexBuffer {
+    fn new(device: &wgpu::Device, key: IndexKey, count: u32) -> Self {
+        let (pattern, stride) = key.pattern();
+        let of_edge = |edge: u32| pattern.iter().map(move |&vertex| vertex + stride * edge);
+        let indices: Vec<u32> = (0..count.max(1)).flat_map(of_edge).collect();
+        let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("stroke indices"),
+            contents: bytemuck::cast_slice(&indices),
+            usage: wgpu::BufferUsages::INDEX,
+        });
+        Self { count, buffer }
     }
 }

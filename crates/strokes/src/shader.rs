@@ -12,6 +12,8 @@ use std::fmt;
 
 use thiserror::Error;
 
+use crate::mesh_buffers::Layout;
+
 macro_rules! embedded {
     ($path:literal) => {
         ($path, include_str!(concat!("../../../shaders/", $path)))
@@ -19,18 +21,37 @@ macro_rules! embedded {
 }
 /// The shaders that the crate carries, path from `shaders/` and text.
 pub const EMBEDDED: &[(&str, &str)] = &[
+    embedded!("common/draw_arguments.wgsl"),
+    embedded!("common/edge_geometry.wgsl"),
+    embedded!("common/edges_indexed.wgsl"),
+    embedded!("common/edges_replicated.wgsl"),
+    embedded!("common/edges_replicated_16.wgsl"),
+    embedded!("common/faces_indexed.wgsl"),
+    embedded!("common/faces_planes.wgsl"),
+    embedded!("common/faces_replicated.wgsl"),
     embedded!("common/facing.wgsl"),
     embedded!("common/feature.wgsl"),
     embedded!("common/frame.wgsl"),
     embedded!("common/mesh.wgsl"),
+    embedded!("common/normal_cone.wgsl"),
+    embedded!("common/replicated_corner.wgsl"),
     embedded!("common/spine.wgsl"),
     embedded!("common/stroke_cap.wgsl"),
+    embedded!("common/stroke_classified.wgsl"),
+    embedded!("common/stroke_ink.wgsl"),
     embedded!("common/stroke_quad.wgsl"),
+    embedded!("common/stroke_segment.wgsl"),
+    embedded!("common/stroke_style.wgsl"),
     embedded!("common/stroke_vertex.wgsl"),
     embedded!("detect_edges.wgsl"),
     embedded!("detect_faces.wgsl"),
+    embedded!("expand_strokes.wgsl"),
     embedded!("fill.wgsl"),
-    embedded!("stroke.wgsl"),
+    embedded!("stroke_all.wgsl"),
+    embedded!("stroke_expanded.wgsl"),
+    embedded!("stroke_listed.wgsl"),
+    embedded!("stroke_replicated.wgsl"),
+    embedded!("stroke_replicated_16.wgsl"),
 ];
 
 /// A shader module's text, joined from its files.
@@ -80,13 +101,21 @@ impl ShaderSource {
         Ok(source)
     }
 
-    /// Joins an embedded shader.
+    /// Joins an embedded shader, with the edges of the indexed layout.
     ///
     /// # Errors
     /// As [`Self::resolve`]; a test resolves them all, so this does not happen
     /// to a released crate.
     pub fn embedded(root: &str) -> Result<Self, ShaderError> {
         Self::resolve(root, &embedded_text)
+    }
+
+    /// Joins an embedded shader for edges in `layout`.
+    ///
+    /// # Errors
+    /// As [`Self::embedded`].
+    pub fn embedded_for(root: &str, layout: Layout) -> Result<Self, ShaderError> {
+        Self::resolve(root, &|path| layout_text(path, layout))
     }
 
     fn append(
@@ -179,9 +208,25 @@ impl ShaderSource {
     }
 }
 
-/// The text of an embedded shader.
+/// The text of an embedded shader; `common/edge_source.wgsl` and
+/// `common/edge_faces.wgsl` are those of the indexed layout.
 #[must_use]
 pub fn embedded_text(path: &str) -> Option<String> {
+    layout_text(path, Layout::Indexed)
+}
+
+/// Shaders that work on edges import `edge_source` for their geometry, and
+/// `edge_faces` for how a view sees their faces, and leave open which file that
+/// is: each layout has its own, with functions of the same names.
+fn layout_text(path: &str, layout: Layout) -> Option<String> {
+    let path = match (path, layout) {
+        ("common/edge_source.wgsl", Layout::Indexed) => "common/edges_indexed.wgsl",
+        ("common/edge_source.wgsl", Layout::Replicated) => "common/edges_replicated.wgsl",
+        ("common/edge_source.wgsl", Layout::Replicated16) => "common/edges_replicated_16.wgsl",
+        ("common/edge_faces.wgsl", Layout::Indexed) => "common/faces_indexed.wgsl",
+        ("common/edge_faces.wgsl", _) => "common/faces_replicated.wgsl",
+        _ => path,
+    };
     EMBEDDED.iter().find(|(known, _)| *known == path).map(|(_, text)| (*text).to_owned())
 }
 

@@ -1,216 +1,293 @@
-//! Strokes: thick quads with caps along the live edges (paper, section 3.3).
+//! Strokes: thin lines, quads with caps, half disks and fins along the edges that
+//! a view draws (paper, sections 3.2 to 3.5).
 //!
-//! One instance an edge, 12 vertices each, all pulled from storage buffers by
-//! index; the vertex shader places them in pixels after its own clip and divide.
-//! The draw is indirect: how many edges are live is known to the GPU alone.
+//! Their vertices come from one of four places:
 //!
-//! Rejected: the paper's three passes over one index array (quads, start caps,
-//! finish caps), which repeat the projection three times; instancing of
-//! four-vertex quads from replicated records, which ran slowest of all.
+//! | source | what the vertex shader does |
+//! |---|---|
+//! | expanded | hands on what the expansion worked out |
+//! | listed | works it out for the edges of the live list that found no room there |
+//! | all | the paper's path: decides for every edge, drawn or not, by its index |
+//! | attributes | the paper's path and layouts: from four vertices an edge, in passes for the quad and its ends |
+//!
+//! All of them call the same functions, so they draw the same picture. What is
+//! hidden is drawn by turning the depth test around (section 3.5); a silhouette
+//! where the stencil is not that of its own object (section 3.4; step 4 of the
+//! printed list keeps what the text means to suppress).
 //!
 //! ```text
-//!        8                         11
-//!      . |  5 ----------------- 4  | .
-//!    7---6  .                   .  9--10
+//!        6                          9
+//!      . |  3 ----------------- 2   | .
+//!    5---4  .                   .   7--8
 //!           0 ----------------- 1
 //! ```
 
 use bytemuck::{Pod, Zeroable};
-use wgpu::ShaderStages;
+use edgemesh::index::to_u32;
+use edgemesh::oracle::feature::ClassTable;
+use edgemesh::oracle::stroke_segment::LineKind;
+use wgpu::{CompareFunction, StencilFaceState, StencilOperation};
 
 use crate::brush::{Brush, brush_sampler};
-use crate::detect::bind_buffers;
-use crate::frame::{storage_entry, uniform_buffer, uniform_entry};
+use crate::frame::uniform_buffer;
 use crate::gpu::Gpu;
-use crate::mesh_buffers::MeshBuffers;
+use crate::look::{StyledDraw, Visibility, Width};
+use crate::mesh_buffers::Layout;
 use crate::shader::{ShaderError, ShaderSource};
-use crate::targets::{COLOR_FORMAT, DEPTH_FORMAT};
+use crate::stroke_layouts::StrokeLayouts;
+use crate::targets::TargetFormats;
 
-/// What all strokes of a draw share. WGSL twin: `shaders/stroke.wgsl`.
+/// What all strokes of a draw share. WGSL twin:
+/// `shaders/common/stroke_style.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct StrokeUniform {
     /// Premultiplied colour.
     pub color: [f32; 4],
-    /// Width in pixels.
-    pub width_px: f32,
+    /// Distances where strokes begin to fade and where they are gone; equal for
+    /// never.
+    pub fade: [f32; 2],
+    /// Width in pixels, or in units of the world.
+    pub width: f32,
     /// Length of the brush over its height.
     pub brush_aspect: f32,
+    /// A [`LineKind`].
+    pub kind: u32,
+    /// A [`edgemesh::oracle::stroke_quad::Placement`].
+    pub placement: u32,
+    /// A [`edgemesh::oracle::stroke_segment::Parameterization`].
+    pub parameterization: u32,
+    /// 1 where the width is in units of the world.
+    pub is_world_width: u32,
+    /// The layer whose edges are drawn.
+    pub layer: u32,
+    /// The draw's place among all.
+    pub draw_index: u32,
+    /// Indices an edge.
+    pub index_count: u32,
+    /// 1 where edges that their own solid hides are drawn.
+    pub shows_hidden: u32,
+    /// The classes, for vertex shaders that detect.
+    pub classes: ClassTable,
     /// Unused.
-    pub padding: [f32; 2],
+    pub padding: [u32; 3],
 }
 
-/// How strokes look.
-#[derive(Debug, Clone)]
-pub struct StrokeStyle {
-    /// Premultiplied colour.
-    pub color: [f32; 4],
-    /// Width in pixels.
-    pub width_px: f32,
-    /// The brush, or `None` for solid ink.
-    pub brush: Option<Brush>,
-}
-
-/// The pipeline with its style.
-#[derive(Debug)]
-pub struct StrokePipeline {
-    pipeline: wgpu::RenderPipeline,
-    draw_layout: wgpu::BindGroupLayout,
-    pass_group: wgpu::BindGroup,
-}
-
-/// What strokes need of one mesh.
-#[derive(Debug)]
-pub struct StrokeDraw {
-    draw_group: wgpu::BindGroup,
-}
-
-impl StrokePipeline {
-    /// Builds the pipeline for `style`.
-    ///
-    /// # Errors
-    /// Where the shader cannot be put together.
-    pub fn new(
-        gpu: &Gpu,
-        frame_layout: &wgpu::BindGroupLayout,
-        samples: u32,
-        style: &StrokeStyle,
-    ) -> Result<Self, ShaderError> {
-        let device = &gpu.device;
-        let pass_layout = pass_layout(device);
-        let vertex = ShaderStages::VERTEX;
-        let draw_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("stroke draw"),
-            entries: &[0, 1, 2, 3, 4, 5].map(|binding| storage_entry(binding, vertex, true)),
-        });
-        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("stroke"),
-            bind_group_layouts: &[Some(frame_layout), Some(&pass_layout), Some(&draw_layout)],
-            immediate_size: 0,
-        });
-        let module = ShaderSource::embedded("stroke.wgsl")?.module(device, "stroke");
-        let pipeline = stroke_pipeline(device, &layout, &module, samples, style.brush.is_some());
-        Ok(Self { pipeline, draw_layout, pass_group: pass_group(gpu, &pass_layout, style) })
-    }
-
-    /// Prepares one mesh.
-    #[must_use]
-    pub fn draw(&self, device: &wgpu::Device, mesh: &MeshBuffers) -> StrokeDraw {
-        let buffers = [
-            &mesh.positions,
-            &mesh.normals,
-            &mesh.records,
-            &mesh.live,
-            &mesh.triangles,
-            &mesh.planes,
-        ];
-        StrokeDraw { draw_group: bind_buffers(device, "stroke", &self.draw_layout, &buffers) }
-    }
-
-    /// Sets the pipeline and its style.
-    pub fn bind(&self, pass: &mut wgpu::RenderPass) {
-        pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(1, &self.pass_group, &[]);
-    }
-
-    /// Draws the live edges of one mesh; after [`Self::bind`], `@group(0)` must
-    /// be the frame.
-    pub fn record(&self, pass: &mut wgpu::RenderPass, mesh: &MeshBuffers, draw: &StrokeDraw) {
-        pass.set_bind_group(2, &draw.draw_group, &[]);
-        pass.draw_indirect(&mesh.tally, 0);
+impl StrokeUniform {
+    /// The uniform of the draw with this number.
+    pub(crate) fn new(draw: &StyledDraw, draw_index: usize, table: &ClassTable) -> Self {
+        let style = &draw.style;
+        let (width, is_world_width) = match style.width {
+            Width::Pixels(width) => (width, 0),
+            Width::World(width) => (width, 1),
+        };
+        Self {
+            color: style.color,
+            fade: style.fade.unwrap_or_default(),
+            width,
+            brush_aspect: style.brush.as_ref().map_or(1.0, Brush::aspect),
+            kind: style.kind as u32,
+            placement: style.placement as u32,
+            parameterization: style.parameterization as u32,
+            is_world_width,
+            layer: draw.layer,
+            draw_index: to_u32(draw_index),
+            index_count: to_u32(style.kind.indices().len()),
+            shows_hidden: u32::from(draw.visibility == Visibility::Hidden),
+            classes: *table,
+            padding: [0; 3],
+        }
     }
 }
 
-fn pass_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: ShaderStages::FRAGMENT,
-        ty,
-        count: None,
-    };
-    let texture = wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable: true },
-        view_dimension: wgpu::TextureViewDimension::D2,
-        multisampled: false,
-    };
-    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("stroke pass"),
-        entries: &[
-            uniform_entry(0, ShaderStages::VERTEX_FRAGMENT),
-            entry(1, texture),
-            entry(2, sampler),
-        ],
-    })
-}
-
-fn pass_group(gpu: &Gpu, layout: &wgpu::BindGroupLayout, style: &StrokeStyle) -> wgpu::BindGroup {
+/// The bind group of a style.
+pub(crate) fn style_group(
+    gpu: &Gpu,
+    layouts: &StrokeLayouts,
+    draw: &StyledDraw,
+    draw_index: usize,
+    table: &ClassTable,
+) -> wgpu::BindGroup {
+    let device = &gpu.device;
     let solid = Brush::solid();
-    let brush = style.brush.as_ref().unwrap_or(&solid);
-    let uniform = StrokeUniform {
-        color: style.color,
-        width_px: style.width_px,
-        brush_aspect: brush.aspect(),
-        padding: [0.0; 2],
-    };
-    let uniform = uniform_buffer(&gpu.device, "stroke", &uniform);
-    let texture = brush.upload(&gpu.device, &gpu.queue);
-    let sampler = brush_sampler(&gpu.device);
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("stroke pass"),
-        layout,
-        entries: &[
-            wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() },
-            wgpu::BindGroupEntry {
-                binding: 1,
-                resource: wgpu::BindingResource::TextureView(&texture),
-            },
-            wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&sampler) },
-        ],
+    let brush = draw.style.brush.as_ref().unwrap_or(&solid);
+    let texture = brush.upload(device, &gpu.queue);
+    let sampler = brush_sampler(device);
+    let uniform = StrokeUniform::new(draw, draw_index, table);
+    let uniform = uniform_buffer(device, "stroke style", &uniform);
+    let resources = [
+        uniform.as_entire_binding(),
+        wgpu::BindingResource::TextureView(&texture),
+        wgpu::BindingResource::Sampler(&sampler),
+    ];
+    let entries: Vec<wgpu::BindGroupEntry> = (0..)
+        .zip(resources)
+        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
+        .collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("stroke style"),
+        layout: &layouts.pass,
+        entries: &entries,
     })
 }
 
-fn stroke_pipeline(
+/// Where the vertices of strokes come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum VertexSource {
+    Expanded,
+    Listed,
+    All,
+    Attributes,
+}
+
+/// What tells pipelines of strokes apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct StrokeVariant {
+    pub(crate) source: VertexSource,
+    pub(crate) visibility: Visibility,
+    pub(crate) is_thin: bool,
+    pub(crate) is_textured: bool,
+}
+
+impl StrokeVariant {
+    pub(crate) fn new(source: VertexSource, draw: &StyledDraw) -> Self {
+        Self {
+            source,
+            visibility: draw.visibility,
+            is_thin: draw.style.kind == LineKind::Thin,
+            is_textured: draw.style.brush.is_some(),
+        }
+    }
+
+    const fn shader(self, layout: Layout) -> &'static str {
+        match (self.source, layout) {
+            (VertexSource::Expanded, _) => "stroke_expanded.wgsl",
+            (VertexSource::Listed, _) => "stroke_listed.wgsl",
+            (VertexSource::All, _) => "stroke_all.wgsl",
+            (VertexSource::Attributes, Layout::Replicated16) => "stroke_replicated_16.wgsl",
+            (VertexSource::Attributes, _) => "stroke_replicated.wgsl",
+        }
+    }
+
+    fn groups(self, layouts: &StrokeLayouts) -> [Option<&wgpu::BindGroupLayout>; 4] {
+        match self.source {
+            VertexSource::Expanded => layouts.groups(None, None),
+            VertexSource::Listed => layouts.groups(Some(&layouts.edges), Some(&layouts.listed)),
+            VertexSource::All => layouts.groups(Some(&layouts.edges), Some(&layouts.planes)),
+            VertexSource::Attributes => layouts.groups(Some(&layouts.object), None),
+        }
+    }
+
+    const fn vertex_buffer(self, layout: Layout) -> Option<wgpu::VertexBufferLayout<'static>> {
+        let (array_stride, attributes): (u64, &[wgpu::VertexAttribute]) =
+            match (self.source, layout) {
+                (VertexSource::Expanded, _) => (crate::expand::BYTES_PER_VERTEX as u64, &EXPANDED),
+                (VertexSource::Attributes, Layout::Replicated16) => (40, &REPLICATED_16),
+                (VertexSource::Attributes, _) => (80, &REPLICATED),
+                _ => return None,
+            };
+        let step_mode = wgpu::VertexStepMode::Vertex;
+        Some(wgpu::VertexBufferLayout { array_stride, step_mode, attributes })
+    }
+}
+
+const EXPANDED: [wgpu::VertexAttribute; 3] =
+    wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32, 2 => Unorm16x2];
+
+const REPLICATED: [wgpu::VertexAttribute; 8] = wgpu::vertex_attr_array![
+    0 => Float32x3, 1 => Float32x3, 2 => Float32x3, 3 => Float32x3,
+    4 => Float32x3, 5 => Float32x3, 6 => Float32, 7 => Uint32
+];
+
+const REPLICATED_16: [wgpu::VertexAttribute; 6] = wgpu::vertex_attr_array![
+    0 => Sint16x4, 1 => Sint16x4, 2 => Sint16x4, 3 => Sint16x4, 4 => Sint16x2, 5 => Uint8x4
+];
+
+/// Builds the pipeline of a variant.
+pub(crate) fn stroke_pipeline(
     device: &wgpu::Device,
-    layout: &wgpu::PipelineLayout,
-    module: &wgpu::ShaderModule,
-    samples: u32,
-    is_textured: bool,
-) -> wgpu::RenderPipeline {
-    let constants = [("IS_TEXTURED", f64::from(u8::from(is_textured)))];
+    layouts: &StrokeLayouts,
+    layout: Layout,
+    formats: &TargetFormats,
+    variant: StrokeVariant,
+) -> Result<wgpu::RenderPipeline, ShaderError> {
+    let shader = variant.shader(layout);
+    let module = ShaderSource::embedded_for(shader, layout)?.module(device, shader);
+    let constants = [("IS_TEXTURED", f64::from(u8::from(variant.is_textured)))];
     let compilation_options =
         wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("stroke"),
-        layout: Some(layout),
+    let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(shader),
+        bind_group_layouts: trimmed(&variant.groups(layouts)),
+        immediate_size: 0,
+    });
+    let buffers = [variant.vertex_buffer(layout)];
+    let topology = if variant.is_thin {
+        wgpu::PrimitiveTopology::LineList
+    } else {
+        wgpu::PrimitiveTopology::TriangleList
+    };
+    Ok(device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(shader),
+        layout: Some(&pipeline_layout),
         vertex: wgpu::VertexState {
-            module,
+            module: &module,
             entry_point: Some("stroke_vertices"),
-            compilation_options: compilation_options.clone(),
-            buffers: &[],
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: if buffers[0].is_some() { &buffers } else { &[] },
         },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH_FORMAT,
-            // Strokes hide nothing; they lie over each other in the order of
-            // the records.
-            depth_write_enabled: Some(false),
-            depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
-            stencil: wgpu::StencilState::default(),
-            bias: wgpu::DepthBiasState::default(),
-        }),
-        multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
+        primitive: wgpu::PrimitiveState { topology, ..wgpu::PrimitiveState::default() },
+        depth_stencil: Some(depth_stencil(formats, variant.visibility)),
+        multisample: wgpu::MultisampleState { count: formats.samples, ..Default::default() },
         fragment: Some(wgpu::FragmentState {
-            module,
+            module: &module,
             entry_point: Some("stroke_fragment"),
             compilation_options,
             targets: &[Some(wgpu::ColorTargetState {
-                format: COLOR_FORMAT,
+                format: formats.color,
                 blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
                 write_mask: wgpu::ColorWrites::ALL,
             })],
         }),
         multiview_mask: None,
         cache: None,
-    })
+    }))
+}
+
+/// Without the groups at the end that there are none of.
+fn trimmed<'a, 'b>(
+    groups: &'b [Option<&'a wgpu::BindGroupLayout>],
+) -> &'b [Option<&'a wgpu::BindGroupLayout>] {
+    let used = groups.iter().rposition(Option::is_some).map_or(0, |last| last + 1);
+    &groups[..used]
+}
+
+fn depth_stencil(formats: &TargetFormats, visibility: Visibility) -> wgpu::DepthStencilState {
+    // Depth is reversed. What is behind anything is hidden, and what is not is
+    // visible: no sample is in both or in neither.
+    let compare = match visibility {
+        Visibility::Hidden => CompareFunction::Less,
+        Visibility::Visible | Visibility::Silhouette => CompareFunction::GreaterEqual,
+    };
+    let face = StencilFaceState {
+        compare: CompareFunction::NotEqual,
+        fail_op: StencilOperation::Keep,
+        depth_fail_op: StencilOperation::Keep,
+        pass_op: StencilOperation::Keep,
+    };
+    let stencil = match visibility {
+        Visibility::Silhouette => {
+            wgpu::StencilState { front: face, back: face, read_mask: 0xff, write_mask: 0 }
+        }
+        _ => wgpu::StencilState::default(),
+    };
+    wgpu::DepthStencilState {
+        format: formats.depth,
+        // Strokes hide nothing; they lie over each other in the order of the
+        // records.
+        depth_write_enabled: Some(false),
+        depth_compare: Some(compare),
+        stencil,
+        bias: wgpu::DepthBiasState::default(),
+    }
 }

@@ -4,19 +4,58 @@
 //! happens between those values, as in SVG and in drawing programs: half a pixel
 //! of black ink on white paper is the middle grey that one expects.
 
-/// The format of the picture.
+use glam::Vec2;
+
+use crate::silhouette::NO_OBJECT;
+
+/// The format of pictures.
 pub const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-/// The format of depth: reversed, 1 near, 0 far.
-pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+/// The formats and the samples that pipelines and targets must agree on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TargetFormats {
+    /// Of the picture: [`COLOR_FORMAT`], or floats where a picture is to be
+    /// worked on further.
+    pub color: wgpu::TextureFormat,
+    /// Of the depth: reversed, 1 near, 0 far.
+    pub depth: wgpu::TextureFormat,
+    /// Samples a pixel, 1 or 4.
+    pub samples: u32,
+}
+
+impl TargetFormats {
+    /// The formats for looks without silhouettes.
+    #[must_use]
+    pub const fn new(samples: u32) -> Self {
+        Self { color: COLOR_FORMAT, depth: wgpu::TextureFormat::Depth32Float, samples }
+    }
+
+    /// The formats for looks with silhouettes, which need a stencil. Devices
+    /// without one beside 32 bits of depth have 24.
+    #[must_use]
+    pub fn with_stencil(device: &wgpu::Device, samples: u32) -> Self {
+        let is_exact = device.features().contains(wgpu::Features::DEPTH32FLOAT_STENCIL8);
+        let depth = if is_exact {
+            wgpu::TextureFormat::Depth32FloatStencil8
+        } else {
+            wgpu::TextureFormat::Depth24PlusStencil8
+        };
+        Self { depth, ..Self::new(samples) }
+    }
+
+    /// Whether there is a stencil beside the depth.
+    #[must_use]
+    pub fn has_stencil(&self) -> bool {
+        self.depth.has_stencil_aspect()
+    }
+}
 
 /// Colour and depth of one size and sample count.
 #[derive(Debug)]
 pub struct Targets {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// Samples a pixel, 1 or 4.
-    pub samples: u32,
+    formats: TargetFormats,
     picture: wgpu::Texture,
     picture_view: wgpu::TextureView,
     /// The texture with several samples, where there are several.
@@ -27,7 +66,8 @@ pub struct Targets {
 impl Targets {
     /// Makes the textures; `size` must not be zero nor beyond the device's limit.
     #[must_use]
-    pub fn new(device: &wgpu::Device, size: [u32; 2], samples: u32) -> Self {
+    pub fn new(device: &wgpu::Device, size: [u32; 2], formats: TargetFormats) -> Self {
+        let samples = formats.samples;
         let texture = |label, format, sample_count, usage| {
             device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
@@ -44,12 +84,12 @@ impl Targets {
             |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let picture =
-            texture("picture", COLOR_FORMAT, 1, attachment | wgpu::TextureUsages::COPY_SRC);
-        let sampled = (samples > 1).then(|| texture("samples", COLOR_FORMAT, samples, attachment));
-        let depth = texture("depth", DEPTH_FORMAT, samples, attachment);
+            texture("picture", formats.color, 1, attachment | wgpu::TextureUsages::COPY_SRC);
+        let sampled = (samples > 1).then(|| texture("samples", formats.color, samples, attachment));
+        let depth = texture("depth", formats.depth, samples, attachment);
         Self {
             size,
-            samples,
+            formats,
             picture_view: view(&picture),
             sampled_view: sampled.as_ref().map(view),
             depth_view: view(&depth),
@@ -65,6 +105,13 @@ impl Targets {
         // drawn into the picture itself.
         let color_samples = if samples > 1 { samples as u64 } else { 0 };
         pixels * 4 * (1 + color_samples + samples as u64)
+    }
+
+    /// The size as pipelines want it.
+    #[must_use]
+    #[expect(clippy::cast_precision_loss, reason = "texture sizes are small")]
+    pub const fn viewport_px(&self) -> Vec2 {
+        Vec2::new(self.size[0] as f32, self.size[1] as f32)
     }
 
     /// The finished picture.
@@ -92,16 +139,34 @@ impl Targets {
         }
     }
 
-    /// The depth attachment.
-    pub(crate) fn depth_attachment(
+    /// Depth and stencil, cleared to nothing drawn.
+    pub(crate) fn cleared_depth(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+        // Reversed depth: 0 is the far plane.
+        self.depth(wgpu::LoadOp::Clear(0.0), wgpu::LoadOp::Clear(NO_OBJECT), wgpu::StoreOp::Store)
+    }
+
+    /// Depth and stencil as they are; kept for a pass behind this one, or not.
+    pub(crate) fn kept_depth(
         &self,
-        load: wgpu::LoadOp<f32>,
+        clears_stencil: bool,
         store: wgpu::StoreOp,
     ) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+        let stencil =
+            if clears_stencil { wgpu::LoadOp::Clear(NO_OBJECT) } else { wgpu::LoadOp::Load };
+        self.depth(wgpu::LoadOp::Load, stencil, store)
+    }
+
+    fn depth(
+        &self,
+        load: wgpu::LoadOp<f32>,
+        load_stencil: wgpu::LoadOp<u32>,
+        store: wgpu::StoreOp,
+    ) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+        let stencil_ops = wgpu::Operations { load: load_stencil, store };
         wgpu::RenderPassDepthStencilAttachment {
             view: &self.depth_view,
             depth_ops: Some(wgpu::Operations { load, store }),
-            stencil_ops: None,
+            stencil_ops: self.formats.has_stencil().then_some(stencil_ops),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! A scene of edge meshes to pictures, without a window.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Instant;
 
 use edgemesh::build::Frame;
@@ -8,25 +9,41 @@ use edgemesh::camera::Camera;
 use edgemesh::command::input::{InputOptions, Loaded};
 use edgemesh::command::{ExitStatus, Failure};
 use edgemesh::edge_mesh::Bounds;
-use glam::Vec2;
+use glam::DMat4;
 use image::RgbaImage;
-use strokes::frame::FrameUniform;
 use strokes::gpu::{Gpu, GpuError, ResourceError};
 use strokes::gpu_time::GpuTimer;
-use strokes::mesh_buffers::{MeshBuffers, Tally};
-use strokes::readback::{ReadbackError, read_buffer, read_picture};
-use strokes::renderer::{Look, MeshDraw, PASS_NAMES, Renderer};
-use strokes::targets::Targets;
+use strokes::look::Look;
+use strokes::mesh_buffers::{Layout, MeshBuffers};
+use strokes::object::Object;
+use strokes::readback::{ReadbackError, read_picture};
+use strokes::renderer::{DetectionPath, PASS_NAMES, Renderer, RendererOptions};
+use strokes::shader::ShaderError;
+use strokes::targets::{TargetFormats, Targets};
+use strokes::view_buffers::Tally;
 
 /// Models in memory.
 #[derive(Debug)]
 pub struct Scene {
     /// Each model with its name and what was repaired in it.
     pub models: Vec<Loaded>,
+    /// Where they stand, and how they look.
+    pub objects: Vec<PlacedObject>,
     /// The box around all of them.
     pub bounds: Bounds,
     /// Where the scene lies in the files, the same for all models.
     pub frame: Frame,
+}
+
+/// A model in its place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlacedObject {
+    /// Index into [`Scene::models`].
+    pub model: usize,
+    /// Index into the looks that a scene is drawn with.
+    pub look: usize,
+    /// Takes the model to the scene.
+    pub world_from_object: DMat4,
 }
 
 impl Scene {
@@ -38,16 +55,41 @@ impl Scene {
         Ok(Self::of(input.load_scene(paths, is_quiet)?))
     }
 
-    /// A scene of models that are in one frame.
+    /// A scene of models that are in one frame, each once where it is.
     #[must_use]
     pub fn of(models: Vec<Loaded>) -> Self {
-        let meshes = || models.iter().map(|model| &model.mesh);
-        let mut boxes = meshes().filter(|mesh| !mesh.positions.is_empty()).map(|mesh| mesh.bounds);
-        let first = boxes.next().unwrap_or_default();
-        let bounds = boxes.fold(first, |bounds, other| bounds.union(&other));
-        let frame = meshes().next().map(|mesh| mesh.frame).unwrap_or_default();
-        Self { models, bounds, frame }
+        let in_place = |model| PlacedObject { model, look: 0, world_from_object: DMat4::IDENTITY };
+        let objects = (0..models.len()).map(in_place).collect();
+        Self::placed(models, objects)
     }
+
+    /// A scene of models that are in one frame, in their places.
+    #[must_use]
+    pub fn placed(models: Vec<Loaded>, objects: Vec<PlacedObject>) -> Self {
+        let boxes = objects.iter().filter_map(|object| {
+            let mesh = &models[object.model].mesh;
+            let has_vertices = !mesh.positions.is_empty();
+            has_vertices.then(|| mesh.bounds.transformed(&object.world_from_object))
+        });
+        let bounds = boxes.reduce(|bounds, other| bounds.union(&other)).unwrap_or_default();
+        let frame = models.first().map(|model| model.mesh.frame).unwrap_or_default();
+        Self { models, objects, bounds, frame }
+    }
+}
+
+/// How a scene is drawn.
+#[derive(Debug, Clone)]
+pub struct PictureOptions {
+    /// Premultiplied colour behind everything.
+    pub background: [f64; 4],
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Samples a pixel, 1 or 4.
+    pub samples: u32,
+    /// How the edges lie in memory.
+    pub layout: Layout,
+    /// Where features are detected.
+    pub path: DetectionPath,
 }
 
 /// A scene on the GPU with everything that its pictures need.
@@ -56,16 +98,18 @@ pub struct PictureRenderer<'a> {
     gpu: &'a Gpu,
     renderer: Renderer,
     targets: Targets,
-    meshes: Vec<MeshDraw>,
+    objects: Vec<Object>,
     bounds: Bounds,
+    background: [f64; 4],
+    path: DetectionPath,
     timer: Option<GpuTimer>,
 }
 
 /// What a frame cost and drew.
 #[derive(Debug, Clone)]
 pub struct FrameStatistics {
-    /// The counts of all meshes, summed.
-    pub tally: Tally,
+    /// The counts of all meshes, summed; none where vertex shaders detect.
+    pub tally: Option<Tally>,
     /// Each pass with its milliseconds on the GPU, where the adapter has
     /// timestamps.
     pub passes: Vec<(&'static str, Option<f64>)>,
@@ -74,7 +118,7 @@ pub struct FrameStatistics {
 }
 
 impl<'a> PictureRenderer<'a> {
-    /// Uploads the scene and builds the pipelines of `look`.
+    /// Uploads the scene, each object with its look, and builds the pipelines.
     ///
     /// # Errors
     /// Where the picture or a mesh is too large for the adapter, or a shader is
@@ -82,39 +126,55 @@ impl<'a> PictureRenderer<'a> {
     pub fn new(
         gpu: &'a Gpu,
         scene: &Scene,
-        look: &Look,
-        size: [u32; 2],
-        samples: u32,
+        looks: &[Look],
+        options: &PictureOptions,
     ) -> Result<Self, Failure> {
-        check_size(gpu, size)?;
-        let made = gpu.make(|| Self::make(gpu, scene, look, size, samples));
-        made.map_err(|error| resource_failure(&error, size, samples))?
+        check_size(gpu, options.size)?;
+        let made = gpu.make(|| Self::make(gpu, scene, looks, options));
+        made.map_err(|error| resource_failure(&error, options.size, options.samples))?
     }
 
     fn make(
         gpu: &'a Gpu,
         scene: &Scene,
-        look: &Look,
-        size: [u32; 2],
-        samples: u32,
+        looks: &[Look],
+        options: &PictureOptions,
     ) -> Result<Self, Failure> {
-        let renderer = Renderer::new(gpu, look, samples)
-            .map_err(|error| Failure { message: error.to_string(), status: ExitStatus::Shader })?;
-        let meshes = scene
-            .models
-            .iter()
-            .map(|model| {
-                let buffers = MeshBuffers::new(&gpu.device, &model.mesh)
-                    .map_err(|error| Failure::fault(format!("{}: {error}", model.name)))?;
-                Ok(renderer.mesh_draw(&gpu.device, buffers))
-            })
-            .collect::<Result<Vec<_>, Failure>>()?;
+        let shader_failure =
+            |error: ShaderError| Failure { message: error.to_string(), status: ExitStatus::Shader };
+        let formats = if looks.iter().any(|look| look.silhouette.is_some()) {
+            TargetFormats::with_stencil(&gpu.device, options.samples)
+        } else {
+            TargetFormats::new(options.samples)
+        };
+        let PictureOptions { layout, path, .. } = *options;
+        let mut renderer = Renderer::new(gpu, RendererOptions { layout, path, formats })
+            .map_err(shader_failure)?;
+        let prepared = looks.iter().map(|look| renderer.prepare(gpu, look));
+        let looks = prepared.collect::<Result<Vec<_>, _>>().map_err(shader_failure)?;
+        let meshes = scene.models.iter().map(|model| {
+            let buffers = MeshBuffers::new(&gpu.device, &model.mesh, layout)
+                .map_err(|error| Failure::fault(format!("{}: {error}", model.name)))?;
+            Ok(Arc::new(buffers))
+        });
+        let meshes = meshes.collect::<Result<Vec<_>, Failure>>()?;
+        let objects = scene.objects.iter().map(|placed| {
+            let mut object = renderer.object(
+                gpu,
+                &meshes[placed.model],
+                &looks[placed.look.min(looks.len() - 1)],
+            );
+            object.world_from_object = placed.world_from_object;
+            object
+        });
         Ok(Self {
+            objects: objects.collect(),
             gpu,
             renderer,
-            targets: Targets::new(&gpu.device, size, samples),
-            meshes,
+            targets: Targets::new(&gpu.device, options.size, formats),
             bounds: scene.bounds,
+            background: options.background,
+            path,
             timer: GpuTimer::new(gpu, edgemesh::index::to_u32(PASS_NAMES.len())),
         })
     }
@@ -123,7 +183,7 @@ impl<'a> PictureRenderer<'a> {
     ///
     /// # Errors
     /// Where the device is lost.
-    pub fn render(&self, camera: &Camera) -> Result<(RgbaImage, FrameStatistics), Failure> {
+    pub fn render(&mut self, camera: &Camera) -> Result<(RgbaImage, FrameStatistics), Failure> {
         let started = Instant::now();
         self.submit(camera);
         self.gpu
@@ -137,36 +197,27 @@ impl<'a> PictureRenderer<'a> {
         Ok((picture, statistics))
     }
 
-    fn submit(&self, camera: &Camera) {
+    fn submit(&mut self, camera: &Camera) {
         let [width, height] = self.targets.size;
-        let aspect = f64::from(width) / f64::from(height);
-        #[expect(clippy::cast_precision_loss, reason = "texture sizes are small")]
-        let viewport_px = Vec2::new(width as f32, height as f32);
-        let view = FrameUniform::new(&camera.view(&self.bounds, aspect), viewport_px);
-        self.renderer.render(self.gpu, &self.targets, &view, &self.meshes, self.timer.as_ref());
+        let view = camera.view(&self.bounds, f64::from(width) / f64::from(height));
+        let timer = self.timer.as_ref();
+        let objects = &mut self.objects;
+        self.renderer.render(self.gpu, &self.targets, &view, self.background, objects, timer);
     }
 
-    fn read_tally(&self) -> Result<Tally, Failure> {
-        let mut sum = Tally::default();
-        for mesh in &self.meshes {
-            let tallies: Vec<Tally> =
-                read_buffer(self.gpu, mesh.buffers.tally(), 1).map_err(lost)?;
-            let Some(tally) = tallies.first() else { continue };
-            sum.instance_count += tally.instance_count;
-            sum.contour += tally.contour;
-            sum.ridge += tally.ridge;
-            sum.valley += tally.valley;
-            sum.boundary += tally.boundary;
-            sum.marked += tally.marked;
-            sum.material += tally.material;
-            sum.smoothing += tally.smoothing;
+    fn read_tally(&self) -> Result<Option<Tally>, Failure> {
+        if self.path == DetectionPath::Vertex {
+            return Ok(None);
         }
-        Ok(sum)
+        let sum = self.objects.iter().try_fold(Tally::default(), |sum, object| {
+            object.read_tally(self.gpu).map(|tally| sum.plus(&tally)).map_err(lost)
+        });
+        sum.map(Some)
     }
 
     fn read_passes(&self) -> Result<Vec<(&'static str, Option<f64>)>, Failure> {
-        let times = self.timer.as_ref().map(|timer| timer.read_ms(self.gpu)).transpose();
-        let times = times.map_err(lost)?.unwrap_or_default();
+        let times = self.timer.as_ref().map(|timer| timer.read(self.gpu)).transpose();
+        let times = times.map_err(lost)?.map_or_else(Vec::new, |times| times.passes_ms);
         let times = times.into_iter().map(Some).chain(std::iter::repeat(None));
         Ok(PASS_NAMES.into_iter().zip(times).collect())
     }

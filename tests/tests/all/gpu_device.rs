@@ -13,6 +13,14 @@ pub(crate) fn gpu() -> &'static Gpu {
     })
 }
 
+/// A device of its own with other limits.
+pub(crate) fn gpu_with_limits(adjust: impl FnOnce(&mut wgpu::Limits)) -> Gpu {
+    match pollster::block_on(gpu::open_with(None, adjust)) {
+        Ok(gpu) => gpu,
+        Err(error) => panic!("the feature 'gpu' needs an adapter: {error}"),
+    }
+}
+
 /// Whether this is the software driver that the goldens were drawn on.
 pub(crate) fn is_pinned_driver() -> bool {
     let info = &gpu().info;

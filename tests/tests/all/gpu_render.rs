@@ -8,8 +8,10 @@ use edgemesh::model::Model;
 use edgemesh::report::Report;
 use glam::DVec3;
 use image::{GrayImage, Luma, RgbaImage};
+use strokes::mesh_buffers::Layout;
+use strokes::renderer::DetectionPath;
 use testkit::compare::Golden;
-use viewer::render::{PictureRenderer, Scene};
+use viewer::render::{PictureOptions, PictureRenderer, Scene};
 use viewer::technique::Technique;
 
 use crate::gpu_device::{gpu, is_pinned_driver};
@@ -30,11 +32,21 @@ pub(crate) fn picture(
     size_px: u32,
     samples: u32,
 ) -> RgbaImage {
-    let (name, report) = ("test".into(), Report::default());
-    let scene = Scene::of(vec![Loaded { name, mesh: mesh.clone(), report }]);
-    let size = [size_px, size_px];
-    let renderer = PictureRenderer::new(gpu(), &scene, &technique.look(), size, samples).unwrap();
+    let options = PictureOptions {
+        background: technique.background(),
+        size: [size_px; 2],
+        samples,
+        layout: Layout::Indexed,
+        path: DetectionPath::Compute,
+    };
+    let look = technique.look(&mesh.frame);
+    let mut renderer = PictureRenderer::new(gpu(), &scene_of(mesh), &[look], &options).unwrap();
     renderer.render(camera).unwrap().0
+}
+
+pub(crate) fn scene_of(mesh: &EdgeMesh) -> Scene {
+    let (name, report) = ("test".into(), Report::default());
+    Scene::of(vec![Loaded { name, mesh: mesh.clone(), report }])
 }
 
 pub(crate) fn own_model(name: &str) -> EdgeMesh {

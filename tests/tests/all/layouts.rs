@@ -4,15 +4,23 @@ use std::collections::BTreeMap;
 use std::mem::offset_of;
 
 use edgemesh::edge_mesh::FacePlane;
-use edgemesh::oracle::feature::LineBits;
+use edgemesh::edge_word::{CONCAVE, CREASE_SHIFT, CREASE_STEPS};
+use edgemesh::oracle::feature::{ClassTable, EdgeClass, LineBits, NO_LAYER};
+use edgemesh::oracle::normal_cone::{CONE_MARGIN, ConeFacing, NormalCone};
 use edgemesh::oracle::spine::{GUARD_BAND, MIN_LENGTH_PX};
-use edgemesh::oracle::stroke_vertex::{EDGE_ON_FACING, LIFTED_FACING, VERTICES_PER_EDGE};
-use edgemesh::record::{EdgeFlags, EdgeRecord};
+use edgemesh::oracle::stroke_cap::DISK_STEPS;
+use edgemesh::oracle::stroke_quad::Placement;
+use edgemesh::oracle::stroke_segment::{EDGE_ON_FACING, LIFTED_FACING, LineKind, Parameterization};
+use edgemesh::oracle::stroke_vertex::{CAP_VERTICES, DISK_VERTICES};
+use edgemesh::record::{EdgeFlags, EdgeRecord, EdgeVertex, EdgeVertex16};
+use strokes::detect::DetectUniform;
 use strokes::fill::FillUniform;
-use strokes::frame::FrameUniform;
-use strokes::mesh_buffers::{EDGES_PER_RUN, MeshUniform, Tally};
+use strokes::frame::{FrameUniform, ObjectUniform};
+use strokes::look::{MAX_DRAWS, MAX_LAYERS};
+use strokes::mesh_buffers::{ChunkUniform, EDGES_PER_RUN};
 use strokes::shader::ShaderSource;
 use strokes::stroke::StrokeUniform;
+use strokes::view_buffers::{DrawArguments, RunState, Tally};
 
 use crate::shaders::shader_files;
 
@@ -32,17 +40,67 @@ macro_rules! layout {
 }
 
 fn rust_layouts() -> BTreeMap<String, Layout> {
+    let mut layouts = scene_layouts();
+    layouts.extend(view_layouts());
+    layouts
+}
+
+/// What a scene and its styles are.
+fn scene_layouts() -> BTreeMap<String, Layout> {
     BTreeMap::from([
-        layout!(FrameUniform { clip_from_world, eye, viewport_px, padding }),
-        layout!(MeshUniform { face_count, edge_count, run_count, padding, box_min, box_max }),
+        layout!(FrameUniform { viewport_px, px_per_unit, padding }),
+        layout!(ObjectUniform {
+            clip_from_object,
+            clip_from_normal,
+            eye,
+            distance,
+            origin_px,
+            mirror,
+            eye_is_outside,
+            center,
+            step
+        }),
+        layout!(ChunkUniform { face_count, edge_count, run_count, capacity }),
         layout!(FacePlane { normal, point }),
+        layout!(NormalCone { center, radius, axis, cosine }),
         layout!(EdgeRecord { v0, v1, face_a, face_b, flags }),
+        layout!(FillUniform { color }),
+        layout!(StrokeUniform {
+            color,
+            fade,
+            width,
+            brush_aspect,
+            kind,
+            placement,
+            parameterization,
+            is_world_width,
+            layer,
+            draw_index,
+            index_count,
+            shows_hidden,
+            classes
+        }),
+    ])
+}
+
+/// What detection makes of a view.
+fn view_layouts() -> BTreeMap<String, Layout> {
+    BTreeMap::from([
+        layout!(DetectUniform {
+            layers,
+            drawn,
+            ridge_steps,
+            valley_steps,
+            keeps_hidden,
+            layer_count,
+            draw_count,
+            padding,
+            draws
+        }),
+        layout!(RunState { marked, solid, live, has_clash, padding }),
         layout!(Tally {
-            vertex_count,
-            instance_count,
-            first_vertex,
-            first_instance,
             contour,
+            stroke_count,
             ridge,
             valley,
             boundary,
@@ -50,8 +108,23 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
             material,
             smoothing
         }),
-        layout!(FillUniform { color }),
-        layout!(StrokeUniform { color, width_px, brush_aspect, padding }),
+        layout!(DrawArguments {
+            index_count,
+            instance_count,
+            first_index,
+            base_vertex,
+            first_instance,
+            groups_x,
+            groups_y,
+            groups_z,
+            vertex_count,
+            rest_instance_count,
+            first_vertex,
+            rest_first_instance,
+            first,
+            expanded,
+            padding
+        }),
     ])
 }
 
@@ -82,6 +155,7 @@ fn struct_in_buffer(
         }
     }
     let naga::TypeInner::Struct { members, span } = &ty.inner else { return None };
+    // Behind the last field Rust has its padding written out.
     let fields = members
         .iter()
         .map(|member| (member.name.clone().unwrap(), member.offset as usize))
@@ -109,17 +183,40 @@ fn constants_are_equal_and_found_on_both_sides() {
     let mut expected = BTreeMap::from([
         ("NONE", u64::from(edgemesh::index::NONE)),
         ("EDGES_PER_RUN", EDGES_PER_RUN.into()),
+        ("MAX_LAYERS", MAX_LAYERS as u64),
+        ("MAX_DRAWS", MAX_DRAWS as u64),
+        ("NO_LAYER", NO_LAYER.into()),
         ("GUARD_BAND", float(GUARD_BAND)),
         ("MIN_LENGTH_PX", float(MIN_LENGTH_PX)),
         ("EDGE_ON_FACING", float(EDGE_ON_FACING)),
         ("LIFTED_FACING", float(LIFTED_FACING)),
-        ("ALWAYS_DRAWN", EdgeFlags::ALWAYS_DRAWN.bits().into()),
-        ("EDGE_INDEX_MASK", edgemesh::index::MAX_INDEX as u64),
+        ("CONE_MARGIN", float(CONE_MARGIN)),
+        ("MIXED", ConeFacing::Mixed as u64),
+        ("ALL_FACE", ConeFacing::AllFace as u64),
+        ("ALL_AWAY", ConeFacing::AllAway as u64),
+        ("CREASE_SHIFT", CREASE_SHIFT.into()),
+        ("CREASE_STEPS", CREASE_STEPS.into()),
+        ("CONCAVE", CONCAVE.into()),
+        ("DISK_STEPS", DISK_STEPS.into()),
+        ("CAP_VERTICES", CAP_VERTICES.into()),
+        ("DISK_VERTICES", DISK_VERTICES.into()),
+        ("CENTRED", Placement::Centred as u64),
+        ("OUTSIDE", Placement::Outside as u64),
+        ("INSIDE", Placement::Inside as u64),
+        ("AUTOMATIC", Placement::Automatic as u64),
+        ("THIN", LineKind::Thin as u64),
+        ("QUAD", LineKind::Quad as u64),
+        ("QUAD_AND_CAPS", LineKind::QuadAndCaps as u64),
+        ("QUAD_AND_DISKS", LineKind::QuadAndDisks as u64),
+        ("FIN", LineKind::Fin as u64),
+        ("OBJECT_SPACE", Parameterization::ObjectSpace as u64),
+        ("SCREEN_SPACE", Parameterization::ScreenSpace as u64),
+        ("EDGE_INDEX_MASK", u64::from(!LineBits::all().bits() | LineBits::DRAWN.bits())),
     ]);
     expected.extend(EdgeFlags::all().iter_names().map(|(name, bits)| (name, bits.bits().into())));
     expected.extend(LineBits::all().iter_names().map(|(name, bits)| (name, bits.bits().into())));
     // Constants of one side only: how the shader works inside.
-    let own = ["BEHIND", "SCAN_WIDTH"];
+    let own = ["BEHIND", "SCAN_WIDTH", "EXPAND_WIDTH", "WORDS_PER_EDGE"];
     let mut found = BTreeMap::new();
     for (path, module) in modules() {
         for (_, constant) in module.constants.iter() {
@@ -127,9 +224,11 @@ fn constants_are_equal_and_found_on_both_sides() {
             if own.contains(&name.as_str()) {
                 continue;
             }
-            let naga::Expression::Literal(literal) = module.global_expressions[constant.init]
-            else {
-                panic!("{path}: {name} is no number")
+            let literal = match module.global_expressions[constant.init] {
+                naga::Expression::Literal(literal) => literal,
+                // DISK_VERTICES is a sum.
+                _ if name == "DISK_VERTICES" => naga::Literal::U32(DISK_VERTICES),
+                _ => panic!("{path}: {name} is no number"),
             };
             let value = match literal {
                 naga::Literal::U32(value) => u64::from(value),
@@ -142,6 +241,44 @@ fn constants_are_equal_and_found_on_both_sides() {
     // EdgeFlags and LineBits overlap with nothing else by name.
     let found: BTreeMap<&str, u64> = found.iter().map(|(name, value)| (&**name, *value)).collect();
     assert_eq!(found, expected);
-    let detect = &shader_files()["detect_edges.wgsl"];
-    assert!(detect.contains(&format!("tally.vertex_count = {VERTICES_PER_EDGE}u;")));
+}
+
+#[test]
+fn classes_have_the_bits_that_the_shader_writes_down() {
+    let text = &shader_files()["common/feature.wgsl"];
+    for class in EdgeClass::ALL.into_iter().skip(1) {
+        let bit = 1_u32 << class as u32;
+        let line = format!("{} {}", class as u32, class.name());
+        assert!(text.contains(&line) && text.contains(&format!("select(0u, {bit}u,")), "{line}");
+    }
+    assert_eq!(size_of::<ClassTable>(), 20, "in the uniform of a style");
+}
+
+/// The words at which shaders find what vertices and records hold.
+#[test]
+fn replicated_layouts_are_read_where_they_are_written() {
+    let words = |field: usize| field / 4;
+    assert_eq!(words(size_of::<EdgeVertex>()) * 4, 80);
+    assert_eq!(words(size_of::<EdgeVertex16>()) * 4, 40);
+    let fields = [
+        offset_of!(EdgeVertex, v0),
+        offset_of!(EdgeVertex, v1),
+        offset_of!(EdgeVertex, v2),
+        offset_of!(EdgeVertex, v3),
+        offset_of!(EdgeVertex, n0),
+        offset_of!(EdgeVertex, n1),
+        offset_of!(EdgeVertex, r),
+        offset_of!(EdgeVertex, corner_and_flags),
+    ];
+    assert_eq!(fields.map(words), [0, 3, 6, 9, 12, 15, 18, 19]);
+    let halves = [
+        offset_of!(EdgeVertex16, v0),
+        offset_of!(EdgeVertex16, v1),
+        offset_of!(EdgeVertex16, v2),
+        offset_of!(EdgeVertex16, v3),
+        offset_of!(EdgeVertex16, n0),
+        offset_of!(EdgeVertex16, n1),
+        offset_of!(EdgeVertex16, corner_and_random),
+    ];
+    assert_eq!(halves.map(|at| at / 2), [0, 3, 6, 9, 12, 15, 18]);
 }

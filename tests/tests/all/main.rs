@@ -10,7 +10,11 @@ mod expectations;
 #[cfg(feature = "gpu")]
 mod gpu_device;
 #[cfg(feature = "gpu")]
+mod gpu_layouts;
+#[cfg(feature = "gpu")]
 mod gpu_render;
+#[cfg(feature = "gpu")]
+mod gpu_scenes;
 #[cfg(feature = "gpu")]
 mod gpu_twin;
 #[cfg(feature = "gpu")]

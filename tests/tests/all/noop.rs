@@ -1,13 +1,25 @@
 //! Pipelines and limits on wgpu's noop device: all of its checks and no GPU.
 
+use std::sync::Arc;
+
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::model::Model;
 use edgemesh::report::Report;
 use strokes::gpu::Gpu;
-use strokes::mesh_buffers::MeshBuffers;
-use strokes::renderer::Renderer;
+use strokes::mesh_buffers::{Layout, MeshBuffers};
+use strokes::renderer::{DetectionPath, Renderer, RendererOptions};
+use strokes::targets::TargetFormats;
 use viewer::technique::{TECHNIQUES, Technique};
+
+/// All ways in which edges lie in memory and are detected.
+pub(crate) fn layouts_and_paths() -> [(Layout, DetectionPath); 6] {
+    let layouts = [Layout::Indexed, Layout::Replicated, Layout::Replicated16];
+    let both = layouts
+        .map(|layout| [DetectionPath::Compute, DetectionPath::Vertex].map(|path| (layout, path)));
+    let [[a, b], [c, d], [e, f]] = both;
+    [a, b, c, d, e, f]
+}
 
 fn noop(limits: wgpu::Limits) -> Gpu {
     let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor {
@@ -28,10 +40,19 @@ fn every_technique_builds_its_pipelines_within_the_default_limits() {
     let gpu = noop(wgpu::Limits::default());
     for (name, _) in TECHNIQUES {
         for samples in [1, 4] {
-            let look = Technique::by_name(name).unwrap().look();
-            let renderer = Renderer::new(&gpu, &look, samples).unwrap();
-            let buffers = MeshBuffers::new(&gpu.device, &tetrahedron()).unwrap();
-            let _ = renderer.mesh_draw(&gpu.device, buffers);
+            let mut technique = Technique::by_name(name).unwrap();
+            for setting in ["hidden.show=true", "silhouette.show=true", "marked.kind=thin"] {
+                technique.set(setting).unwrap();
+            }
+            let look = technique.look(&edgemesh::build::Frame::default());
+            for (layout, path) in layouts_and_paths() {
+                let formats = TargetFormats::with_stencil(&gpu.device, samples);
+                let options = RendererOptions { layout, path, formats };
+                let mut renderer = Renderer::new(&gpu, options).unwrap();
+                let look = renderer.prepare(&gpu, &look).unwrap();
+                let buffers = MeshBuffers::new(&gpu.device, &tetrahedron(), layout).unwrap();
+                let _ = renderer.object(&gpu, &Arc::new(buffers), &look);
+            }
         }
     }
 }
@@ -39,14 +60,16 @@ fn every_technique_builds_its_pipelines_within_the_default_limits() {
 #[test]
 fn a_mesh_without_faces_is_uploaded_too() {
     let gpu = noop(wgpu::Limits::default());
-    assert!(MeshBuffers::new(&gpu.device, &EdgeMesh::default()).is_ok());
+    for (layout, _) in layouts_and_paths() {
+        assert!(MeshBuffers::new(&gpu.device, &EdgeMesh::default(), layout).is_ok());
+    }
 }
 
 #[test]
-fn a_mesh_beyond_the_limits_is_refused_with_the_numbers() {
+fn an_adapter_that_binds_next_to_nothing_is_refused_with_the_numbers() {
     let gpu =
         noop(wgpu::Limits { max_storage_buffer_binding_size: 100, ..wgpu::Limits::default() });
-    let error = MeshBuffers::new(&gpu.device, &tetrahedron()).unwrap_err();
-    assert_eq!((error.what, error.need, error.limit), ("face planes", 128, 100));
-    assert!(error.to_string().contains("128 bytes"), "{error}");
+    let error = MeshBuffers::new(&gpu.device, &tetrahedron(), Layout::Indexed).unwrap_err();
+    assert_eq!((error.what, error.need, error.limit), ("edges", 1280, 100));
+    assert!(error.to_string().contains("1280 bytes"), "{error}");
 }

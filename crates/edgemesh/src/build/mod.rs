@@ -23,7 +23,7 @@ mod fans;
 mod frame;
 mod marks;
 mod orient;
-mod planes;
+pub(crate) mod planes;
 mod records;
 mod triangulate;
 mod weld;

@@ -3,16 +3,20 @@
 //! The indexed layout decides from facing bits and static flags
 //! ([`classify_edge`]); the paper's replicated layout decides from the edge
 //! vertex alone ([`equation_1`]). A property test holds them to each other.
+//! Which of the classes of an edge counts, and in which layer it is drawn, says a
+//! [`ClassTable`].
 //!
 //! WGSL twin of [`classify_edge`]: `shaders/common/feature.wgsl`.
 
+use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
 
+use crate::edge_word::EdgeWord;
 use crate::record::{EdgeFlags, EdgeVertex};
 
 bitflags::bitflags! {
-    /// What a view says of an edge. The two bits sit where the live list of the
-    /// GPU carries them, above the edge's index.
+    /// What a view says of an edge. The first three bits sit where the live list
+    /// of the GPU carries them, above the edge's index.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
     pub struct LineBits: u32 {
         /// Exactly one of the two faces looks at the eye.
@@ -20,44 +24,174 @@ bitflags::bitflags! {
         /// Face A looks at the eye. For a contour this says which side is the
         /// outside: a front face lies left of its own direction of traversal.
         const A_FACES = 1 << 30;
+        /// The solid that the edge is on hides it from an eye outside.
+        const BEHIND_SOLID = 1 << 29;
         /// The edge is drawn: a contour, or of a class that always is.
-        const DRAWN = 1 << 29;
+        const DRAWN = 1 << 28;
     }
 }
 
-/// `CONTOUR[face A looks at the eye][face B looks at the eye]`.
-const CONTOUR: [[bool; 2]; 2] = [
-    [false, true], // A looks away: a contour if B does not
-    [true, false], // A looks at the eye: a contour if B does not
-];
+/// The classes of edges, the strongest first: an edge of several is drawn as the
+/// first of them that is drawn at all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[repr(u32)]
+pub enum EdgeClass {
+    /// Between a face toward the eye and one away from it.
+    Contour,
+    /// Chosen by the artist.
+    Marked,
+    /// Of one face, or of more than two.
+    Boundary,
+    /// Between two materials.
+    Material,
+    /// Between two smoothing groups.
+    Smoothing,
+    /// A convex crease.
+    Ridge,
+    /// A concave crease.
+    Valley,
+}
+
+impl EdgeClass {
+    /// All classes, the strongest first.
+    pub const ALL: [Self; 7] = [
+        Self::Contour,
+        Self::Marked,
+        Self::Boundary,
+        Self::Material,
+        Self::Smoothing,
+        Self::Ridge,
+        Self::Valley,
+    ];
+
+    /// The word for it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Contour => "contour",
+            Self::Marked => "marked",
+            Self::Boundary => "boundary",
+            Self::Material => "material",
+            Self::Smoothing => "smoothing",
+            Self::Ridge => "ridge",
+            Self::Valley => "valley",
+        }
+    }
+}
+
+/// The layer of a class that is not drawn. WGSL twin: the constant of this name.
+pub const NO_LAYER: u32 = 15;
+
+/// Which classes are drawn, in which layer, and from which angle on an edge is a
+/// crease. WGSL twin: `shaders/common/feature.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct ClassTable {
+    /// Four bits a class, the strongest lowest: its layer, or [`NO_LAYER`].
+    pub layers: u32,
+    /// One bit a class that is drawn.
+    pub drawn: u32,
+    /// From this many steps on a convex edge is a ridge; 0 for as built.
+    pub ridge_steps: u32,
+    /// From this many steps on a concave edge is a valley; 0 for as built.
+    pub valley_steps: u32,
+    /// 1 where edges that their own solid hides are drawn too, as hidden lines.
+    pub keeps_hidden: u32,
+}
+
+impl ClassTable {
+    /// The table with each class in the layer that `layer_of` gives, from 0 to
+    /// 14; classes without a layer are not drawn.
+    #[must_use]
+    pub fn new(layer_of: impl Fn(EdgeClass) -> Option<u32>) -> Self {
+        let mut table = Self::zeroed();
+        for class in EdgeClass::ALL {
+            let layer = layer_of(class).unwrap_or(NO_LAYER);
+            table.layers |= layer << (4 * class as u32);
+            table.drawn |= u32::from(layer != NO_LAYER) << class as u32;
+        }
+        table
+    }
+
+    /// All classes in one layer, with the creases as built.
+    #[must_use]
+    pub fn all_in_one() -> Self {
+        Self::new(|_| Some(0))
+    }
+}
+
+/// The faces of an edge as a view sees them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct EdgeFaces {
+    /// Whether there is a second face; else `b_faces` is unused.
+    pub has_b: bool,
+    /// Whether face A looks at the eye.
+    pub a_faces: bool,
+    /// Whether face B does.
+    pub b_faces: bool,
+}
+
+/// What a view makes of an edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Line {
+    /// Contour, facing, and whether it is drawn.
+    pub bits: LineBits,
+    /// The layer it belongs to, or [`NO_LAYER`].
+    pub layer: u32,
+}
+
+/// One bit for each class, but that of contours, that the edge is of.
+#[must_use]
+pub fn static_classes(word: EdgeWord, table: &ClassTable) -> u32 {
+    let flags = word.flags();
+    let is_crease = |flag: EdgeFlags, steps: u32, is_concave: bool| {
+        if steps == 0 {
+            flags.contains(flag)
+        } else {
+            word.is_concave() == is_concave && word.crease_steps() >= steps
+        }
+    };
+    let bit = |class: EdgeClass, is_set: bool| u32::from(is_set) << class as u32;
+    bit(EdgeClass::Marked, flags.contains(EdgeFlags::MARKED))
+        | bit(EdgeClass::Boundary, flags.intersects(EdgeFlags::BOUNDARY | EdgeFlags::NON_MANIFOLD))
+        | bit(EdgeClass::Material, flags.contains(EdgeFlags::MATERIAL))
+        | bit(EdgeClass::Smoothing, flags.contains(EdgeFlags::SMOOTHING))
+        | bit(EdgeClass::Ridge, is_crease(EdgeFlags::RIDGE, table.ridge_steps, false))
+        | bit(EdgeClass::Valley, is_crease(EdgeFlags::VALLEY, table.valley_steps, true))
+}
 
 /// Decides what a view makes of one edge.
 ///
-/// `has_b` is false where there is no second face; `b_faces` is then unused.
 /// Pairs of a non-manifold edge are drawn in every view and are no contours.
 ///
 /// An edge of a solid with both faces turned away from an eye outside of it is
-/// hidden by the solid itself, and is not drawn. Left to the depth test it would
-/// show at its ends, where its width reaches past the faces in front.
+/// hidden by the solid itself, and is not drawn unless the table keeps it. Left to
+/// the depth test it would show at its ends, where its width reaches past the
+/// faces in front.
 #[must_use]
 pub fn classify_edge(
-    flags: EdgeFlags,
-    has_b: bool,
-    a_faces: bool,
-    b_faces: bool,
+    word: EdgeWord,
+    faces: EdgeFaces,
+    table: &ClassTable,
     eye_is_outside: bool,
-) -> LineBits {
-    let b_faces = b_faces != flags.contains(EdgeFlags::CLASH);
-    let is_manifold = has_b && !flags.contains(EdgeFlags::NON_MANIFOLD);
-    let is_contour = is_manifold && CONTOUR[usize::from(a_faces)][usize::from(b_faces)];
+) -> Line {
+    let flags = word.flags();
+    let b_faces = faces.b_faces != flags.contains(EdgeFlags::CLASH);
+    let is_manifold = faces.has_b && !flags.contains(EdgeFlags::NON_MANIFOLD);
+    // Contour where exactly one of the two faces looks at the eye.
+    let is_contour = is_manifold && faces.a_faces != b_faces;
+    let classes = (static_classes(word, table) | u32::from(is_contour)) & table.drawn;
     let is_behind_solid =
-        flags.contains(EdgeFlags::SOLID) && eye_is_outside && !a_faces && !b_faces;
-    let is_always_drawn = flags.intersects(EdgeFlags::ALWAYS_DRAWN) && !is_behind_solid;
+        eye_is_outside && flags.contains(EdgeFlags::SOLID) && !faces.a_faces && !b_faces;
+    let is_drawn = classes != 0 && (!is_behind_solid || table.keeps_hidden != 0);
     let mut bits = LineBits::empty();
     bits.set(LineBits::CONTOUR, is_contour);
-    bits.set(LineBits::A_FACES, a_faces);
-    bits.set(LineBits::DRAWN, is_contour || is_always_drawn);
-    bits
+    bits.set(LineBits::A_FACES, faces.a_faces);
+    bits.set(LineBits::BEHIND_SOLID, is_behind_solid);
+    bits.set(LineBits::DRAWN, is_drawn);
+    let class = classes.trailing_zeros();
+    let layer = if is_drawn { table.layers >> (4 * class) & NO_LAYER } else { NO_LAYER };
+    Line { bits, layer }
 }
 
 /// Equation 1 as the paper evaluates it, from one edge vertex alone.
@@ -107,10 +241,14 @@ pub fn eye_is_outside(eye: Vec4, min: Vec3, max: Vec3) -> bool {
 mod tests {
     use super::*;
 
+    fn classify(flags: EdgeFlags, a_faces: bool, b_faces: bool, outside: bool) -> LineBits {
+        let faces = EdgeFaces { has_b: true, a_faces, b_faces };
+        classify_edge(flags.into(), faces, &ClassTable::all_in_one(), outside).bits
+    }
+
     #[test]
     fn a_contour_has_one_face_of_each_kind() {
-        let is_contour =
-            |flags, a, b| classify_edge(flags, true, a, b, true).contains(LineBits::CONTOUR);
+        let is_contour = |flags, a, b| classify(flags, a, b, true).contains(LineBits::CONTOUR);
         for (a, b) in [(false, false), (true, true)] {
             assert!(!is_contour(EdgeFlags::empty(), a, b));
             assert!(is_contour(EdgeFlags::CLASH, a, b), "a clash turns face B around");
@@ -124,8 +262,7 @@ mod tests {
 
     #[test]
     fn what_is_drawn_without_a_contour() {
-        let is_drawn =
-            |flags| classify_edge(flags, false, true, false, true).contains(LineBits::DRAWN);
+        let is_drawn = |flags| classify(flags, true, true, true).contains(LineBits::DRAWN);
         assert!(!is_drawn(EdgeFlags::empty()));
         assert!(!is_drawn(EdgeFlags::DIAGONAL));
         for flags in EdgeFlags::ALWAYS_DRAWN.iter() {
@@ -136,17 +273,50 @@ mod tests {
     #[test]
     fn a_solid_hides_its_own_back_from_an_eye_outside() {
         let ridge = EdgeFlags::RIDGE | EdgeFlags::SOLID;
-        let is_drawn = |flags, a, b, outside| {
-            classify_edge(flags, true, a, b, outside).contains(LineBits::DRAWN)
-        };
+        let is_drawn =
+            |flags, a, b, outside| classify(flags, a, b, outside).contains(LineBits::DRAWN);
         assert!(!is_drawn(ridge, false, false, true));
         assert!(is_drawn(ridge, false, false, false), "from inside it is seen");
         assert!(is_drawn(EdgeFlags::RIDGE, false, false, true), "an open surface hides nothing");
         for (a, b) in [(true, true), (true, false), (false, true)] {
             assert!(is_drawn(ridge, a, b, true));
         }
+        let keeping = ClassTable { keeps_hidden: 1, ..ClassTable::all_in_one() };
+        let faces = EdgeFaces { has_b: true, a_faces: false, b_faces: false };
+        let kept = classify_edge(ridge.into(), faces, &keeping, true).bits;
+        assert_eq!(kept, LineBits::BEHIND_SOLID | LineBits::DRAWN);
         let outside = |eye: [f32; 4]| eye_is_outside(eye.into(), Vec3::ZERO, Vec3::ONE);
         assert!(outside([0.5, 0.5, 1.1, 1.0]) && !outside([0.5, 0.5, 1.0, 1.0]));
         assert!(outside([0.5, 0.5, 0.5, 0.0]), "a direction");
+    }
+
+    #[test]
+    fn an_edge_of_several_classes_is_of_the_strongest_that_is_drawn() {
+        let faces = EdgeFaces { has_b: true, a_faces: true, b_faces: false };
+        let word = EdgeWord::from(EdgeFlags::MARKED | EdgeFlags::RIDGE);
+        let layer = |undrawn: &[EdgeClass]| {
+            let table =
+                ClassTable::new(|class| (!undrawn.contains(&class)).then_some(2 * class as u32));
+            classify_edge(word, faces, &table, true).layer
+        };
+        assert_eq!(layer(&[]), 0);
+        assert_eq!(layer(&[EdgeClass::Contour]), 2);
+        assert_eq!(layer(&[EdgeClass::Contour, EdgeClass::Marked]), 10);
+        assert_eq!(layer(&[EdgeClass::Contour, EdgeClass::Marked, EdgeClass::Ridge]), NO_LAYER);
+    }
+
+    #[test]
+    fn thresholds_can_change_and_are_met_by_their_own_angle() {
+        let word = |degrees: f64, is_concave| {
+            EdgeWord::new(EdgeFlags::RIDGE, degrees.to_radians(), is_concave)
+        };
+        let table = ClassTable { ridge_steps: 1350, valley_steps: 450, ..ClassTable::all_in_one() };
+        let has = |word, class: EdgeClass| static_classes(word, &table) >> class as u32 & 1 == 1;
+        assert!(has(word(30.0, false), EdgeClass::Ridge));
+        assert!(!has(word(29.9, false), EdgeClass::Ridge), "whatever it was built as");
+        assert!(has(word(10.0, true), EdgeClass::Valley));
+        assert!(!has(word(40.0, true), EdgeClass::Ridge));
+        let built = ClassTable::all_in_one();
+        assert!(static_classes(word(1.0, false), &built) != 0, "as built");
     }
 }

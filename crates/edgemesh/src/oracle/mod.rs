@@ -5,10 +5,12 @@
 //! |---|---|---|
 //! | [`facing`] | `facing.wgsl` | Equation 1, the sign of one face |
 //! | [`feature`] | `feature.wgsl` | Equation 1 |
+//! | [`normal_cone`] | `normal_cone.wgsl` | faces that all look one way (not in the paper) |
 //! | [`spine`] | `spine.wgsl` | section 3.3, projection; section 6, clipping |
 //! | [`stroke_quad`] | `stroke_quad.wgsl` | Equations 2 and 3 |
-//! | [`stroke_cap`] | `stroke_cap.wgsl` | Equations 4 and 5 |
-//! | [`stroke_vertex`] | `stroke_vertex.wgsl` | all of it for one vertex, and section 4 |
+//! | [`stroke_cap`] | `stroke_cap.wgsl` | Equations 4 and 5; section 6, half disks |
+//! | [`stroke_segment`] | `stroke_segment.wgsl` | what the vertices of an edge share; section 4 |
+//! | [`stroke_vertex`] | `stroke_vertex.wgsl` | one vertex of it |
 //!
 //! A GPU test runs both over thousands of random and adversarial edges; the
 //! counts of [`count_features`] are what `edgemesh info` prints and what the
@@ -16,18 +18,21 @@
 
 pub mod facing;
 pub mod feature;
+pub mod normal_cone;
 pub mod spine;
 pub mod stroke_cap;
 pub mod stroke_quad;
+pub mod stroke_segment;
 pub mod stroke_vertex;
 
 use glam::Vec4;
 
 use crate::edge_mesh::EdgeMesh;
+use crate::edge_word::EdgeWord;
 use crate::index::NONE;
-use crate::record::EdgeFlags;
+use crate::record::{EdgeFlags, EdgeRecord};
 use facing::faces_eye;
-use feature::{LineBits, classify_edge, eye_is_outside};
+use feature::{ClassTable, EdgeFaces, Line, LineBits, classify_edge, eye_is_outside};
 
 /// How many edges belong to each class in a view; an edge can be in several.
 /// Edges that more than two faces share are in none.
@@ -57,18 +62,33 @@ pub fn facing_bits(mesh: &EdgeMesh, eye: Vec4) -> Vec<bool> {
     mesh.face_planes.iter().map(|plane| faces_eye(plane, eye)).collect()
 }
 
-/// The line bits of every record, in order.
+/// What a view makes of every record, in order; all classes in one layer.
 #[must_use]
 pub fn classify_edges(mesh: &EdgeMesh, eye: Vec4) -> Vec<LineBits> {
-    let facing = facing_bits(mesh, eye);
+    let words: Vec<EdgeWord> = mesh.records.iter().map(|record| record.flags.into()).collect();
     let outside = eye_is_outside(eye, mesh.bounds.min.into(), mesh.bounds.max.into());
-    mesh.records
-        .iter()
-        .map(|record| {
-            let faces = |face: u32| face != NONE && facing[face as usize];
-            let (a_faces, b_faces) = (faces(record.face_a), faces(record.face_b));
-            classify_edge(record.flags, record.face_b != NONE, a_faces, b_faces, outside)
-        })
+    let lines = classify_lines(mesh, &words, eye, &ClassTable::all_in_one(), outside);
+    lines.into_iter().map(|line| line.bits).collect()
+}
+
+/// What a view makes of every record with its word, in order.
+#[must_use]
+pub fn classify_lines(
+    mesh: &EdgeMesh,
+    words: &[EdgeWord],
+    eye: Vec4,
+    table: &ClassTable,
+    eye_is_outside: bool,
+) -> Vec<Line> {
+    let facing = facing_bits(mesh, eye);
+    let faces_of = |record: &EdgeRecord| {
+        let faces = |face: u32| face != NONE && facing[face as usize];
+        let (a_faces, b_faces) = (faces(record.face_a), faces(record.face_b));
+        EdgeFaces { has_b: record.face_b != NONE, a_faces, b_faces }
+    };
+    let edges = mesh.records.iter().zip(words);
+    edges
+        .map(|(record, &word)| classify_edge(word, faces_of(record), table, eye_is_outside))
         .collect()
 }
 

@@ -1,4 +1,5 @@
-//! Start and finish caps (paper, Equations 4 and 5).
+//! Start and finish caps (paper, Equations 4 and 5), and the half disks that its
+//! section 6 puts in their place.
 //!
 //! A cap is the triangle between the end of the spine, the end of the quad and
 //! the tip of the projected vertex normal m. The edges that meet at a vertex
@@ -16,6 +17,8 @@
 //! follows its quad here: `outside` is given, and m is turned to that side.
 //!
 //! WGSL twin: `shaders/common/stroke_cap.wgsl`.
+
+use std::cmp::Ordering;
 
 use glam::Vec2;
 
@@ -40,6 +43,29 @@ pub fn stroke_cap(s: Vec2, p: Vec2, m: Vec2, outside: f32, reach_px: f32, j: u32
         1 => s + p * (outside * reach_px),
         _ => s + m * (sign(m.dot(p)) * outside * reach_px),
     }
+}
+
+/// Triangles of a half disk. WGSL twin: the constant of this name.
+pub const DISK_STEPS: u32 = 8;
+
+/// Where step `k` (0 to [`DISK_STEPS`]) of the half disk lies, from the end of
+/// the spine: from the left rim (the side of p) around the end to the right one.
+///
+/// `forward` is +1 at the finish and -1 at the start. `left_px` and `right_px`
+/// are how far the quad reaches to each side; one of them is 0 for a half quad,
+/// which then has a quarter disk, enough for turns of up to 90 degrees.
+#[must_use]
+pub fn half_disk(p: Vec2, forward: f32, left_px: f32, right_px: f32, k: u32) -> Vec2 {
+    #[expect(clippy::cast_precision_loss, reason = "at most DISK_STEPS")]
+    let angle = std::f32::consts::PI * k as f32 / DISK_STEPS as f32;
+    let beyond = Vec2::new(p.y, -p.x) * forward;
+    let radius_px = match (2 * k).cmp(&DISK_STEPS) {
+        Ordering::Less => left_px,
+        // Both radii end here; a half quad's one must not be cut off.
+        Ordering::Equal => left_px.max(right_px),
+        Ordering::Greater => right_px,
+    };
+    (p * angle.cos() + beyond * angle.sin()) * radius_px
 }
 
 #[cfg(test)]
@@ -79,5 +105,21 @@ mod tests {
     fn a_normal_along_the_line_of_sight_leaves_no_cap() {
         let tip = stroke_cap(Vec2::ONE, P, Vec2::ZERO, 1.0, 10.0, 2);
         assert_eq!(tip, Vec2::ONE);
+    }
+
+    #[test]
+    fn half_disks_go_around_the_end() {
+        let around = |forward: f32| {
+            [0, DISK_STEPS / 2, DISK_STEPS].map(|k| half_disk(Vec2::Y, forward, 2.0, 2.0, k))
+        };
+        for (forward, tip) in [(1.0, Vec2::X), (-1.0, Vec2::NEG_X)] {
+            for (got, want) in around(forward).into_iter().zip([Vec2::Y, tip, Vec2::NEG_Y]) {
+                assert!(got.distance(want * 2.0) < 1e-5, "{got} {want}");
+            }
+        }
+        // A half quad has a quarter of one.
+        let quarter = |k| half_disk(Vec2::Y, 1.0, 2.0, 0.0, k).length();
+        assert!((quarter(DISK_STEPS / 2) - 2.0).abs() < 1e-5);
+        assert!(quarter(DISK_STEPS / 2 + 1) < 1e-5);
     }
 }

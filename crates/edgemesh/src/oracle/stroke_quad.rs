@@ -16,23 +16,31 @@
 
 use glam::Vec2;
 
-use super::spine::Spine;
-
-/// Corner `i` (0 to 3) of the full quad, `half_width_px` to each side.
-#[must_use]
-pub fn stroke_quad(spine: &Spine, half_width_px: f32, i: u32) -> Vec2 {
-    let s = if i == 1 || i == 2 { spine.s1 } else { spine.s0 };
-    let side = if i >= 2 { 1.0 } else { -1.0 };
-    s + spine.p * (half_width_px * side)
+/// Where a stroke lies on its spine. WGSL twins: the constants of these names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(u32)]
+pub enum Placement {
+    /// Half of the width to each side (Equation 2).
+    Centred = 0,
+    /// All of the width outside (Equation 3).
+    Outside = 1,
+    /// All of the width inside.
+    Inside = 2,
+    /// Contours outside, everything else centred.
+    #[default]
+    Automatic = 3,
 }
 
-/// Corner `i` (0 to 3) of the half quad on the side `outside` (+1 is the side
-/// of p, -1 the other).
+/// How far the near side (the paper's corners 0 and 1) and the far side (2 and
+/// 3) of a stroke `width_px` wide lie from the spine along p, on the side
+/// `outside` (+1 is the side of p, -1 the other).
 #[must_use]
-pub fn half_quad(spine: &Spine, width_px: f32, outside: f32, i: u32) -> Vec2 {
-    let s = if i == 1 || i == 2 { spine.s1 } else { spine.s0 };
-    let reach = if i >= 2 { outside * width_px } else { 0.0 };
-    s + spine.p * reach
+pub fn quad_offsets(placement: Placement, outside: f32, width_px: f32) -> Vec2 {
+    match placement {
+        Placement::Centred | Placement::Automatic => Vec2::new(-0.5, 0.5) * width_px,
+        Placement::Outside => Vec2::new(0.0, outside * width_px),
+        Placement::Inside => Vec2::new(0.0, -outside * width_px),
+    }
 }
 
 /// The paper's sign: -1 for a negative argument and +1 for any other.
@@ -45,26 +53,20 @@ pub fn sign(value: f32) -> f32 {
 mod tests {
     use super::*;
 
-    fn spine() -> Spine {
-        Spine { s1: Vec2::new(10.0, 0.0), p: Vec2::Y, t1: 1.0, ..Spine::default() }
-    }
-
     #[test]
-    fn equation_2() {
-        let corners = [0, 1, 2, 3].map(|i| stroke_quad(&spine(), 3.0, i).to_array());
-        assert_eq!(corners, [[0., -3.], [10., -3.], [10., 3.], [0., 3.]]);
-    }
-
-    #[test]
-    fn equation_3_on_either_side() {
-        for outside in [1.0, -1.0] {
-            let corners = [0, 1, 2, 3].map(|i| half_quad(&spine(), 3.0, outside, i).to_array());
-            assert_eq!(corners, [[0., 0.], [10., 0.], [10., 3. * outside], [0., 3. * outside]]);
+    fn a_half_quad_is_as_wide_as_a_full_one() {
+        for placement in [Placement::Centred, Placement::Outside, Placement::Inside] {
+            for outside in [1.0, -1.0] {
+                let sides = quad_offsets(placement, outside, 6.0);
+                assert!(((sides.y - sides.x).abs() - 6.0).abs() < f32::EPSILON, "{placement:?}");
+            }
         }
+        assert_eq!(quad_offsets(Placement::Outside, -1.0, 6.0), Vec2::new(0.0, -6.0));
+        assert_eq!(quad_offsets(Placement::Inside, -1.0, 6.0), Vec2::new(0.0, 6.0));
     }
 
     #[test]
-    fn the_sign_of_zero_is_plus() {
-        assert!(sign(0.0) > 0.0 && sign(-1e-9) < 0.0);
+    fn zero_counts_as_positive() {
+        assert_eq!([-0.5, 0.0, 2.0].map(sign), [-1.0, 1.0, 1.0]);
     }
 }

@@ -1,226 +1,254 @@
-//! One vertex of a stroke: quad, caps, and where the brush lies on them.
+//! One vertex of a stroke: of a thin line, a quad, a cap, a half disk or a fin.
 //!
-//! An edge is drawn as 12 vertices: two triangles of the quad, the start cap,
-//! the finish cap. Contours take the half quad on the outside, everything else
-//! the full quad.
+//! ```text
+//!        6                          9
+//!      . |  3 ----------------- 2   | .
+//!    5---4  .                   .   7--8        caps: 4 to 6 and 7 to 9
+//!           0 ----------------- 1               half disks: 4 to 13 and 14 to 23,
+//!                                               first their middle
+//! ```
 //!
-//! The outside of a contour is the side of the spine where its front face is
-//! not, which one facing bit tells for sure. The paper asks the projected vertex
-//! normal instead (Equation 3), which errs on rough meshes; it is asked here
-//! only where there is no front face to ask, for the caps and the texture of
-//! full quads.
+//! Fins are Card and Mitchell's (Listing 1): the quad stands on the edge, its far
+//! side pushed out along the vertex normals, by a thickness that grows with the
+//! distance so that it looks the same. Seen along its normals a fin has no width,
+//! as they say themselves.
 //!
-//! A full quad lies over the faces beside its edge, which can rise toward the
-//! eye under it. So its rims take the depth of those faces ([`rise_toward_eye`])
-//! where that is nearer than the edge's own, and are not swallowed however wide
-//! they are. A half quad lies off the surface and keeps the edge's depth.
-//!
-//! The brush is laid on in object space (paper, section 4): u begins at the
-//! edge's random scalar and grows with the length on the screen, in units of
-//! the brush's own length at this width, so that its aspect is kept; v runs
-//! from 0 on the outside to 1 on the inside. A cap repeats the column at its end.
+//! Rejected: their test of face normals against the line of sight to each vertex;
+//! two ends of one edge can then disagree. Fins stand on the edges that
+//! [`super::feature`] finds; boundaries are always among them, which is what the
+//! negated second normal is for there.
 //!
 //! WGSL twin: `shaders/common/stroke_vertex.wgsl`.
 
-use glam::{Vec2, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 
 use super::feature::LineBits;
-use super::spine::{MIN_LENGTH_PX, Spine, lerp, project_spine, screen_normal, to_pixels};
-use super::stroke_cap::{cap_corner, stroke_cap};
-use super::stroke_quad::{half_quad, sign, stroke_quad};
-
-/// Vertices an edge: 6 of the quad, 3 of each cap.
-pub const VERTICES_PER_EDGE: u32 = 12;
-
-/// The quad's corners as two triangles.
-const QUAD_CORNERS: [u32; 6] = [0, 1, 2, 0, 2, 3];
+use super::spine::{MIN_LENGTH_PX, lerp, project_spine, screen_normal};
+use super::stroke_cap::{DISK_STEPS, cap_corner, half_disk, stroke_cap};
+use super::stroke_quad::sign;
+use super::stroke_segment::{
+    ClipEdge, LineKind, Segment, StrokeShape, opacity_at, stroke_segment, stroke_u, width_at,
+};
 
 /// Where vertices go that must not be seen: behind the near plane, as in the
 /// paper's section 3.2.
-pub const BEHIND: Vec4 = Vec4::new(0.0, 0.0, -1.0, 1.0);
+pub const BEHIND: Vec3 = Vec3::new(0.0, 0.0, -1.0);
 
-/// A narrow face that looks at the eye by no more than this cosine, 87 degrees
-/// off, is seen edge on and lifts no stroke.
-pub const EDGE_ON_FACING: f32 = 0.05;
+/// Vertices that a cap has besides those of the quad.
+pub const CAP_VERTICES: u32 = 3;
 
-/// A face that looks at the eye by this cosine or more, 78 degrees off, lifts the
-/// strokes along it in full.
-pub const LIFTED_FACING: f32 = 0.2;
-
-/// An edge in clip space.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ClipEdge {
-    /// Start.
-    pub c0: Vec4,
-    /// End.
-    pub c1: Vec4,
-    /// Third vertex of face A.
-    pub c2: Vec4,
-    /// Third vertex of face B; equal to `c0` where there is none.
-    pub c3: Vec4,
-    /// How squarely faces A and B look at the eye, or away from it: the cosine
-    /// of the angle between normal and line of sight, without its sign.
-    pub facing: Vec2,
-    /// Vertex normal at the start, taken to clip space as a direction.
-    pub n0: Vec4,
-    /// Vertex normal at the end, likewise.
-    pub n1: Vec4,
-    /// The random scalar.
-    pub r: f32,
-}
-
-/// What all strokes of a draw share.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StrokeShape {
-    /// Size of the picture.
-    pub viewport_px: Vec2,
-    /// Width of a stroke.
-    pub width_px: f32,
-    /// Length of the brush texture over its height.
-    pub brush_aspect: f32,
-}
+/// Vertices that a half disk has.
+pub const DISK_VERTICES: u32 = DISK_STEPS + 2;
 
 /// A vertex for the rasterizer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StrokeVertex {
-    /// Clip-space position; w is 1, so that everything is linear on the screen.
-    pub position: Vec4,
-    /// Texture coordinate of the brush.
-    pub uv: Vec2,
+    /// Of the clip volume, with w = 1, so that everything is linear on the screen.
+    pub position: Vec3,
+    /// Along the brush.
+    pub u: f32,
+    /// Across the brush, 0 outside to 1 inside.
+    pub v: f32,
+    /// What is left of the stroke after fading.
+    pub opacity: f32,
 }
 
-/// Vertex `index` (0 to 11) of the stroke along `edge`.
+const HIDDEN: StrokeVertex = StrokeVertex { position: BEHIND, u: 0.0, v: 0.0, opacity: 0.0 };
+
+impl LineKind {
+    /// Vertices an edge.
+    #[must_use]
+    pub const fn vertex_count(self) -> u32 {
+        match self {
+            Self::Thin => 2,
+            Self::Quad | Self::Fin => 4,
+            Self::QuadAndCaps => 4 + 2 * CAP_VERTICES,
+            Self::QuadAndDisks => 4 + 2 * DISK_VERTICES,
+        }
+    }
+
+    /// The vertices of an edge as triangles, or as one line.
+    #[must_use]
+    pub fn indices(self) -> Vec<u32> {
+        let mut indices = match self {
+            Self::Thin => return vec![0, 1],
+            _ => vec![0, 1, 2, 0, 2, 3],
+        };
+        match self {
+            Self::QuadAndCaps => indices.extend(4..10),
+            Self::QuadAndDisks => {
+                for middle in [4, 4 + DISK_VERTICES] {
+                    indices.extend(
+                        (1..=DISK_STEPS).flat_map(|k| [middle, middle + k, middle + k + 1]),
+                    );
+                }
+            }
+            _ => {}
+        }
+        indices
+    }
+}
+
+/// Vertex `corner` of the stroke along `edge`.
 #[must_use]
 pub fn stroke_vertex(
     edge: &ClipEdge,
     shape: &StrokeShape,
     bits: LineBits,
-    index: u32,
+    corner: u32,
 ) -> StrokeVertex {
-    let spine = project_spine(edge.c0, edge.c1, shape.viewport_px);
-    let hidden = StrokeVertex { position: BEHIND, uv: Vec2::ZERO };
-    if spine.p == Vec2::ZERO {
-        return hidden;
+    if shape.kind == LineKind::Fin {
+        return fin_vertex(edge, shape, corner);
     }
-    let m0 = screen_normal(lerp(edge.c0, edge.c1, spine.t0), edge.n0, shape.viewport_px);
-    let m1 = screen_normal(lerp(edge.c0, edge.c1, spine.t1), edge.n1, shape.viewport_px);
-    let is_half = bits.contains(LineBits::CONTOUR);
-    // p lies left of the edge, and so does face A where it looks at the eye.
-    let contour_side = if bits.contains(LineBits::A_FACES) { -1.0 } else { 1.0 };
-    let side = |m: Vec2| if is_half { contour_side } else { sign(m.dot(spine.p)) };
-    let outside = side(m0);
-    let length_px = (spine.s1 - spine.s0).length();
-    let u0 = edge.r;
-    let u1 = edge.r + outside * length_px / (shape.width_px * shape.brush_aspect);
-
-    let reach_px = if is_half { shape.width_px } else { shape.width_px * 0.5 };
-    let rise = |side: f32| {
-        if is_half { 0.0 } else { quad_rise(edge, &spine, shape.viewport_px, side, reach_px) }
-    };
-
-    if index < 6 {
-        let i = QUAD_CORNERS[index as usize];
-        let s = if is_half {
-            half_quad(&spine, reach_px, outside, i)
-        } else {
-            stroke_quad(&spine, reach_px, i)
-        };
-        let is_end = i == 1 || i == 2;
-        let rim = if is_half { 1.0 } else { outside * 0.5 + 0.5 };
-        let v = if i >= 2 { 1.0 - rim } else { rim };
-        let uv = Vec2::new(if is_end { u1 } else { u0 }, v);
-        let z = if is_end { spine.z1 } else { spine.z0 };
-        return on_screen(s, z + rise(if i >= 2 { 1.0 } else { -1.0 }), uv, shape);
-    }
-    let is_start = index < 9;
-    // A clipped end is no vertex of the mesh, and nobody meets it there.
-    if (is_start && spine.t0 > 0.0) || (!is_start && spine.t1 < 1.0) {
-        return hidden;
-    }
-    let m = if is_start { m0 } else { m1 };
-    let j = cap_corner(side(m), index % 3);
-    let s = if is_start { spine.s0 } else { spine.s1 };
-    let z = if is_start { spine.z0 } else { spine.z1 };
-    let v_at_spine = if is_half { 1.0 } else { 0.5 };
-    let uv = Vec2::new(if is_start { u0 } else { u1 }, if j == 0 { v_at_spine } else { 0.0 });
-    let position_px = stroke_cap(s, spine.p, m, side(m), reach_px, j);
-    on_screen(position_px, if j == 0 { z } else { z + rise(side(m)) }, uv, shape)
+    segment_vertex(&stroke_segment(edge, shape, bits), shape, corner)
 }
 
-/// How much nearer than the edge, in depth, the rim of a full quad must lie on
-/// one side: as much as the higher of the two faces.
-fn quad_rise(edge: &ClipEdge, spine: &Spine, viewport_px: Vec2, side: f32, reach_px: f32) -> f32 {
-    let middle = lerp(edge.c0, edge.c1, (spine.t0 + spine.t1) * 0.5);
-    let rise = |apex: Vec4, facing: f32| {
-        let apex = in_front(middle, apex);
-        rise_toward_eye(spine, apex, facing, viewport_px, side, reach_px)
-    };
-    rise(edge.c2, edge.facing.x).max(rise(edge.c3, edge.facing.y))
-}
-
-/// A point of the face for its third vertex: the vertex itself, or, where it
-/// lies behind the near plane, one halfway from the edge's middle to that plane.
-fn in_front(middle: Vec4, apex: Vec4) -> Vec4 {
-    let middle_distance = middle.w - middle.z;
-    let apex_distance = apex.w - apex.z;
-    if apex_distance > 0.0 {
-        return apex;
-    }
-    lerp(middle, apex, 0.5 * middle_distance / (middle_distance - apex_distance))
-}
-
-/// How much nearer than the edge the face with the point `apex` lies,
-/// `reach_px` away from the edge on the side `side` (+1 is the side of p).
-///
-/// `apex` is a point of the face in front of the near plane. Depth is linear on
-/// the screen, so the face's plane gives it exactly; past `apex` it stays what
-/// it was there. Zero where the face falls away or lies on the other side, less
-/// where it is a narrow wall seen edge on (`facing`, see [`ClipEdge::facing`]).
+/// Vertex `corner` of a stroke.
 #[must_use]
-pub fn rise_toward_eye(
-    spine: &Spine,
-    apex: Vec4,
-    facing: f32,
-    viewport_px: Vec2,
-    side: f32,
-    reach_px: f32,
-) -> f32 {
-    if apex.w <= 0.0 {
-        return 0.0;
+pub fn segment_vertex(segment: &Segment, shape: &StrokeShape, corner: u32) -> StrokeVertex {
+    let spine = &segment.spine;
+    if !segment.is_drawn {
+        return HIDDEN;
     }
-    let along = spine.s1 - spine.s0;
-    let to_apex = to_pixels(apex, viewport_px) - spine.s0;
-    let distance_px = to_apex.dot(spine.p) * side;
-    if distance_px < MIN_LENGTH_PX {
-        return 0.0;
+    if shape.kind == LineKind::Thin {
+        return at_end(segment, shape, corner == 1, Vec2::ZERO, 0.0, 0.5);
     }
-    let t = to_apex.dot(along) / along.dot(along);
-    let edge_depth = spine.z0 + (spine.z1 - spine.z0) * t;
-    let rise = apex.z / apex.w - edge_depth;
-    let share = lift_share(facing, distance_px / reach_px);
-    (rise * (reach_px / distance_px).min(1.0) * share).max(0.0)
+    if corner < 4 {
+        let is_end = corner == 1 || corner == 2;
+        if corner < 2 {
+            let offset = spine.p * of_end(segment.near_px, is_end);
+            return at_end(segment, shape, is_end, offset, segment.near_rise, segment.v_near);
+        }
+        let offset = spine.p * of_end(segment.far_px, is_end);
+        let vertex = at_end(segment, shape, is_end, offset, segment.far_rise, segment.v_far);
+        return StrokeVertex { u: of_end(segment.u_far, is_end), ..vertex };
+    }
+    let has_caps = shape.kind == LineKind::QuadAndCaps;
+    let per_end = if has_caps { CAP_VERTICES } else { DISK_VERTICES };
+    let is_end = corner >= 4 + per_end;
+    // A clipped end is no vertex of the mesh, and nobody meets it there.
+    if if is_end { spine.t1 < 1.0 } else { spine.t0 > 0.0 } {
+        return HIDDEN;
+    }
+    let i = (corner - 4) % per_end;
+    if has_caps {
+        cap_vertex(segment, shape, is_end, i)
+    } else {
+        disk_vertex(segment, shape, is_end, i)
+    }
 }
 
-/// How much of a face's rise counts: all of it where the face is seen well or is
-/// wide. A face that is both edge on and as narrow as the stroke is a wall: it
-/// would lift the rim up to its far end, and a hidden edge through what hides it.
-fn lift_share(facing: f32, reaches_wide: f32) -> f32 {
-    let seen = (facing - EDGE_ON_FACING) / (LIFTED_FACING - EDGE_ON_FACING);
-    let wide = 0.5 * reaches_wide - 1.0;
-    seen.max(wide).clamp(0.0, 1.0)
+fn cap_vertex(segment: &Segment, shape: &StrokeShape, is_end: bool, i: u32) -> StrokeVertex {
+    let side = of_end(segment.cap_side, is_end);
+    let j = cap_corner(side, i);
+    if j == 0 {
+        return at_end(segment, shape, is_end, Vec2::ZERO, 0.0, segment.v_spine);
+    }
+    let m = if is_end { segment.m1 } else { segment.m0 };
+    let far_px = of_end(segment.far_px, is_end);
+    let offset = stroke_cap(Vec2::ZERO, segment.spine.p, m, side, far_px.abs(), j);
+    let is_far = (far_px < 0.0) == (side < 0.0);
+    let (rise, v, u) = if is_far {
+        (segment.far_rise, segment.v_far, segment.u_far)
+    } else {
+        (segment.near_rise, segment.v_near, segment.u)
+    };
+    let vertex = at_end(segment, shape, is_end, offset, rise, v);
+    if j == 1 { StrokeVertex { u: of_end(u, is_end), ..vertex } } else { vertex }
 }
 
-fn on_screen(position_px: Vec2, depth: f32, uv: Vec2, shape: &StrokeShape) -> StrokeVertex {
-    let xy = position_px / (shape.viewport_px * 0.5);
-    StrokeVertex { position: Vec4::new(xy.x, xy.y, depth, 1.0), uv }
+fn disk_vertex(segment: &Segment, shape: &StrokeShape, is_end: bool, i: u32) -> StrokeVertex {
+    if i == 0 {
+        return at_end(segment, shape, is_end, Vec2::ZERO, 0.0, segment.v_spine);
+    }
+    let [near_px, far_px] = [segment.near_px, segment.far_px].map(|side| of_end(side, is_end));
+    let left_px = near_px.max(far_px).max(0.0);
+    let right_px = (-near_px.min(far_px)).max(0.0);
+    let forward = if is_end { 1.0 } else { -1.0 };
+    let offset = half_disk(segment.spine.p, forward, left_px, right_px, i - 1);
+    let is_left = 2 * (i - 1) < DISK_STEPS;
+    let is_far = (far_px > 0.0) == is_left;
+    let rise = if is_far { segment.far_rise } else { segment.near_rise };
+    let v = if is_far { segment.v_far } else { segment.v_near };
+    at_end(segment, shape, is_end, offset, rise, v)
+}
+
+/// A vertex `offset_px` from one end of the spine.
+fn at_end(
+    segment: &Segment,
+    shape: &StrokeShape,
+    is_end: bool,
+    offset_px: Vec2,
+    rise: f32,
+    v: f32,
+) -> StrokeVertex {
+    let spine = &segment.spine;
+    let (s, z) = if is_end { (spine.s1, spine.z1) } else { (spine.s0, spine.z0) };
+    StrokeVertex {
+        position: ((s + offset_px) / (shape.viewport_px * 0.5)).extend(z + rise),
+        u: of_end(segment.u, is_end),
+        v,
+        opacity: of_end(segment.opacity, is_end),
+    }
+}
+
+fn of_end(values: Vec2, is_end: bool) -> f32 {
+    if is_end { values.y } else { values.x }
+}
+
+/// Corner `corner` (0 to 3) of a fin: 2 and 3 are pushed out.
+fn fin_vertex(edge: &ClipEdge, shape: &StrokeShape, corner: u32) -> StrokeVertex {
+    let spine = project_spine(edge.c0, edge.c1, shape.viewport_px);
+    if spine.p == Vec2::ZERO {
+        return HIDDEN;
+    }
+    let [start, end] = [spine.t0, spine.t1].map(|t| lerp(edge.c0, edge.c1, t));
+    let tip = |foot: Vec4, t: f32| foot + lerp(edge.n0, edge.n1, t) * fin_height(foot, shape);
+    let (start_tip, end_tip) = (tip(start, spine.t0), tip(end, spine.t1));
+    // A fin that reaches behind the near plane has no place on the screen.
+    if [start_tip, end_tip].iter().any(|tip| tip.w - tip.z <= 0.0) {
+        return HIDDEN;
+    }
+    let clip = [start, end, end_tip, start_tip][corner as usize % 4];
+    let is_end = corner == 1 || corner == 2;
+    let side = sign(screen_normal(start, edge.n0, shape.viewport_px).dot(spine.p));
+    let width_px = width_at(start, shape).max(MIN_LENGTH_PX);
+    let t = if is_end { spine.t1 } else { spine.t0 };
+    StrokeVertex {
+        position: clip.truncate() / clip.w,
+        u: of_end(stroke_u(&spine, shape, side, width_px, edge.r), is_end),
+        v: if corner >= 2 { 0.0 } else { 1.0 },
+        opacity: opacity_at(edge.distance.x * (1.0 - t) + edge.distance.y * t, shape),
+    }
+}
+
+/// How far a fin stands out, in units of the world.
+fn fin_height(clip: Vec4, shape: &StrokeShape) -> f32 {
+    if shape.is_world_width {
+        return shape.width;
+    }
+    shape.width * clip.w / shape.px_per_unit
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::oracle::stroke_quad::Placement;
+    use crate::oracle::stroke_segment::Parameterization;
 
-    const SHAPE: StrokeShape =
-        StrokeShape { viewport_px: Vec2::new(200.0, 100.0), width_px: 4.0, brush_aspect: 8.0 };
+    const SHAPE: StrokeShape = StrokeShape {
+        viewport_px: Vec2::new(200.0, 100.0),
+        origin_px: Vec2::ZERO,
+        fade: Vec2::ZERO,
+        width: 4.0,
+        px_per_unit: 50.0,
+        brush_aspect: 8.0,
+        mirror: 1.0,
+        kind: LineKind::QuadAndCaps,
+        placement: Placement::Automatic,
+        parameterization: Parameterization::ObjectSpace,
+        is_world_width: false,
+    };
 
     fn edge() -> ClipEdge {
         ClipEdge {
@@ -228,79 +256,182 @@ mod tests {
             c1: Vec4::new(0.4, 0.0, 0.25, 1.0),
             c2: Vec4::new(0.2, 0.4, 0.2, 1.0),
             c3: Vec4::new(0.2, -0.4, 0.2, 1.0),
-            facing: Vec2::ONE,
             n0: Vec4::new(0.0, 1.0, 0.0, 0.0),
             n1: Vec4::new(0.0, 1.0, 0.0, 0.0),
+            facing: Vec2::ONE,
+            distance: Vec2::new(2.0, 4.0),
             r: 0.25,
         }
     }
 
+    fn vertex(shape: &StrokeShape, bits: LineBits, corner: u32) -> StrokeVertex {
+        stroke_vertex(&edge(), shape, bits, corner)
+    }
+
     fn pixels(vertex: StrokeVertex) -> [f32; 2] {
-        (vertex.position.truncate().truncate() * SHAPE.viewport_px * 0.5).to_array()
+        let px = vertex.position.truncate() * SHAPE.viewport_px * 0.5;
+        px.to_array().map(|coordinate| (coordinate * 1e3).round() / 1e3)
     }
 
     #[test]
     fn a_contour_lies_where_its_front_face_is_not() {
-        let rim = |bits| pixels(stroke_vertex(&edge(), &SHAPE, bits, 2));
-        assert_eq!(rim(LineBits::CONTOUR | LineBits::A_FACES), [40.0, -4.0]);
-        assert_eq!(rim(LineBits::CONTOUR), [40.0, 4.0]);
+        let rim = |shape: &StrokeShape, bits| pixels(vertex(shape, bits, 2));
+        assert_eq!(rim(&SHAPE, LineBits::CONTOUR | LineBits::A_FACES), [40.0, -4.0]);
+        assert_eq!(rim(&SHAPE, LineBits::CONTOUR), [40.0, 4.0]);
+        let mirrored = StrokeShape { mirror: -1.0, ..SHAPE };
+        assert_eq!(rim(&mirrored, LineBits::CONTOUR), [40.0, -4.0]);
+        let inside = StrokeShape { placement: Placement::Inside, ..SHAPE };
+        assert_eq!(rim(&inside, LineBits::CONTOUR), [40.0, -4.0]);
+        let centred = StrokeShape { placement: Placement::Centred, ..SHAPE };
+        assert_eq!(rim(&centred, LineBits::CONTOUR), [40.0, 2.0]);
     }
 
     #[test]
     fn a_crease_is_centred_and_its_brush_starts_at_r() {
-        let corners = [0, 1, 2, 5].map(|i| stroke_vertex(&edge(), &SHAPE, LineBits::empty(), i));
+        let corners = [0, 1, 2, 3].map(|corner| vertex(&SHAPE, LineBits::empty(), corner));
         assert_eq!(corners.map(pixels), [[0., -2.], [40., -2.], [40., 2.], [0., 2.]]);
         // The normal points up: the upper rim is the outside, v = 0.
-        assert_eq!(corners.map(|corner| corner.uv.y), [1.0, 1.0, 0.0, 0.0]);
+        assert_eq!(corners.map(|corner| corner.v), [1.0, 1.0, 0.0, 0.0]);
         // 40 px along a brush of 4 x 8 = 32 px: 1.25 repeats.
-        assert_eq!(corners.map(|corner| corner.uv.x), [0.25, 1.5, 1.5, 0.25]);
+        assert_eq!(corners.map(|corner| corner.u), [0.25, 1.5, 1.5, 0.25]);
         assert_eq!(corners.map(|corner| corner.position.z), [0.5, 0.25, 0.25, 0.5]);
     }
 
     #[test]
+    fn the_screen_parameterization_is_the_place_from_the_origin() {
+        let origin_px = Vec2::new(-8.0, 3.0);
+        let parameterization = Parameterization::ScreenSpace;
+        let shape = StrokeShape { origin_px, parameterization, ..SHAPE };
+        let u = |edge: &ClipEdge| {
+            [0, 1].map(|corner| stroke_vertex(edge, &shape, LineBits::empty(), corner).u)
+        };
+        assert_eq!(u(&edge()), [8.0 / 32.0, 48.0 / 32.0], "along x");
+        // Mostly vertical, and the outside on the right: up counts backward.
+        let c1 = Vec4::new(0.0, 0.8, 0.25, 1.0);
+        let upright = ClipEdge { c1, n0: Vec4::X, n1: Vec4::X, ..edge() };
+        assert_eq!(u(&upright), [3.0 / 32.0, -37.0 / 32.0], "along y");
+    }
+
+    /// Figure 9: outside, caps and quad share the brush by their lengths.
+    #[test]
+    fn the_brush_of_a_half_quad_is_stretched_over_its_caps() {
+        let mut leaning = edge();
+        // Both normals lean out by 45 degrees; p is up and the outside too.
+        leaning.n0 = Vec4::new(-0.5, 1.0, 0.0, 0.0);
+        leaning.n1 = Vec4::new(0.5, 1.0, 0.0, 0.0);
+        let vertex = |corner| stroke_vertex(&leaning, &SHAPE, LineBits::CONTOUR, corner);
+        let cap = (4.0_f32 * std::f32::consts::FRAC_1_SQRT_2).hypot(4.0 - 8.0_f32.sqrt());
+        let whole = 40.0 + 2.0 * cap;
+        let run = 40.0 / 32.0;
+        let close = |got: f32, want: f32| assert!((got - want).abs() < 1e-4, "{got} {want}");
+        close(vertex(0).u, 0.25);
+        close(vertex(1).u, 0.25 + run);
+        close(vertex(3).u, 0.25 + run * cap / whole);
+        close(vertex(2).u, 0.25 + run * (cap + 40.0) / whole);
+        // Caps: spine, rim, tip.
+        close(vertex(4).u, 0.25);
+        close(vertex(5).u, vertex(3).u);
+        close(vertex(6).u, 0.25);
+        close(vertex(9).u, 0.25 + run);
+        assert_eq!([4, 5, 6].map(|corner| vertex(corner).v), [1.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn widths_of_the_world_shrink_and_strokes_fade_with_the_distance() {
+        let shape =
+            StrokeShape { is_world_width: true, width: 0.2, fade: Vec2::new(2.0, 6.0), ..SHAPE };
+        let mut far = edge();
+        far.c1 = Vec4::new(0.8, 0.0, 0.5, 2.0);
+        let corner = |corner| stroke_vertex(&far, &shape, LineBits::empty(), corner);
+        // 0.2 units at 50 px a unit: 10 px, and 5 px at twice the distance.
+        assert_eq!(pixels(corner(3)), [0.0, 5.0]);
+        assert_eq!(pixels(corner(2)), [40.0, 2.5]);
+        assert_eq!([corner(0).opacity, corner(1).opacity], [1.0, 0.5]);
+    }
+
+    #[test]
+    fn half_disks_round_the_ends() {
+        let shape = StrokeShape { kind: LineKind::QuadAndDisks, ..SHAPE };
+        let ring = |first: u32| {
+            [first, first + 1, first + 1 + DISK_STEPS / 2, first + 1 + DISK_STEPS]
+                .map(|corner| pixels(vertex(&shape, LineBits::empty(), corner)))
+        };
+        assert_eq!(ring(4), [[0., 0.], [0., 2.], [-2., 0.], [0., -2.]]);
+        assert_eq!(ring(4 + DISK_VERTICES), [[40., 0.], [40., 2.], [42., 0.], [40., -2.]]);
+    }
+
+    #[test]
+    fn fins_stand_on_the_edge_along_the_normals() {
+        let shape = StrokeShape { kind: LineKind::Fin, ..SHAPE };
+        let corners = [0, 1, 2, 3].map(|corner| vertex(&shape, LineBits::CONTOUR, corner));
+        // 4 px are 0.08 units of the world; the normal's clip unit is 50 px high.
+        assert_eq!(corners.map(pixels), [[0., 0.], [40., 0.], [40., 4.], [0., 4.]]);
+    }
+
+    #[test]
     fn rims_follow_a_face_that_rises_and_not_one_that_falls() {
-        let depth =
-            |edge: &ClipEdge, i| stroke_vertex(edge, &SHAPE, LineBits::empty(), i).position.z;
+        let depth = |edge: &ClipEdge, corner| {
+            stroke_vertex(edge, &SHAPE, LineBits::empty(), corner).position.z
+        };
         // The edge's depth beside the apex is 0.375; 20 px away the face lies
         // 0.2 nearer, so 2 px away 0.02.
         let mut rising = edge();
         rising.c2 = Vec4::new(0.2, 0.4, 0.575, 1.0);
-        assert!((depth(&rising, 5) - 0.52).abs() < 1e-6, "{}", depth(&rising, 5));
+        assert!((depth(&rising, 3) - 0.52).abs() < 1e-6, "{}", depth(&rising, 3));
         assert!((depth(&rising, 2) - 0.27).abs() < 1e-6, "{}", depth(&rising, 2));
         assert!((depth(&rising, 0) - 0.5).abs() < 1e-6, "the other side stays");
         // A face that ends after 1 px rises no further than its end.
         rising.c2 = Vec4::new(0.2, 0.02, 0.385, 1.0);
-        assert!((depth(&rising, 5) - 0.51).abs() < 1e-5, "{}", depth(&rising, 5));
+        assert!((depth(&rising, 3) - 0.51).abs() < 1e-5, "{}", depth(&rising, 3));
         // Seen edge on, it lifts nothing; half of it in between.
         rising.facing.x = 0.125;
-        assert!((depth(&rising, 5) - 0.505).abs() < 1e-5, "{}", depth(&rising, 5));
+        assert!((depth(&rising, 3) - 0.505).abs() < 1e-5, "{}", depth(&rising, 3));
         rising.facing.x = 0.01;
-        assert!((depth(&rising, 5) - 0.5).abs() < 1e-6, "{}", depth(&rising, 5));
+        assert!((depth(&rising, 3) - 0.5).abs() < 1e-6, "{}", depth(&rising, 3));
         rising.facing.x = 1.0;
         // Behind the eye, the part in front of the near plane counts: this face
         // goes up by 0.4 toward w = 0.5, and its depth with it.
         rising.c2 = Vec4::new(0.2, 0.8, 0.5, -1.0);
-        assert!(depth(&rising, 5) > 0.51, "{}", depth(&rising, 5));
+        assert!(depth(&rising, 3) > 0.51, "{}", depth(&rising, 3));
         rising.c2 = Vec4::new(0.2, 0.02, 0.385, 1.0);
-        // A half quad lies off the surface.
-        let half = stroke_vertex(&rising, &SHAPE, LineBits::CONTOUR, 5);
+        // A half quad of a contour lies off the surface, inside of one on it.
+        let half = stroke_vertex(&rising, &SHAPE, LineBits::CONTOUR, 3);
         assert!((half.position.z - 0.5).abs() < 1e-6);
+        let inside = StrokeShape { placement: Placement::Inside, ..SHAPE };
+        let bits = LineBits::CONTOUR;
+        let corner = stroke_vertex(&ClipEdge { c3: rising.c2, ..rising }, &inside, bits, 3);
+        assert!(corner.position.y < 0.0 && (corner.position.z - 0.5).abs() < 1e-6, "below");
     }
 
     #[test]
     fn clipped_ends_have_no_caps_and_hidden_edges_no_vertices() {
         let mut through = edge();
         through.c0 = Vec4::new(0.0, 0.0, 0.5, -1.0);
-        for index in 6..9 {
-            let vertex = stroke_vertex(&through, &SHAPE, LineBits::empty(), index);
-            assert_eq!(vertex.position, BEHIND);
+        for kind in [LineKind::QuadAndCaps, LineKind::QuadAndDisks] {
+            let shape = StrokeShape { kind, ..SHAPE };
+            let per_end = (kind.vertex_count() - 4) / 2;
+            for corner in 4..4 + 2 * per_end {
+                let vertex = stroke_vertex(&through, &shape, LineBits::empty(), corner);
+                assert_eq!(vertex.position == BEHIND, corner < 4 + per_end, "{corner}");
+            }
         }
-        assert_ne!(stroke_vertex(&through, &SHAPE, LineBits::empty(), 9).position, BEHIND);
-        let mut point = edge();
-        point.c1 = point.c0;
-        for index in 0..VERTICES_PER_EDGE {
-            let vertex = stroke_vertex(&point, &SHAPE, LineBits::CONTOUR, index);
-            assert_eq!(vertex.position, BEHIND);
+        let point = ClipEdge { c1: edge().c0, ..edge() };
+        for kind in [LineKind::Thin, LineKind::QuadAndCaps, LineKind::QuadAndDisks, LineKind::Fin] {
+            let shape = StrokeShape { kind, ..SHAPE };
+            for corner in 0..kind.vertex_count() {
+                let vertex = stroke_vertex(&point, &shape, LineBits::CONTOUR, corner);
+                assert_eq!(vertex.position, BEHIND);
+            }
+        }
+    }
+
+    #[test]
+    fn indices_use_every_vertex() {
+        for kind in [LineKind::Thin, LineKind::Quad, LineKind::QuadAndCaps, LineKind::QuadAndDisks]
+        {
+            let indices = kind.indices();
+            assert!((0..kind.vertex_count()).all(|vertex| indices.contains(&vertex)), "{kind:?}");
+            assert!(indices.iter().all(|&vertex| vertex < kind.vertex_count()));
         }
     }
 }

@@ -6,7 +6,7 @@ use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 use std::thread;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use edgemesh::camera::Camera;
 use edgemesh::command::input::InputOptions;
 use edgemesh::command::options::CameraOptions;
@@ -16,11 +16,13 @@ use glam::DQuat;
 use image::RgbaImage;
 use serde::Serialize;
 use strokes::gpu::{self, Gpu};
+use strokes::mesh_buffers::Layout;
+use strokes::renderer::DetectionPath;
 
 use crate::animation::{AnimationKind, encode_animation};
 use crate::picture::{DEFAULT_REFERENCE_THRESHOLD, compare, encode_png, read_png, straight_alpha};
-use crate::render::{FrameStatistics, PictureRenderer, Scene, adapter_failure};
-use crate::technique::{TECHNIQUES, Technique, VARIABLES};
+use crate::render::{FrameStatistics, PictureOptions, PictureRenderer, Scene, adapter_failure};
+use crate::technique::{PASSES, STROKE_VARIABLES, TECHNIQUES, Technique};
 
 /// Renders models to a PNG, without a window
 #[derive(Debug, Clone, Args)]
@@ -35,12 +37,22 @@ pub(super) struct RenderCommand {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = parse_size)]
     size: [u32; 2],
-    /// How it looks: ink or pen
+    /// How it looks: ink, pen, charcoal, watercolor, fur or hidden-line
     #[arg(long, value_name = "NAME", default_value = "ink")]
     technique: String,
     /// Set a variable of the technique; repeatable
     #[arg(long, value_name = "PASS.VARIABLE=VALUE")]
     set: Vec<String>,
+    /// The brush of all visible strokes: a PNG file, or pen, charcoal, watercolor,
+    /// fur, dash, none
+    #[arg(long, value_name = "FILE")]
+    brush: Option<String>,
+    /// How the edges lie in memory; the replicated layouts are the paper's
+    #[arg(long, value_name = "LAYOUT", default_value = "indexed")]
+    layout: LayoutName,
+    /// Where features are detected; in the vertex shader is the paper's way
+    #[arg(long, value_name = "PATH", default_value = "compute")]
+    detection: PathName,
     /// Samples a pixel
     #[arg(long, value_name = "N", default_value = "4", value_parser = ["1", "4"])]
     samples: String,
@@ -70,9 +82,50 @@ pub(super) struct RenderCommand {
     input: InputOptions,
 }
 
+/// The layouts by name.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum LayoutName {
+    /// 20 bytes an edge, everything else shared with the faces
+    Indexed,
+    /// Four vertices an edge, in 32-bit floats
+    ReplicatedF32,
+    /// Four vertices an edge, at 16 bits
+    ReplicatedI16,
+}
+
+impl From<LayoutName> for Layout {
+    fn from(name: LayoutName) -> Self {
+        match name {
+            LayoutName::Indexed => Self::Indexed,
+            LayoutName::ReplicatedF32 => Self::Replicated,
+            LayoutName::ReplicatedI16 => Self::Replicated16,
+        }
+    }
+}
+
+/// The detection paths by name.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum PathName {
+    /// In compute shaders, which list the edges to draw
+    Compute,
+    /// In the vertex shader, through which every edge goes
+    Vertex,
+}
+
+impl From<PathName> for DetectionPath {
+    fn from(name: PathName) -> Self {
+        match name {
+            PathName::Compute => Self::Compute,
+            PathName::Vertex => Self::Vertex,
+        }
+    }
+}
+
 const EXAMPLES: &str = "Examples:\n  \
     viewer render bunny.obj -o bunny.png\n  \
     viewer render bunny.obj -o bunny.png --technique pen --set strokes.width=4 --size 2048x1024\n  \
+    viewer render part.obj -o part.png --technique hidden-line --set hidden.color=#c04000\n  \
+    viewer render bunny.obj -o fur.png --technique fur --set contour.width=40\n  \
     viewer render part.obj -o part.png --eye 3,2,5 --ortho --crease 20 --stats -\n  \
     viewer render part.obj -o turn.gif --turntable 72 --size 512x512";
 
@@ -80,7 +133,12 @@ fn long_help() -> String {
     let list = |rows: &[(&str, &str)]| {
         rows.iter().map(|(name, what)| format!("  {name:<18} {what}\n")).collect::<String>()
     };
-    format!("Techniques:\n{}\nVariables:\n{}\n{EXAMPLES}", list(&TECHNIQUES), list(&VARIABLES))
+    format!(
+        "Techniques:\n{}\nPasses, for --set PASS.VARIABLE=VALUE:\n{}\nVariables of strokes:\n{}\n{EXAMPLES}",
+        list(&TECHNIQUES),
+        list(&PASSES),
+        list(&STROKE_VARIABLES)
+    )
 }
 
 /// What `--stats` writes; scripts rely on the keys.
@@ -91,8 +149,9 @@ struct Statistics {
     size: [u32; 2],
     triangles: usize,
     edges: usize,
-    features: FeatureCounts,
-    strokes: u32,
+    /// None where vertex shaders detect, which count nothing.
+    features: Option<FeatureCounts>,
+    strokes: Option<u32>,
     passes: Vec<PassTime>,
     frame_ms: f64,
 }
@@ -107,6 +166,11 @@ impl RenderCommand {
     pub(super) fn run(&self, is_quiet: bool) -> Result<(), Failure> {
         self.check_outputs()?;
         let mut technique = Technique::by_name(&self.technique)?;
+        let built = self.input.creases.build_options();
+        technique.set_built_thresholds([built.ridge_angle_rad, built.valley_angle_rad]);
+        if let Some(brush) = &self.brush {
+            technique.set(&format!("strokes.brush={brush}"))?;
+        }
         for assignment in &self.set {
             technique.set(assignment)?;
         }
@@ -123,10 +187,18 @@ impl RenderCommand {
         log::info!("drawing on {} ({})", gpu.info.name, gpu.info.backend);
         let camera = self.camera.camera(&scene.bounds, &scene.frame)?;
         let samples = if self.samples == "1" { 1 } else { 4 };
-        let renderer = PictureRenderer::new(&gpu, &scene, &technique.look(), self.size, samples)?;
+        let options = PictureOptions {
+            background: technique.background(),
+            size: self.size,
+            samples,
+            layout: self.layout.into(),
+            path: self.detection.into(),
+        };
+        let looks = [technique.look(&scene.frame)];
+        let mut renderer = PictureRenderer::new(&gpu, &scene, &looks, &options)?;
         let statistics = match self.turntable {
-            Some(steps) => self.write_turntable(&renderer, &camera, steps)?,
-            None => self.write_picture(&renderer, &camera, reference.as_ref())?,
+            Some(steps) => self.write_turntable(&mut renderer, &camera, steps)?,
+            None => self.write_picture(&mut renderer, &camera, reference.as_ref())?,
         };
         self.write_statistics(&gpu, &scene, &statistics)
     }
@@ -185,7 +257,7 @@ impl RenderCommand {
 
     fn write_picture(
         &self,
-        renderer: &PictureRenderer,
+        renderer: &mut PictureRenderer,
         camera: &Camera,
         reference: Option<&RgbaImage>,
     ) -> Result<FrameStatistics, Failure> {
@@ -222,7 +294,7 @@ impl RenderCommand {
 
     fn write_turntable(
         &self,
-        renderer: &PictureRenderer,
+        renderer: &mut PictureRenderer,
         camera: &Camera,
         steps: u32,
     ) -> Result<FrameStatistics, Failure> {
@@ -270,8 +342,8 @@ impl RenderCommand {
             size: self.size,
             triangles: sum(|counts| counts.triangles),
             edges: sum(|counts| counts.edges.edges),
-            features: statistics.tally.features(),
-            strokes: statistics.tally.instance_count,
+            features: statistics.tally.map(|tally| tally.features()),
+            strokes: statistics.tally.map(|tally| tally.stroke_count),
             passes: passes.map(|&(name, gpu_ms)| PassTime { name, gpu_ms }).collect(),
             frame_ms: statistics.frame_ms,
         };

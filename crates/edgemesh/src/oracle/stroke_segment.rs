@@ -1,0 +1,354 @@
+//! An edge as a stroke on the screen: what all of its vertices have in common.
+//!
+//! The outside of a contour is the side of the spine where its front face is
+//! not, which one facing bit tells for sure. The paper asks the projected vertex
+//! normal instead (Equation 3), which errs on rough meshes; it is asked here
+//! only where there is no front face to ask.
+//!
+//! A stroke lies over the faces beside its edge, which can rise toward the eye
+//! under it. So its sides take the depth of those faces ([`rise_toward_eye`])
+//! where that is nearer than the edge's own, and are not swallowed however wide
+//! they are. Only outside of a contour there is no face.
+//!
+//! The brush is laid on by one of the paper's two parameterizations (section 4).
+//! In object space u begins at the edge's random scalar and grows with the length
+//! on the screen; in screen space it is the place on the screen, right or up,
+//! from the object's origin. Either way in units of the brush's own length at
+//! this width, so that its aspect is kept, and turned with the outside, so that
+//! strokes wind around a silhouette in one direction. Across, v runs from 0 on
+//! the outside to 1 on the inside.
+//!
+//! A cap of a full quad repeats the column at its end. Along a half quad u maps
+//! directly to the inside and is stretched over caps and quad on the outside:
+//!
+//! ```text
+//!   u0 . - - a - - . - - - b - - - . - - c - - . u1       (Figure 9)
+//!        ` .       |               |       . `
+//!            ` . u0|_______________|u1 . `
+//! ```
+//!
+//! WGSL twin: `shaders/common/stroke_segment.wgsl`.
+
+use glam::{Vec2, Vec4};
+
+use super::feature::LineBits;
+use super::spine::{MIN_LENGTH_PX, Spine, lerp, project_spine, screen_normal, to_pixels};
+use super::stroke_cap::stroke_cap;
+use super::stroke_quad::{Placement, quad_offsets, sign};
+
+/// A narrow face that looks at the eye by no more than this cosine, 87 degrees
+/// off, is seen edge on and lifts no stroke.
+pub const EDGE_ON_FACING: f32 = 0.05;
+
+/// A face that looks at the eye by this cosine or more, 78 degrees off, lifts the
+/// strokes along it in full.
+pub const LIFTED_FACING: f32 = 0.2;
+
+/// Kinds of lines and of their ends. WGSL twins: the constants of these names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+#[repr(u32)]
+pub enum LineKind {
+    /// A line of one pixel (section 3.2).
+    Thin = 0,
+    /// A quad that ends where its edge does.
+    Quad = 1,
+    /// A quad with the paper's caps (Equations 4 and 5).
+    #[default]
+    QuadAndCaps = 2,
+    /// A quad with half disks (section 6).
+    QuadAndDisks = 3,
+    /// A quad that stands on the edge along the vertex normals (Card and
+    /// Mitchell, Listing 1).
+    Fin = 4,
+}
+
+/// How a brush lies along strokes (section 4). WGSL twins: `OBJECT_SPACE` and
+/// `SCREEN_SPACE`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(u32)]
+pub enum Parameterization {
+    /// From a random start along the edge: coherent in animation, broken at
+    /// every vertex.
+    #[default]
+    ObjectSpace = 0,
+    /// By the place on the screen: whole in a still picture, whatever the mesh.
+    ScreenSpace = 1,
+}
+
+/// An edge in clip space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ClipEdge {
+    /// Start.
+    pub c0: Vec4,
+    /// End.
+    pub c1: Vec4,
+    /// Third vertex of face A.
+    pub c2: Vec4,
+    /// Third vertex of face B; equal to `c0` where there is none.
+    pub c3: Vec4,
+    /// Vertex normal at the start, taken to clip space as a direction.
+    pub n0: Vec4,
+    /// Vertex normal at the end, likewise.
+    pub n1: Vec4,
+    /// How squarely faces A and B look at the eye, or away from it: the cosine
+    /// of the angle between normal and line of sight, without its sign.
+    pub facing: Vec2,
+    /// How far from the eye start and end are, along the line of sight.
+    pub distance: Vec2,
+    /// The random scalar.
+    pub r: f32,
+}
+
+/// What all strokes of a draw share.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StrokeShape {
+    /// Size of the picture.
+    pub viewport_px: Vec2,
+    /// The object's origin on the screen, from the middle.
+    pub origin_px: Vec2,
+    /// The distances where strokes begin to fade and where nothing is left of
+    /// them; equal for never.
+    pub fade: Vec2,
+    /// Width of a stroke.
+    pub width: f32,
+    /// Pixels that a unit of the world has at w = 1.
+    pub px_per_unit: f32,
+    /// Length of the brush texture over its height.
+    pub brush_aspect: f32,
+    /// -1 where the object is seen as in a mirror, else 1.
+    pub mirror: f32,
+    /// What is drawn.
+    pub kind: LineKind,
+    /// Where on the spine.
+    pub placement: Placement,
+    /// How the brush lies along it.
+    pub parameterization: Parameterization,
+    /// Whether the width is in units of the world, else in pixels.
+    pub is_world_width: bool,
+}
+
+/// A stroke on the screen. Its near side has the paper's corners 0 and 1, its far
+/// side corners 2 and 3.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Segment {
+    /// The projected edge.
+    pub spine: Spine,
+    /// False where there is nothing to draw.
+    pub is_drawn: bool,
+    /// Projected normal at the start.
+    pub m0: Vec2,
+    /// Projected normal at the end.
+    pub m1: Vec2,
+    /// How far the near side lies along p, at start and end.
+    pub near_px: Vec2,
+    /// How far the far side does.
+    pub far_px: Vec2,
+    /// How much nearer to the eye than the spine the near side lies.
+    pub near_rise: f32,
+    /// How much nearer the far side does.
+    pub far_rise: f32,
+    /// On which side the caps are, at start and end.
+    pub cap_side: Vec2,
+    /// u along the spine and the near side.
+    pub u: Vec2,
+    /// u at the far corners.
+    pub u_far: Vec2,
+    /// v on the near side.
+    pub v_near: f32,
+    /// v on the far side.
+    pub v_far: f32,
+    /// v on the spine.
+    pub v_spine: f32,
+    /// What is left of the stroke after fading, at start and end.
+    pub opacity: Vec2,
+}
+
+/// The stroke along `edge`.
+#[must_use]
+pub fn stroke_segment(edge: &ClipEdge, shape: &StrokeShape, bits: LineBits) -> Segment {
+    let spine = project_spine(edge.c0, edge.c1, shape.viewport_px);
+    let mut segment = Segment { spine, is_drawn: spine.p != Vec2::ZERO, ..Segment::default() };
+    if !segment.is_drawn {
+        return segment;
+    }
+    let [a, b] = [spine.t0, spine.t1].map(|t| lerp(edge.c0, edge.c1, t));
+    segment.m0 = screen_normal(a, edge.n0, shape.viewport_px);
+    segment.m1 = screen_normal(b, edge.n1, shape.viewport_px);
+    let side = outside_of(&segment, shape, bits);
+    let placement = placement_of(shape, bits);
+    let width_px = Vec2::new(width_at(a, shape), width_at(b, shape));
+    let [start_px, end_px] =
+        width_px.to_array().map(|width_px| quad_offsets(placement, side, width_px));
+    segment.near_px = Vec2::new(start_px.x, end_px.x);
+    segment.far_px = Vec2::new(start_px.y, end_px.y);
+    let distance_at = |t: f32| edge.distance.x * (1.0 - t) + edge.distance.y * t;
+    segment.opacity = Vec2::new(spine.t0, spine.t1).map(|t| opacity_at(distance_at(t), shape));
+    segment.u = stroke_u(&spine, shape, side, 0.5 * (width_px.x + width_px.y), edge.r);
+    segment.u_far = segment.u;
+    if placement == Placement::Centred {
+        segment.v_far = 0.5 - 0.5 * side;
+        segment.v_near = 1.0 - segment.v_far;
+        segment.v_spine = 0.5;
+        let side_of = |m: Vec2| sign(m.dot(spine.p));
+        segment.cap_side = Vec2::new(side_of(segment.m0), side_of(segment.m1));
+        segment.near_rise = quad_rise(edge, &spine, shape.viewport_px, segment.near_px);
+    } else {
+        segment.v_far = if placement == Placement::Inside { 1.0 } else { 0.0 };
+        segment.v_near = 1.0 - segment.v_far;
+        segment.v_spine = segment.v_near;
+        segment.cap_side = Vec2::splat(sign(end_px.y));
+        if shape.kind == LineKind::QuadAndCaps {
+            segment.u_far = stretched_u(&segment);
+        }
+    }
+    // No face lies outside of a contour.
+    if placement != Placement::Outside || !bits.contains(LineBits::CONTOUR) {
+        segment.far_rise = quad_rise(edge, &spine, shape.viewport_px, segment.far_px);
+    }
+    segment
+}
+
+/// +1 where the outside is the side of p, else -1.
+fn outside_of(segment: &Segment, shape: &StrokeShape, bits: LineBits) -> f32 {
+    if bits.contains(LineBits::CONTOUR) {
+        // p lies left of the edge, and so does face A where it looks at the eye.
+        let side = if bits.contains(LineBits::A_FACES) { -1.0 } else { 1.0 };
+        return side * shape.mirror;
+    }
+    sign(segment.m0.dot(segment.spine.p))
+}
+
+fn placement_of(shape: &StrokeShape, bits: LineBits) -> Placement {
+    match shape.placement {
+        Placement::Automatic if bits.contains(LineBits::CONTOUR) => Placement::Outside,
+        Placement::Automatic => Placement::Centred,
+        chosen => chosen,
+    }
+}
+
+/// The width in pixels at a point of the edge.
+pub(super) fn width_at(clip: Vec4, shape: &StrokeShape) -> f32 {
+    if !shape.is_world_width {
+        return shape.width;
+    }
+    // At the eye a width has no bound; more than the picture is not seen.
+    (shape.width * shape.px_per_unit / clip.w).min(shape.viewport_px.y)
+}
+
+/// What is left of a stroke at a distance from the eye.
+pub(super) fn opacity_at(distance: f32, shape: &StrokeShape) -> f32 {
+    let [start, end] = shape.fade.to_array();
+    if start >= end {
+        return 1.0;
+    }
+    ((end - distance) / (end - start)).clamp(0.0, 1.0)
+}
+
+/// u at start and end (section 4). The paper's w is the line width times the sign
+/// of the outside; to keep the brush's aspect, lengths are divided by the width
+/// and not multiplied.
+pub(super) fn stroke_u(
+    spine: &Spine,
+    shape: &StrokeShape,
+    side: f32,
+    width_px: f32,
+    r: f32,
+) -> Vec2 {
+    let along = spine.s1 - spine.s0;
+    let w = side / (width_px * shape.brush_aspect);
+    match shape.parameterization {
+        Parameterization::ObjectSpace => Vec2::new(r, r + w * along.length()),
+        // A mostly vertical edge.
+        Parameterization::ScreenSpace if along.y.abs() > along.x.abs() => {
+            w * (Vec2::new(spine.s0.y, spine.s1.y) - shape.origin_px.y)
+        }
+        Parameterization::ScreenSpace => {
+            w * (Vec2::new(spine.s0.x, spine.s1.x) - shape.origin_px.x)
+        }
+    }
+}
+
+/// u at the far corners of a half quad whose brush is stretched over its caps as
+/// well (Figure 9).
+fn stretched_u(segment: &Segment) -> Vec2 {
+    let spine = &segment.spine;
+    let a = cap_length(spine.p, segment.m0, segment.far_px.x, spine.t0 > 0.0);
+    let b = (spine.s1 - spine.s0).length();
+    let c = cap_length(spine.p, segment.m1, segment.far_px.y, spine.t1 < 1.0);
+    let run = segment.u.y - segment.u.x;
+    segment.u.x + run * Vec2::new(a, a + b) / (a + b + c)
+}
+
+/// From the rim of the quad to the tip of its cap; a cut end has none.
+fn cap_length(p: Vec2, m: Vec2, far_px: f32, is_cut: bool) -> f32 {
+    if is_cut {
+        return 0.0;
+    }
+    let tip = stroke_cap(Vec2::ZERO, p, m, sign(far_px), far_px.abs(), 2);
+    (tip - p * far_px).length()
+}
+
+/// How much nearer than the edge, in depth, the side of a stroke must lie that is
+/// `side_px` along p at start and end: as much as the higher of the two faces.
+fn quad_rise(edge: &ClipEdge, spine: &Spine, viewport_px: Vec2, side_px: Vec2) -> f32 {
+    let side = sign(side_px.x + side_px.y);
+    let reach_px = side_px.abs().max_element();
+    let middle = lerp(edge.c0, edge.c1, (spine.t0 + spine.t1) * 0.5);
+    let rise = |apex: Vec4, facing: f32| {
+        let apex = in_front(middle, apex);
+        rise_toward_eye(spine, apex, facing, viewport_px, side, reach_px)
+    };
+    rise(edge.c2, edge.facing.x).max(rise(edge.c3, edge.facing.y))
+}
+
+/// A point of the face for its third vertex: the vertex itself, or, where it
+/// lies behind the near plane, one halfway from the edge's middle to that plane.
+fn in_front(middle: Vec4, apex: Vec4) -> Vec4 {
+    let middle_distance = middle.w - middle.z;
+    let apex_distance = apex.w - apex.z;
+    if apex_distance > 0.0 {
+        return apex;
+    }
+    lerp(middle, apex, 0.5 * middle_distance / (middle_distance - apex_distance))
+}
+
+/// How much nearer than the edge the face with the point `apex` lies,
+/// `reach_px` away from the edge on the side `side` (+1 is the side of p).
+///
+/// `apex` is a point of the face in front of the near plane. Depth is linear on
+/// the screen, so the face's plane gives it exactly; past `apex` it stays what
+/// it was there. Zero where the face falls away or lies on the other side, less
+/// where it is a narrow wall seen edge on (`facing`, see [`ClipEdge::facing`]).
+#[must_use]
+pub fn rise_toward_eye(
+    spine: &Spine,
+    apex: Vec4,
+    facing: f32,
+    viewport_px: Vec2,
+    side: f32,
+    reach_px: f32,
+) -> f32 {
+    if apex.w <= 0.0 {
+        return 0.0;
+    }
+    let along = spine.s1 - spine.s0;
+    let to_apex = to_pixels(apex, viewport_px) - spine.s0;
+    let distance_px = to_apex.dot(spine.p) * side;
+    if distance_px < MIN_LENGTH_PX {
+        return 0.0;
+    }
+    let t = to_apex.dot(along) / along.dot(along);
+    let edge_depth = spine.z0 + (spine.z1 - spine.z0) * t;
+    let rise = apex.z / apex.w - edge_depth;
+    let share = lift_share(facing, distance_px / reach_px);
+    (rise * (reach_px / distance_px).min(1.0) * share).max(0.0)
+}
+
+/// How much of a face's rise counts: all of it where the face is seen well or is
+/// wide. A face that is both edge on and as narrow as the stroke is a wall: it
+/// would lift the rim up to its far end, and a hidden edge through what hides it.
+fn lift_share(facing: f32, reaches_wide: f32) -> f32 {
+    let seen = (facing - EDGE_ON_FACING) / (LIFTED_FACING - EDGE_ON_FACING);
+    let wide = 0.5 * reaches_wide - 1.0;
+    seen.max(wide).clamp(0.0, 1.0)
+}

@@ -1,0 +1,156 @@
+//! How an object looks: its fill, and the strokes of each class of edge.
+//!
+//! Classes that look alike are one *layer*; a layer is one list of edges and one
+//! draw. Each layer can have a second style for what is hidden (paper, section
+//! 3.5), and the one with the contours a third for the silhouette, which is
+//! drawn over the contours where they border on other things (section 3.4).
+//!
+//! ```text
+//!   classes --ClassTable--> layers --+--> visible strokes
+//!                                    +--> hidden strokes
+//!                                    '--> silhouettes, past a stencil
+//! ```
+
+use edgemesh::edge_word::threshold_steps;
+use edgemesh::oracle::feature::{ClassTable, EdgeClass};
+use edgemesh::oracle::stroke_quad::Placement;
+use edgemesh::oracle::stroke_segment::{LineKind, Parameterization};
+
+use crate::brush::Brush;
+
+/// Layers that one object can have: one a class. WGSL twin: the constant of this
+/// name.
+pub const MAX_LAYERS: usize = EdgeClass::ALL.len();
+
+/// Draws of strokes that one object can have: of each layer the visible and the
+/// hidden strokes, and the silhouettes of both kinds. WGSL twin: the constant of
+/// this name.
+pub const MAX_DRAWS: usize = 2 * MAX_LAYERS + 2;
+
+/// How wide a stroke is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Width {
+    /// The same on the screen at any distance.
+    Pixels(f32),
+    /// In units of the scene: smaller farther away.
+    World(f32),
+}
+
+/// How one kind of stroke looks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StrokeStyle {
+    /// Premultiplied colour.
+    pub color: [f32; 4],
+    /// Its width.
+    pub width: Width,
+    /// Thin line, quad or fin, and what is at the ends.
+    pub kind: LineKind,
+    /// Where on the edge it lies.
+    pub placement: Placement,
+    /// How the brush lies along it.
+    pub parameterization: Parameterization,
+    /// The brush, or `None` for solid ink.
+    pub brush: Option<Brush>,
+    /// The distances from the eye, in units of the scene, where strokes begin to
+    /// fade and where nothing is left of them.
+    pub fade: Option<[f32; 2]>,
+}
+
+impl Default for StrokeStyle {
+    /// Black ink, two pixels wide.
+    fn default() -> Self {
+        Self {
+            color: [0.0, 0.0, 0.0, 1.0],
+            width: Width::Pixels(2.0),
+            kind: LineKind::default(),
+            placement: Placement::default(),
+            parameterization: Parameterization::default(),
+            brush: None,
+            fade: None,
+        }
+    }
+}
+
+/// The classes that look alike, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layer {
+    /// The classes.
+    pub classes: Vec<EdgeClass>,
+    /// What is visible; `None` leaves it out.
+    pub visible: Option<StrokeStyle>,
+    /// What is hidden; `None` leaves it out.
+    pub hidden: Option<StrokeStyle>,
+}
+
+/// How an object looks.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Look {
+    /// Premultiplied colour of the surface; `None` fills only the depth, so that
+    /// what lies behind shows through and lines are still hidden.
+    pub fill_color: Option<[f32; 4]>,
+    /// The layers, the first drawn last, over all others. A class in none of them
+    /// is not drawn.
+    pub layers: Vec<Layer>,
+    /// Strokes over those contours that are between the object and anything
+    /// else; needs a contour layer.
+    pub silhouette: Option<StrokeStyle>,
+    /// From which angles between the face normals, in radians, edges are ridges
+    /// and valleys; `None` for the creases as the mesh was built with.
+    pub thresholds: Option<[f64; 2]>,
+}
+
+/// Which strokes of a layer a draw draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Visibility {
+    /// What nothing hides.
+    Visible,
+    /// What something hides.
+    Hidden,
+    /// Visible, and not over the object itself.
+    Silhouette,
+}
+
+/// One draw of strokes.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct StyledDraw {
+    pub(crate) layer: u32,
+    pub(crate) visibility: Visibility,
+    pub(crate) style: StrokeStyle,
+}
+
+impl Look {
+    /// The layer of each class, and the thresholds.
+    #[must_use]
+    pub fn class_table(&self) -> ClassTable {
+        let mut table = ClassTable::new(|class| {
+            let layer = self.layers.iter().position(|layer| layer.classes.contains(&class));
+            layer.map(edgemesh::index::to_u32)
+        });
+        if let Some([ridge, valley]) = self.thresholds {
+            table.ridge_steps = threshold_steps(ridge);
+            table.valley_steps = threshold_steps(valley);
+        }
+        table.keeps_hidden = u32::from(self.layers.iter().any(|layer| layer.hidden.is_some()));
+        table
+    }
+
+    /// The draws of strokes in order: what is hidden, then what is visible, each
+    /// from the last layer to the first, then the silhouette.
+    pub(crate) fn draws(&self) -> Vec<StyledDraw> {
+        let of_layers = |visibility, style: fn(&Layer) -> Option<&StrokeStyle>| {
+            self.layers.iter().enumerate().rev().filter_map(move |(layer, of_layer)| {
+                let layer = edgemesh::index::to_u32(layer);
+                style(of_layer).cloned().map(|style| StyledDraw { layer, visibility, style })
+            })
+        };
+        let hidden = of_layers(Visibility::Hidden, |layer| layer.hidden.as_ref());
+        let visible = of_layers(Visibility::Visible, |layer| layer.visible.as_ref());
+        let silhouette = self.silhouette.iter().filter_map(|style| {
+            let has_contours = |layer: &Layer| layer.classes.contains(&EdgeClass::Contour);
+            let layer = edgemesh::index::to_u32(self.layers.iter().position(has_contours)?);
+            let visibility = Visibility::Silhouette;
+            Some(StyledDraw { layer, visibility, style: style.clone() })
+        });
+        hidden.chain(visible).chain(silhouette).collect()
+    }
+}

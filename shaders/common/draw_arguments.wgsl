@@ -1,0 +1,27 @@
+// The arguments of one draw of strokes, written by the GPU alone. Rust twin:
+// DrawArguments in crates/strokes/src/view_buffers.rs.
+
+// Draws of strokes that one object can have. Rust twin: MAX_DRAWS in look.rs.
+const MAX_DRAWS: u32 = 16u;
+
+struct DrawArguments {
+    // Strokes that were expanded, drawn with indices.
+    index_count: u32,
+    instance_count: u32,
+    first_index: u32,
+    base_vertex: u32,
+    first_instance: u32,
+    // Workgroups that expand them.
+    groups_x: u32,
+    groups_y: u32,
+    groups_z: u32,
+    // The rest, drawn straight from the list.
+    vertex_count: u32,
+    rest_instance_count: u32,
+    first_vertex: u32,
+    rest_first_instance: u32,
+    // The draw's edges in the live list, and how many of them are expanded.
+    first: u32,
+    expanded: u32,
+    padding: vec2u,
+}

@@ -1,0 +1,49 @@
+// The edges of a mesh in the indexed layout: 20 bytes an edge, everything else
+// shared with the faces.
+#import <common/edge_geometry.wgsl>
+
+@group(2) @binding(2) var<storage, read> records: array<EdgeRecord>;
+@group(2) @binding(3) var<storage, read> positions: array<f32>;
+@group(2) @binding(4) var<storage, read> normals: array<f32>;
+// Three vertices a face.
+@group(2) @binding(5) var<storage, read> triangles: array<u32>;
+
+fn edge_word(edge: u32) -> u32 {
+    return records[edge].flags;
+}
+
+fn edge_geometry(edge: u32) -> EdgeGeometry {
+    let record = records[edge];
+    let p0 = position_of(record.v0);
+    let p1 = position_of(record.v1);
+    return EdgeGeometry(
+        p0,
+        p1,
+        position_of(apex(record.face_a, record)),
+        position_of(apex(record.face_b, record)),
+        normal_of(record.v0),
+        normal_of(record.v1),
+        edge_random(p0, p1),
+    );
+}
+
+// The vertex of a face that is not on the edge; the paper's v3 = v0 where there
+// is no face.
+fn apex(face: u32, record: EdgeRecord) -> u32 {
+    if face == NONE {
+        return record.v0;
+    }
+    // The sum of all three without the two.
+    return triangles[3u * face] + triangles[3u * face + 1u] + triangles[3u * face + 2u]
+        - record.v0 - record.v1;
+}
+
+fn position_of(vertex: u32) -> vec3f {
+    let at = 3u * vertex;
+    return vec3f(positions[at], positions[at + 1u], positions[at + 2u]);
+}
+
+fn normal_of(vertex: u32) -> vec3f {
+    let at = 3u * vertex;
+    return vec3f(normals[at], normals[at + 1u], normals[at + 2u]);
+}

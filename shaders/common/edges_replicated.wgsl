@@ -1,0 +1,28 @@
+// The edges of a mesh in the paper's replicated layout, 32-bit floats,
+// read as words: of the four copies of an edge the first.
+#import <common/edge_geometry.wgsl>
+
+@group(2) @binding(2) var<storage, read> words: array<u32>;
+
+const WORDS_PER_EDGE: u32 = 80u;
+
+fn edge_word(edge: u32) -> u32 {
+    return words[WORDS_PER_EDGE * edge + 19u] >> 8u;
+}
+
+fn edge_geometry(edge: u32) -> EdgeGeometry {
+    let at = WORDS_PER_EDGE * edge;
+    return EdgeGeometry(
+        vector_at(at),
+        vector_at(at + 3u),
+        vector_at(at + 6u),
+        vector_at(at + 9u),
+        vector_at(at + 12u),
+        vector_at(at + 15u),
+        bitcast<f32>(words[at + 18u]),
+    );
+}
+
+fn vector_at(at: u32) -> vec3f {
+    return bitcast<vec3f>(vec3u(words[at], words[at + 1u], words[at + 2u]));
+}

@@ -1,0 +1,43 @@
+// The edges of a mesh in the paper's replicated layout, 16-bit numbers,
+// read as words: of the four copies of an edge the first.
+#import <common/edge_geometry.wgsl>
+
+@group(2) @binding(2) var<storage, read> words: array<u32>;
+
+const WORDS_PER_EDGE: u32 = 40u;
+
+fn edge_word(edge: u32) -> u32 {
+    return words[WORDS_PER_EDGE * edge + 9u] >> 8u;
+}
+
+fn edge_geometry(edge: u32) -> EdgeGeometry {
+    let at = WORDS_PER_EDGE * edge;
+    return EdgeGeometry(
+        position_at(at, 0u),
+        position_at(at, 3u),
+        position_at(at, 6u),
+        position_at(at, 9u),
+        normal_at(at, 12u),
+        normal_at(at, 15u),
+        f32((words[at + 9u] & 0xffu) >> 2u) / 64.0,
+    );
+}
+
+fn position_at(at: u32, first: u32) -> vec3f {
+    return dequantize(steps_at(at, first), object.center, object.step);
+}
+
+fn normal_at(at: u32, first: u32) -> vec3f {
+    return steps_at(at, first) / 32767.0;
+}
+
+// Three of the 16-bit numbers of an edge vertex.
+fn steps_at(at: u32, first: u32) -> vec3f {
+    return vec3f(step_at(at, first), step_at(at, first + 1u), step_at(at, first + 2u));
+}
+
+fn step_at(at: u32, index: u32) -> f32 {
+    // The upper half is shifted out and the lower one back with its sign.
+    let word = words[at + index / 2u];
+    return f32(bitcast<i32>(word << (16u * (1u - index % 2u))) >> 16u);
+}

@@ -1,0 +1,41 @@
+// Works out the vertices of each stroke once: the vertex shader that draws them
+// has nothing left to do, however often the rasterizer asks for a vertex.
+#import <common/edge_source.wgsl>
+#import <common/stroke_style.wgsl>
+
+@group(3) @binding(0) var<storage, read> live: array<u32>;
+@group(3) @binding(1) var<storage, read> draws: array<DrawArguments>;
+// Five words a vertex: position, u, then v and opacity in 16 bits each.
+@group(3) @binding(2) var<storage, read_write> vertices: array<u32>;
+
+// Vertices an edge.
+override VERTEX_COUNT: u32 = 10u;
+
+@compute @workgroup_size(64)
+fn expand_strokes(@builtin(global_invocation_id) id: vec3u) {
+    let slot = id.x;
+    let draw = draws[stroke.draw_index];
+    if slot >= draw.expanded {
+        return;
+    }
+    let entry = live[draw.first + slot];
+    let shape = stroke_shape();
+    let edge = clip_edge(edge_geometry(entry & EDGE_INDEX_MASK));
+    var segment = Segment();
+    if stroke.kind != FIN && !is_passed_over(entry) {
+        segment = stroke_segment(edge, shape, entry);
+    }
+    for (var corner = 0u; corner < VERTEX_COUNT; corner++) {
+        var vertex = segment_vertex(segment, shape, corner);
+        if stroke.kind == FIN && !is_passed_over(entry) {
+            vertex = fin_vertex(edge, shape, corner);
+        }
+        let at = 5u * (VERTEX_COUNT * slot + corner);
+        let position = bitcast<vec3u>(vertex.position);
+        vertices[at] = position.x;
+        vertices[at + 1u] = position.y;
+        vertices[at + 2u] = position.z;
+        vertices[at + 3u] = bitcast<u32>(vertex.u);
+        vertices[at + 4u] = pack2x16unorm(vec2f(vertex.v, vertex.opacity));
+    }
+}

@@ -1,0 +1,16 @@
+// Every edge of the indexed layout through the vertex shader.
+#import <common/faces_planes.wgsl>
+#import <common/stroke_classified.wgsl>
+
+@vertex
+fn stroke_vertices(@builtin(vertex_index) vertex_index: u32) -> Varying {
+    let edge = vertex_index / stroke.index_count;
+    let corner = corner_of(vertex_index % stroke.index_count);
+    let faces = edge_faces(edge);
+    return classified(edge_geometry(edge), edge_word(edge), faces, corner);
+}
+
+@fragment
+fn stroke_fragment(in: Varying) -> @location(0) vec4f {
+    return ink(in);
+}

@@ -1,0 +1,170 @@
+//! The same picture from every layout of the edges, by both paths of detection,
+//! and from a mesh in chunks.
+
+use edgemesh::build::{BuildOptions, build_edge_mesh};
+use edgemesh::camera::Camera;
+use edgemesh::edge_mesh::{EdgeMesh, FacePlane};
+use edgemesh::read::read_model;
+use edgemesh::replicate::Quantization;
+use glam::Vec3;
+use image::RgbaImage;
+use strokes::gpu::Gpu;
+use strokes::mesh_buffers::{Layout, MeshBuffers};
+use strokes::renderer::DetectionPath;
+use testkit::locate::{left_out, shared};
+use viewer::render::{PictureOptions, PictureRenderer};
+use viewer::technique::Technique;
+
+use crate::gpu_device::{gpu, gpu_with_limits};
+use crate::gpu_render::{own_model, scene_of, technique};
+use crate::gpu_twin::own_models;
+use crate::noop::layouts_and_paths;
+
+fn picture_on(
+    gpu: &Gpu,
+    mesh: &EdgeMesh,
+    technique: &Technique,
+    (layout, path): (Layout, DetectionPath),
+) -> RgbaImage {
+    let background = technique.background();
+    let options = PictureOptions { background, size: [256; 2], samples: 4, layout, path };
+    let look = technique.look(&mesh.frame);
+    let mut renderer = PictureRenderer::new(gpu, &scene_of(mesh), &[look], &options).unwrap();
+    renderer.render(&Camera::default_view(&mesh.bounds)).unwrap().0
+}
+
+/// The largest difference of a channel.
+fn difference(a: &RgbaImage, b: &RgbaImage) -> u8 {
+    a.as_raw().iter().zip(b.as_raw()).map(|(a, b)| a.abs_diff(*b)).max().unwrap()
+}
+
+/// Looks that use every kind of line, several layers, and hidden lines.
+fn looks() -> Vec<Technique> {
+    let settings: [&[&str]; 5] = [
+        &[],
+        &["strokes.ends=disks", "strokes.width=6", "ridge.placement=inside"],
+        &["strokes.kind=thin", "contour.kind=fin", "contour.width=5"],
+        &["hidden.show=true", "hidden.color=#0000ff", "boundary.color=#ff0000"],
+        &["creases.ridge=10", "creases.valley=60", "ridge.color=#00a000", "strokes.width=0.05u"],
+    ];
+    settings.map(|settings| technique("ink", settings)).into()
+}
+
+#[test]
+fn all_layouts_and_paths_draw_the_same() {
+    for (name, mesh) in own_models() {
+        for (at, look) in looks().iter().enumerate() {
+            let pictures = layouts_and_paths().map(|how| picture_on(gpu(), &mesh, look, how));
+            let [indexed, others @ ..] = &pictures;
+            for (other, (layout, path)) in others.iter().zip(&layouts_and_paths()[1..]) {
+                if *layout != Layout::Replicated16 {
+                    assert_eq!(
+                        difference(indexed, other),
+                        0,
+                        "{name}, look {at}: {layout:?} {path:?}"
+                    );
+                }
+            }
+            // At 16 bits both paths draw what is there at 16 bits.
+            assert_eq!(difference(&pictures[4], &pictures[5]), 0, "{name}, look {at}: 16 bits");
+        }
+    }
+}
+
+/// A brush lets what lies under it through, and the paper's passes draw all quads
+/// before all caps: the same ink in another order, rounded otherwise.
+#[test]
+fn textured_strokes_differ_by_their_order_at_most() {
+    for name in ["bracket", "torus_knot"] {
+        let mesh = own_model(name);
+        let look = technique("pen", &["strokes.width=8"]);
+        let indexed = picture_on(gpu(), &mesh, &look, (Layout::Indexed, DetectionPath::Compute));
+        for how in layouts_and_paths().into_iter().filter(|how| how.0 != Layout::Replicated16) {
+            let apart = difference(&indexed, &picture_on(gpu(), &mesh, &look, how));
+            let most = if how == (Layout::Replicated, DetectionPath::Vertex) { 4 } else { 0 };
+            assert!(apart <= most, "{name}, {how:?}: {apart}");
+        }
+    }
+}
+
+/// The 16-bit layout draws the mesh of its own rounded positions.
+#[test]
+fn sixteen_bits_draw_their_own_positions() {
+    for (name, mesh) in own_models() {
+        let quantization = Quantization::of(&mesh.bounds);
+        let mut rounded = mesh.clone();
+        for position in &mut rounded.positions {
+            *position = quantization.dequantize(quantization.quantize(*position));
+        }
+        for (plane, triangle) in rounded.face_planes.iter_mut().zip(&rounded.triangles) {
+            let corners = triangle.map(|vertex| Vec3::from(rounded.positions[vertex as usize]));
+            let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+            let normal = (b - a).cross(c - a).normalize_or_zero().as_vec3();
+            let (normal, point) = (normal.extend(0.0).into(), corners[0].extend(1.0).into());
+            *plane = FacePlane { normal, point };
+        }
+        let look = technique("ink", &[]);
+        let exact = picture_on(gpu(), &rounded, &look, (Layout::Indexed, DetectionPath::Compute));
+        let sixteen =
+            picture_on(gpu(), &mesh, &look, (Layout::Replicated16, DetectionPath::Compute));
+        let wrong = exact
+            .pixels()
+            .zip(sixteen.pixels())
+            .filter(|(a, b)| a.0[0].abs_diff(b.0[0]) > 32)
+            .count();
+        // Face normals and caps come from normals of 16 bits.
+        assert!(wrong <= 6, "{name}: {wrong} pixels");
+    }
+}
+
+/// Meshes that one binding cannot hold are drawn in chunks: the same bytes.
+#[test]
+fn chunks_draw_the_picture_of_the_whole() {
+    // The project's models are small: these bindings take a few hundred edges.
+    let small = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 15);
+    for (name, mesh) in own_models() {
+        let pen = technique("pen", &["strokes.width=6"]);
+        for (at, look) in looks().iter().chain([&pen]).enumerate() {
+            for how in layouts_and_paths() {
+                let whole = picture_on(gpu(), &mesh, look, how);
+                let chunks = picture_on(&small, &mesh, look, how);
+                // The paper's passes, chunk by chunk, are another order of the ink.
+                let is_reordered = how.1 == DetectionPath::Vertex && how.0 != Layout::Indexed;
+                let most = if is_reordered && at == 5 { 4 } else { 0 };
+                let apart = difference(&whole, &chunks);
+                assert!(apart <= most, "{name}, look {at}, {how:?}: {apart}");
+            }
+        }
+    }
+}
+
+/// The same with bindings of one mebibyte, where the real meshes are there.
+#[test]
+fn large_meshes_in_bindings_of_a_mebibyte() {
+    let small = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 20);
+    let Some(folder) = shared() else { return left_out("meshes in chunks", 3) };
+    for name in ["stanford-bunny.obj", "rocker-arm.obj", "fandisk.obj"] {
+        let (model, mut report) = read_model(&folder.join("models").join(name)).unwrap();
+        let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut report);
+        let buffers = MeshBuffers::new(&small.device, &mesh, Layout::Indexed).unwrap();
+        assert_eq!(buffers.chunk_count() > 1, mesh.triangles.len() > 32_768, "{name}");
+        let how = (Layout::Indexed, DetectionPath::Compute);
+        for look in [technique("ink", &[]), technique("pen", &["hidden.show=true"])] {
+            let whole = picture_on(gpu(), &mesh, &look, how);
+            assert_eq!(difference(&whole, &picture_on(&small, &mesh, &look, how)), 0, "{name}");
+        }
+    }
+}
+
+/// Views with more strokes than there is room for: the rest comes from the list.
+#[test]
+fn strokes_without_room_are_drawn_all_the_same() {
+    // Room for 273 strokes a chunk.
+    let crowded = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 17);
+    let mesh = own_model("torus_knot");
+    for look in looks() {
+        let how = (Layout::Indexed, DetectionPath::Compute);
+        let whole = picture_on(gpu(), &mesh, &look, how);
+        assert_eq!(difference(&whole, &picture_on(&crowded, &mesh, &look, how)), 0);
+    }
+}

@@ -1,0 +1,351 @@
+//! Scenes of several objects: transforms, styles, silhouettes, hidden lines; and
+//! cameras where a stroke could go wrong.
+
+use std::sync::Arc;
+
+use edgemesh::build::{BuildOptions, build_edge_mesh};
+use edgemesh::camera::Camera;
+use edgemesh::command::input::Loaded;
+use edgemesh::edge_mesh::EdgeMesh;
+use edgemesh::model::Model;
+use edgemesh::report::Report;
+use glam::{DMat4, DQuat, DVec3};
+use image::RgbaImage;
+use strokes::look::Look;
+use strokes::mesh_buffers::{Layout, MeshBuffers};
+use strokes::renderer::{DetectionPath, Renderer, RendererOptions};
+use strokes::targets::{TargetFormats, Targets};
+use viewer::render::{PictureOptions, PictureRenderer, PlacedObject, Scene};
+
+use crate::gpu_device::gpu;
+use crate::gpu_render::{own_model, picture, technique};
+
+/// A scene of one model many times.
+fn scene(mesh: &EdgeMesh, places: &[(DMat4, usize)]) -> Scene {
+    let loaded = Loaded { name: "test".into(), mesh: mesh.clone(), report: Report::default() };
+    let placed = places.iter().map(|&(world_from_object, look)| PlacedObject {
+        model: 0,
+        look,
+        world_from_object,
+    });
+    Scene::placed(vec![loaded], placed.collect())
+}
+
+fn scene_picture(scene: &Scene, looks: &[Look], size_px: u32, camera: &Camera) -> RgbaImage {
+    let options = PictureOptions {
+        background: [1.0; 4],
+        size: [size_px; 2],
+        samples: 1,
+        layout: Layout::Indexed,
+        path: DetectionPath::Compute,
+    };
+    PictureRenderer::new(gpu(), scene, looks, &options).unwrap().render(camera).unwrap().0
+}
+
+fn look(settings: &[&str]) -> Look {
+    technique("ink", settings).look(&edgemesh::build::Frame::default())
+}
+
+fn count(picture: &RgbaImage, is_meant: impl Fn([u8; 4]) -> bool) -> usize {
+    picture.pixels().filter(|pixel| is_meant(pixel.0)).count()
+}
+
+const RED: [u8; 4] = [255, 0, 0, 255];
+const BLUE: [u8; 4] = [0, 0, 255, 255];
+
+/// Three hundred cubes in a grid: every one has the same silhouette around it,
+/// also past the 255th, where the stencil begins anew; and none has a line of it
+/// inside.
+#[test]
+fn three_hundred_silhouettes() {
+    let cube = own_model("cube");
+    let places: Vec<(DMat4, usize)> = (0..300)
+        .map(|at| {
+            let (column, row) = (f64::from(at % 20), f64::from(at / 20));
+            (DMat4::from_translation(DVec3::new(4.0 * column, 4.0 * row, 0.0)), 0)
+        })
+        .collect();
+    let scene = scene(&cube, &places);
+    let mut camera = Camera::default_view(&scene.bounds);
+    // From aside, so that inner contours and creases are there to be left out.
+    camera.eye = camera.target + DVec3::new(0.5, 0.4, 1.0).normalize_or_zero() * 90.0;
+    camera.is_orthographic = true;
+    let looks = [look(&[
+        "strokes.show=false",
+        "silhouette.show=true",
+        "silhouette.width=2",
+        "silhouette.color=#ff0000",
+    ])];
+    let picture = scene_picture(&scene, &looks, 1600, &camera);
+    let solid = [look(&["strokes.show=false", "fill.color=#00ff00"])];
+    let bodies = scene_picture(&scene, &solid, 1600, &camera);
+    let is_body = |x: u32, y: u32| bodies.get_pixel(x, y).0 == [0, 255, 0, 255];
+    // Red beside a body, never on it.
+    let (mut ring, mut gaps, mut on_body) = (0, 0, 0);
+    for (x, y) in (1..1599).flat_map(|y| (1..1599).map(move |x| (x, y))) {
+        let is_red = picture.get_pixel(x, y).0 == RED;
+        on_body += usize::from(is_red && is_body(x, y));
+        let beside = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
+        let neighbours = beside.iter().filter(|&&(x, y)| is_body(x, y)).count();
+        if !is_body(x, y) && neighbours > 0 {
+            ring += 1;
+            gaps += usize::from(!is_red);
+        }
+    }
+    assert!(ring > 300 * 60, "{ring} pixels around 300 bodies");
+    assert_eq!(on_body, 0, "of {ring}");
+    assert!(gaps * 200 < ring, "{gaps} of {ring} are missing");
+}
+
+/// A silhouette shows against another object as against the background.
+#[test]
+fn silhouettes_lie_over_what_is_behind() {
+    let cube = own_model("cube");
+    let behind = DMat4::from_scale_rotation_translation(
+        DVec3::splat(4.0),
+        DQuat::IDENTITY,
+        DVec3::new(0.0, 0.0, -8.0),
+    );
+    let only_silhouette = ["strokes.show=false", "silhouette.show=true", "silhouette.width=3"];
+    let red = look(&[&only_silhouette[..], &["silhouette.color=#ff0000"]].concat());
+    let blue = look(&[&only_silhouette[..], &["silhouette.color=#0000ff"]].concat());
+    for order in [[0, 1], [1, 0]] {
+        let mut places = [(DMat4::IDENTITY, 0), (behind, 1)];
+        places.sort_by_key(|place| order[place.1]);
+        let scene = scene(&cube, &places);
+        let mut camera = Camera::default_view(&scene.bounds);
+        camera.eye = DVec3::new(0.0, 0.0, 30.0);
+        camera.target = DVec3::ZERO;
+        let picture = scene_picture(&scene, &[red.clone(), blue.clone()], 256, &camera);
+        let (reds, blues) = (count(&picture, |pixel| pixel == RED), count(&picture, |p| p == BLUE));
+        assert!(reds > 150 && blues > reds, "{order:?}: {reds} red, {blues} blue");
+        let mut alone = self::scene(&cube, &[(DMat4::IDENTITY, 0)]);
+        alone.bounds = scene.bounds;
+        let alone = scene_picture(&alone, std::slice::from_ref(&red), 256, &camera);
+        assert_eq!(reds, count(&alone, |pixel| pixel == RED), "whole in front of the other");
+    }
+}
+
+/// What one object hides of another is drawn in the hidden style, and every
+/// piece of a line is either hidden or visible.
+#[test]
+fn hidden_lines_are_what_visible_ones_leave() {
+    for name in ["cube", "bracket", "torus_knot"] {
+        let mesh = own_model(name);
+        let camera = Camera::default_view(&mesh.bounds);
+        let draw = |settings: &[&str]| picture(&mesh, &camera, &technique("ink", settings), 256, 1);
+        let is_ink = |pixel: [u8; 4]| pixel[0] < 255;
+        let all = ["strokes.kind=thin", "hidden.kind=thin", "hidden.color=#000000"];
+        let visible = draw(&["strokes.kind=thin"]);
+        let hidden = draw(&[&all[..], &["hidden.show=true", "strokes.show=false"]].concat());
+        let both = draw(&[&all[..], &["hidden.show=true"]].concat());
+        let (mut missing, mut inked) = (0, 0);
+        for ((visible, hidden), both) in visible.pixels().zip(hidden.pixels()).zip(both.pixels()) {
+            let expected = is_ink(visible.0) || is_ink(hidden.0);
+            missing += usize::from(expected != is_ink(both.0));
+            inked += usize::from(expected);
+        }
+        assert!(inked > 500 && missing == 0, "{name}: {missing} of {inked}");
+        let hidden_ink = count(&hidden, is_ink);
+        assert!(hidden_ink > 100, "{name}: {hidden_ink} pixels are hidden");
+    }
+}
+
+/// From the middle of a face of a cube, its four hidden edges are a square.
+#[test]
+fn the_back_of_a_cube_is_drawn_as_hidden() {
+    let cube = own_model("cube");
+    let mut camera = Camera::default_view(&cube.bounds);
+    camera.eye = camera.target + DVec3::Z * 6.0;
+    let settings = [
+        "strokes.show=false",
+        "hidden.show=true",
+        "hidden.color=#0000ff",
+        "hidden.width=2",
+        "hidden.placement=centred",
+    ];
+    let picture = picture(&cube, &camera, &technique("ink", &settings), 256, 1);
+    let row: Vec<u32> = (0..256).filter(|&x| picture.get_pixel(x, 128).0 == BLUE).collect();
+    assert_eq!(row.len(), 4, "two pixels on each side: {row:?}");
+}
+
+/// A model in its place draws what the model with moved vertices draws.
+#[test]
+fn transforms_move_what_is_drawn() {
+    let mesh = own_model("bracket");
+    let place = DMat4::from_scale_rotation_translation(
+        DVec3::splat(1.7),
+        DQuat::from_euler(glam::EulerRot::XYZ, 0.3, -0.8, 0.2),
+        DVec3::new(0.4, -0.2, 0.3),
+    );
+    let mirror = place * DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0));
+    let stretched = place * DMat4::from_scale(DVec3::new(1.0, 2.0, 0.6));
+    for (name, transform) in [("moved", place), ("mirrored", mirror), ("stretched", stretched)] {
+        let mut model = Model::default();
+        let (source, _) = edgemesh::read::read_model(
+            &testkit::locate::workspace_root().join("models/bracket.obj"),
+        )
+        .unwrap();
+        model.clone_from(&source);
+        for position in &mut model.positions {
+            *position = transform.transform_point3(DVec3::from(*position)).to_array();
+        }
+        let moved = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
+        let scene = scene(&mesh, &[(transform, 0)]);
+        let camera = Camera::default_view(&scene.bounds);
+        let look = look(&["strokes.width=5"]);
+        let mut baked = self::scene(&moved, &[(DMat4::IDENTITY, 0)]);
+        baked.bounds = scene.bounds;
+        let placed = scene_picture(&scene, std::slice::from_ref(&look), 256, &camera);
+        let baked = scene_picture(&baked, &[look], 256, &camera);
+        let apart = placed.pixels().zip(baked.pixels());
+        let apart = apart.filter(|(a, b)| a.0[0].abs_diff(b.0[0]) > 32).count();
+        let inked = count(&baked, |pixel| pixel[0] < 128);
+        // Stretching changes angles, and with them which edges are creases.
+        let most = if name == "stretched" { inked / 20 } else { inked / 50 };
+        assert!(inked > 1500 && apart <= most, "{name}: {apart} pixels of {inked}");
+    }
+}
+
+/// A transform that flattens an object to nothing draws nothing of it.
+#[test]
+fn an_object_of_no_size_is_not_drawn() {
+    let cube = own_model("cube");
+    let flat = DMat4::from_scale(DVec3::new(1.0, 0.0, 1.0));
+    let scene = scene(&cube, &[(flat, 0)]);
+    let picture = scene_picture(&scene, &[look(&[])], 64, &Camera::default_view(&cube.bounds));
+    assert_eq!(count(&picture, |pixel| pixel[0] < 255), 0);
+}
+
+/// Lines fight the surface at no distance: from 1 radius to 100, what is visible
+/// of a model's strokes is the same share of them.
+#[test]
+fn lines_stay_whole_in_a_slow_zoom() {
+    for name in ["cube", "bracket", "cylinder"] {
+        let mesh = own_model(name);
+        let default = Camera::default_view(&mesh.bounds);
+        let direction = (default.eye - default.target).normalize_or_zero();
+        let share = |radii: f64, is_orthographic: bool| {
+            let mut camera = default;
+            // The picture keeps its size while the eye goes away.
+            camera.eye = camera.target + direction * mesh.bounds.radius() * radii;
+            camera.fov_y_rad = 2.0 * (0.8 / (radii - 0.2).max(0.9)).atan().min(1.2);
+            camera.is_orthographic = is_orthographic;
+            let draw = |settings: &[&str]| {
+                let look = technique("ink", settings);
+                let picture = picture(&mesh, &camera, &look, 256, 1);
+                count(&picture, |pixel| pixel[0] < 128)
+            };
+            let hidden = draw(&[
+                "strokes.show=false",
+                "hidden.show=true",
+                "hidden.color=#000000",
+                "hidden.width=2",
+            ]);
+            (draw(&[]), hidden)
+        };
+        let mut last: Option<(usize, usize)> = None;
+        for step in 0..=40 {
+            let radii = 1.3 * (100.0_f64 / 1.3).powf(f64::from(step) / 40.0);
+            let (visible, hidden) = share(radii, false);
+            if let Some((last_visible, last_hidden)) = last {
+                let jump = visible.abs_diff(last_visible).max(hidden.abs_diff(last_hidden));
+                assert!(
+                    jump * 4 < visible + hidden,
+                    "{name} at {radii:.1} radii: {visible} and {hidden} pixels, \
+                     {last_visible} and {last_hidden} before"
+                );
+            }
+            assert!(visible > 200, "{name} at {radii:.1} radii: {visible} pixels");
+            last = Some((visible, hidden));
+        }
+        // Far away perspective is no different from none.
+        let (far, flat) = (share(100.0, false).0, share(100.0, true).0);
+        assert!(far.abs_diff(flat) * 20 < flat, "{name}: {far} and {flat}");
+    }
+}
+
+/// Eyes inside, on an edge, at a vertex; edges through the eye plane, along the
+/// line of sight, of no length, twice in one place: every value of the target is
+/// a number from 0 to 1.
+#[test]
+fn no_view_draws_what_is_no_number() {
+    let formats =
+        TargetFormats { color: wgpu::TextureFormat::Rgba16Float, ..TargetFormats::new(1) };
+    let gpu = gpu();
+    let targets = Targets::new(&gpu.device, [64; 2], formats);
+    let settings: [&[&str]; 4] = [
+        &["strokes.width=9", "hidden.show=true"],
+        &["strokes.ends=disks", "strokes.width=0.4u", "strokes.fade=0.1,3"],
+        &[
+            "strokes.kind=fin",
+            "strokes.width=0.5u",
+            "strokes.brush=pen",
+            "strokes.parameterization=screen",
+        ],
+        &["strokes.placement=inside", "strokes.brush=fur", "ridge.kind=thin"],
+    ];
+    for (mesh_name, mesh) in awkward_meshes() {
+        for how in crate::noop::layouts_and_paths() {
+            let options = RendererOptions { layout: how.0, path: how.1, formats };
+            let mut renderer = Renderer::new(gpu, options).unwrap();
+            let buffers = Arc::new(MeshBuffers::new(&gpu.device, &mesh, how.0).unwrap());
+            for settings in settings {
+                let look = renderer.prepare(gpu, &look(settings)).unwrap();
+                let mut objects = [renderer.object(gpu, &buffers, &look)];
+                for (view_name, camera) in awkward_cameras(&mesh) {
+                    let view = camera.view(&mesh.bounds, 1.0);
+                    renderer.render(gpu, &targets, &view, [1.0; 4], &mut objects, None);
+                    let halves = read_halves(&targets);
+                    let odd = halves.iter().filter(|&&half| half > HALF_ONE + 1).count();
+                    assert_eq!(odd, 0, "{mesh_name}, {view_name}, {how:?}, {settings:?}");
+                }
+            }
+        }
+    }
+}
+
+/// 1 as a float of 16 bits: whatever has more bits is negative, larger or no
+/// number.
+const HALF_ONE: u16 = 0x3c00;
+
+fn read_halves(targets: &Targets) -> Vec<u16> {
+    strokes::readback::read_texels(gpu(), targets.picture(), 8).unwrap()
+}
+
+fn awkward_meshes() -> Vec<(&'static str, EdgeMesh)> {
+    let build = |positions: &[[f32; 3]], polygons: &[&[u32]]| {
+        let model = Model::from_polygons(positions, polygons);
+        let options =
+            BuildOptions { welding: edgemesh::build::Welding::Off, ..BuildOptions::default() };
+        build_edge_mesh(&model, &options, &mut Report::default())
+    };
+    let twice =
+        [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 0.], [1., 0., 0.], [0., 1., 0.]];
+    let needle = [[0., 0., 0.], [1., 0., 0.], [0.5, 1e-12, 0.], [0.5, -1., 0.], [0.5, 1., 1e-20]];
+    vec![
+        ("cube", own_model("cube")),
+        ("one triangle", build(&twice[..3], &[&[0, 1, 2]])),
+        ("two triangles in one place", build(&twice, &[&[0, 1, 2], &[3, 4, 5]])),
+        ("edges of no length", build(&needle, &[&[0, 1, 2], &[1, 0, 3], &[2, 4, 0]])),
+        ("a line", build(&[[0., 0., 0.], [1., 0., 0.], [2., 0., 0.]], &[&[0, 1, 2]])),
+    ]
+}
+
+fn awkward_cameras(mesh: &EdgeMesh) -> Vec<(&'static str, Camera)> {
+    let default = Camera::default_view(&mesh.bounds);
+    let [low, high] =
+        [mesh.bounds.min, mesh.bounds.max].map(|corner| DVec3::from(corner.map(f64::from)));
+    let at = |eye: DVec3, target: DVec3| Camera { eye, target, ..default };
+    vec![
+        ("from outside", default),
+        ("inside", at(default.target + DVec3::new(0.01, 0.02, 0.03), high)),
+        ("at a vertex", at(high, low)),
+        ("on an edge", at(DVec3::new((low.x + high.x) / 2.0, high.y, high.z), low)),
+        ("along an edge", at(DVec3::new(low.x - 3.0, low.y, low.z), low)),
+        ("in a face", at(DVec3::new(default.target.x, default.target.y, high.z), low)),
+        ("through the eye plane", at(DVec3::new(0.5, 0.1, 0.05), DVec3::new(1.5, 0.1, 0.05))),
+        ("far away", at(default.target + DVec3::splat(1e6), default.target)),
+        ("flat", Camera { is_orthographic: true, ..at(default.target + DVec3::X, default.target) }),
+    ]
+}
