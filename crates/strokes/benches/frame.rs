@@ -38,6 +38,9 @@ const SIZE_PX: u32 = 1024;
 /// Frames of each look; the median counts.
 const FRAMES: usize = 21;
 
+/// Triangles of the balls that are measured.
+const BALLS: [u32; 3] = [10_000, 100_000, 1_100_000];
+
 /// A look with its name.
 struct Contender {
     name: String,
@@ -107,6 +110,7 @@ impl Runner {
 
 struct Bench {
     gpu: Gpu,
+    frames: usize,
     /// Of tables to run; empty for all.
     wanted: String,
 }
@@ -125,7 +129,7 @@ impl Bench {
             .chain(contenders)
             .map(|contender| Runner::new(&self.gpu, mesh, formats, contender))
             .collect();
-        for frame in 0..=FRAMES {
+        for frame in 0..=self.frames {
             for runner in &mut runners {
                 runner.frame(&self.gpu, &targets, &view);
                 if frame == 0 {
@@ -230,16 +234,16 @@ fn load(path: &Path) -> EdgeMesh {
 }
 
 fn main() {
+    // `cargo test --benches` asks only whether they still run.
+    let is_test = !std::env::args().any(|word| word == "--bench");
     let mut words = std::env::args().skip(1).filter(|word| !word.starts_with("--"));
     let wanted = words.next_back().unwrap_or_default();
     let gpu = pollster::block_on(gpu::open(None)).unwrap();
     println!("{} ({}), {SIZE_PX}x{SIZE_PX}", gpu.info.name, gpu.info.backend);
-    let bench = Bench { gpu, wanted };
-    let mut meshes = vec![
-        ("ball of 10 thousand".to_owned(), ball(10_000)),
-        ("ball of 100 thousand".to_owned(), ball(100_000)),
-        ("ball of 1.1 million".to_owned(), ball(1_100_000)),
-    ];
+    let bench = Bench { gpu, frames: if is_test { 1 } else { FRAMES }, wanted };
+    let balls = if is_test { &BALLS[..1] } else { &BALLS };
+    let mut meshes: Vec<(String, EdgeMesh)> =
+        balls.iter().map(|&triangles| (format!("ball of {triangles}"), ball(triangles))).collect();
     if let Some(models) = std::env::var_os("EDGEMESH_BENCH_MODELS") {
         for path in std::env::split_paths(&models) {
             meshes.push((path.file_stem().unwrap().to_string_lossy().into_owned(), load(&path)));
