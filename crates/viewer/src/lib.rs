@@ -18,4 +18,5 @@ pub mod animation;
 pub mod command;
 pub mod picture;
 pub mod render;
+pub mod scene_file;
 pub mod technique;

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
+use crate::scene_file::SceneObject;
 use edgemesh::build::Frame;
 use edgemesh::camera::Camera;
 use edgemesh::command::input::{InputOptions, Loaded};
@@ -17,7 +18,7 @@ use strokes::look::Look;
 use strokes::mesh_buffers::{Layout, MeshBuffers};
 use strokes::object::Object;
 use strokes::readback::{ReadbackError, read_picture};
-use strokes::renderer::{DetectionPath, PASS_NAMES, Renderer, RendererOptions};
+use strokes::renderer::{DetectionPath, PASS_NAMES, PreparedLook, Renderer, RendererOptions};
 use strokes::shader::ShaderError;
 use strokes::targets::{TargetFormats, Targets};
 use strokes::view_buffers::Tally;
@@ -47,12 +48,30 @@ pub struct PlacedObject {
 }
 
 impl Scene {
-    /// Reads and builds the models of `paths`.
+    /// Reads and builds the models of `objects`, each file once. Object number n
+    /// has look number n.
     ///
     /// # Errors
     /// The first model that cannot be read.
-    pub fn load(paths: &[PathBuf], input: &InputOptions, is_quiet: bool) -> Result<Self, Failure> {
-        Ok(Self::of(input.load_scene(paths, is_quiet)?))
+    pub fn load(
+        objects: &[SceneObject],
+        input: &InputOptions,
+        is_quiet: bool,
+    ) -> Result<Self, Failure> {
+        let mut paths: Vec<PathBuf> = Vec::new();
+        let mut placed = Vec::new();
+        for (look, object) in objects.iter().enumerate() {
+            let known = paths.iter().position(|path| *path == object.model);
+            let model = known.unwrap_or(paths.len());
+            if known.is_none() {
+                paths.push(object.model.clone());
+            }
+            let world_from_object = object.scene_from_model;
+            placed.push(PlacedObject { model, look, world_from_object });
+        }
+        // Transforms are in the numbers of the files.
+        let is_moved = placed.iter().any(|object| object.world_from_object != DMat4::IDENTITY);
+        Ok(Self::placed(input.load_scene(&paths, is_moved, is_quiet)?, placed))
     }
 
     /// A scene of models that are in one frame, each once where it is.
@@ -150,8 +169,16 @@ impl<'a> PictureRenderer<'a> {
         let PictureOptions { layout, path, .. } = *options;
         let mut renderer = Renderer::new(gpu, RendererOptions { layout, path, formats })
             .map_err(shader_failure)?;
-        let prepared = looks.iter().map(|look| renderer.prepare(gpu, look));
-        let looks = prepared.collect::<Result<Vec<_>, _>>().map_err(shader_failure)?;
+        // Objects that look alike share pipelines and textures.
+        let mut prepared: Vec<Arc<PreparedLook>> = Vec::with_capacity(looks.len());
+        for (at, look) in looks.iter().enumerate() {
+            let same = looks[..at].iter().position(|known| known == look);
+            prepared.push(match same {
+                Some(same) => prepared[same].clone(),
+                None => renderer.prepare(gpu, look).map_err(shader_failure)?,
+            });
+        }
+        let looks = prepared;
         let meshes = scene.models.iter().map(|model| {
             let buffers = MeshBuffers::new(&gpu.device, &model.mesh, layout)
                 .map_err(|error| Failure::fault(format!("{}: {error}", model.name)))?;

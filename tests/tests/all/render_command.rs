@@ -49,6 +49,9 @@ fn wrong_inputs_and_outputs_exit_with_1_and_leave_nothing() {
         (vec!["render", "no/such.obj", "-o", &out], "no/such.obj"),
         (vec!["render", &cube, "-o", "no/such/folder/out.png"], "no/such/folder does not exist"),
         (vec!["render", &cube, "-o", &out, "--reference", "no/such.png"], "no/such.png"),
+        (vec!["render", &cube, "-o", &out, "--brush", "no/such.png"], "charcoal"),
+        (vec!["render", &cube, "-o", &out, "--brush", &cube], "PNG"),
+        (vec!["render", "no/such.toml", "-o", &out], "no/such.toml"),
     ] {
         let output = viewer(&arguments);
         assert_eq!(output.status.code(), Some(1), "{arguments:?}: {}", message(&output));
@@ -97,6 +100,38 @@ mod with_adapter {
         assert_eq!(output.status.code(), Some(0), "{}", message(&output));
         assert!(Path::new(&out).is_file(), "the picture is there");
         serde_json::from_slice(&output.stdout).unwrap()
+    }
+
+    /// A scene file puts models in their places, each with a look of its own.
+    #[test]
+    fn scene_files_draw_their_objects() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str| folder.path().join(name).display().to_string();
+        let bracket = workspace_root().join("models/bracket.obj").display().to_string();
+        let object = |more: &str| format!("[[object]]\nmodel = '{bracket}'\n{more}\n");
+        let (scene, out) = (file("scene.toml"), file("out.png"));
+        let draw = |text: &str| {
+            std::fs::write(&scene, text).unwrap();
+            let stats = file("stats.json");
+            let output =
+                viewer(&["render", &scene, "-o", &out, "--size", "128x128", "--stats", &stats]);
+            assert_eq!(output.status.code(), Some(0), "{}", message(&output));
+            let stats = std::fs::read_to_string(&stats).unwrap();
+            let stats: serde_json::Value = serde_json::from_str(&stats).unwrap();
+            let picture = image::open(&out).unwrap().to_rgba8();
+            let reds = picture.pixels().filter(|pixel| pixel.0 == [255, 0, 0, 255]).count();
+            (stats["edges"].as_u64().unwrap(), reds)
+        };
+        let (edges, reds) = draw(&object(""));
+        assert_eq!(reds, 0);
+        let red = "translate = [4, 0, 0]\nrotate = [0, 30, 0]\nset = [\"strokes.color=#ff0000\"]";
+        let (twice, reds) = draw(&[object(""), object(red)].concat());
+        assert_eq!(twice, 2 * edges);
+        assert!(reds > 50, "{reds} red pixels");
+        std::fs::write(&scene, object("size = 3")).unwrap();
+        let output = viewer(&["render", &scene, "-o", &out]);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(message(&output).contains("scene.toml:3:"), "{}", message(&output));
     }
 
     #[test]

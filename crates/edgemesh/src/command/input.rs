@@ -124,14 +124,23 @@ impl InputOptions {
         self.finish(input, &options, is_quiet)
     }
 
-    /// Reads several inputs that lie in one scene, in one frame.
+    /// Reads several inputs that lie in one scene, in one frame: that of all of
+    /// them, unless `keeps_coordinates` asks for the files' own numbers.
     ///
     /// # Errors
     /// As [`Self::load`], for the first one that fails.
-    pub fn load_scene(&self, paths: &[PathBuf], is_quiet: bool) -> Result<Vec<Loaded>, Failure> {
+    pub fn load_scene(
+        &self,
+        paths: &[PathBuf],
+        keeps_coordinates: bool,
+        is_quiet: bool,
+    ) -> Result<Vec<Loaded>, Failure> {
         let inputs: Vec<Input> =
             paths.iter().map(|path| self.read(path, is_quiet)).collect::<Result<_, _>>()?;
-        let frame = Some(frame_of(&inputs)).filter(|_| inputs.len() > 1);
+        let frame = match keeps_coordinates {
+            true => Some(Frame::default()),
+            false => Some(frame_of(&inputs)).filter(|_| inputs.len() > 1),
+        };
         let options = BuildOptions { frame, ..self.build_options(true)? };
         inputs.into_iter().map(|input| self.finish(input, &options, is_quiet)).collect()
     }

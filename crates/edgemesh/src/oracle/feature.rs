@@ -198,7 +198,7 @@ pub fn classify_edge(
 ///
 /// Returns whether the edge is a contour, and [`EdgeFlags::RIDGE`] or
 /// [`EdgeFlags::VALLEY`] by the cosines of the thresholds, which are angles
-/// between the face normals. Boundary and marked edges (`v3 = v0`) are neither.
+/// between the face normals. Boundary edges (`v3 = v0`) are neither.
 ///
 /// The printed `-cos(theta)` takes theta as the internal angle; with theta = 150
 /// degrees that is the cosine of 30 degrees, which is what goes in here.

@@ -16,19 +16,22 @@ use glam::DQuat;
 use image::RgbaImage;
 use serde::Serialize;
 use strokes::gpu::{self, Gpu};
+use strokes::look::Look;
 use strokes::mesh_buffers::Layout;
 use strokes::renderer::DetectionPath;
 
 use crate::animation::{AnimationKind, encode_animation};
 use crate::picture::{DEFAULT_REFERENCE_THRESHOLD, compare, encode_png, read_png, straight_alpha};
 use crate::render::{FrameStatistics, PictureOptions, PictureRenderer, Scene, adapter_failure};
+use crate::scene_file::{SceneObject, is_scene_file, read_scene_file};
 use crate::technique::{PASSES, STROKE_VARIABLES, TECHNIQUES, Technique};
 
 /// Renders models to a PNG, without a window
 #[derive(Debug, Clone, Args)]
 #[command(after_long_help = long_help(), after_help = EXAMPLES)]
 pub(super) struct RenderCommand {
-    /// Models (OBJ, PLY, STL, glTF, VRML) or edge meshes; - is standard input
+    /// Models (OBJ, PLY, STL, glTF, VRML), edge meshes, or scene files (.toml);
+    /// - is standard input
     #[arg(value_name = "MODEL", required = true)]
     models: Vec<PathBuf>,
     /// The picture to write (PNG), or - for standard output
@@ -125,6 +128,7 @@ const EXAMPLES: &str = "Examples:\n  \
     viewer render bunny.obj -o bunny.png\n  \
     viewer render bunny.obj -o bunny.png --technique pen --set strokes.width=4 --size 2048x1024\n  \
     viewer render part.obj -o part.png --technique hidden-line --set hidden.color=#c04000\n  \
+    viewer render scene.toml -o scene.png --technique pen\n  \
     viewer render bunny.obj -o fur.png --technique fur --set contour.width=40\n  \
     viewer render part.obj -o part.png --eye 3,2,5 --ortho --crease 20 --stats -\n  \
     viewer render part.obj -o turn.gif --turntable 72 --size 512x512";
@@ -178,7 +182,9 @@ impl RenderCommand {
             technique.make_transparent();
         }
         let reference = self.reference.as_deref().map(read_png).transpose()?;
-        let (gpu, scene) = self.open_and_load(is_quiet)?;
+        let objects = self.objects()?;
+        let looks = self.object_techniques(&objects, &technique)?;
+        let (gpu, scene) = self.open_and_load(&objects, is_quiet)?;
         if !is_quiet {
             for model in &scene.models {
                 print_warnings(&model.name, &model.report);
@@ -194,7 +200,7 @@ impl RenderCommand {
             layout: self.layout.into(),
             path: self.detection.into(),
         };
-        let looks = [technique.look(&scene.frame)];
+        let looks: Vec<Look> = looks.iter().map(|look| look.look(&scene.frame)).collect();
         let mut renderer = PictureRenderer::new(&gpu, &scene, &looks, &options)?;
         let statistics = match self.turntable {
             Some(steps) => self.write_turntable(&mut renderer, &camera, steps)?,
@@ -203,11 +209,52 @@ impl RenderCommand {
         self.write_statistics(&gpu, &scene, &statistics)
     }
 
+    /// The objects of all models and scene files, in order.
+    fn objects(&self) -> Result<Vec<SceneObject>, Failure> {
+        let mut objects = Vec::new();
+        for path in &self.models {
+            if is_scene_file(path) {
+                objects.extend(read_scene_file(path)?);
+            } else {
+                objects.push(SceneObject::plain(path));
+            }
+        }
+        Ok(objects)
+    }
+
+    /// The technique of each object: its own or `default`, and what it sets.
+    fn object_techniques(
+        &self,
+        objects: &[SceneObject],
+        default: &Technique,
+    ) -> Result<Vec<Technique>, Failure> {
+        let of_object = |object: &SceneObject| {
+            let mut technique = match &object.technique {
+                Some(name) => Technique::by_name(name)?,
+                None => default.clone(),
+            };
+            let built = self.input.creases.build_options();
+            technique.set_built_thresholds([built.ridge_angle_rad, built.valley_angle_rad]);
+            for setting in &object.settings {
+                technique.set(setting).map_err(|failure| Failure {
+                    message: format!("{}: {}", object.model.display(), failure.message),
+                    ..failure
+                })?;
+            }
+            Ok(technique)
+        };
+        objects.iter().map(of_object).collect()
+    }
+
     /// The device opens while the models are read: each takes its time alone.
-    fn open_and_load(&self, is_quiet: bool) -> Result<(Gpu, Scene), Failure> {
+    fn open_and_load(
+        &self,
+        objects: &[SceneObject],
+        is_quiet: bool,
+    ) -> Result<(Gpu, Scene), Failure> {
         thread::scope(|scope| {
             let opening = scope.spawn(|| pollster::block_on(gpu::open(self.adapter.as_deref())));
-            let scene = Scene::load(&self.models, &self.input, is_quiet);
+            let scene = Scene::load(objects, &self.input, is_quiet);
             let gpu = opening.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
             // What is wrong with the model is told first; it is likelier and nearer.
             let scene = scene?;
@@ -333,7 +380,7 @@ impl RenderCommand {
     ) -> Result<(), Failure> {
         let Some(path) = &self.stats else { return Ok(()) };
         let sum = |count: fn(&edgemesh::edge_mesh::MeshCounts) -> usize| {
-            scene.models.iter().map(|model| count(&model.mesh.counts)).sum()
+            scene.objects.iter().map(|object| count(&scene.models[object.model].mesh.counts)).sum()
         };
         let passes = statistics.passes.iter();
         let statistics = Statistics {
