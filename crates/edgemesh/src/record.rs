@@ -208,6 +208,24 @@ impl EdgeVertex {
     }
 }
 
+/// Card and Mitchell's vertex of a fin (*Rendering Outlines*, their Figure 2): 48
+/// bytes, four in a row an edge. It is here to be compared with: it cannot be
+/// posed, as its face normals stay what they are, and it knows no creases.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct FinVertex {
+    /// One end of the edge.
+    pub position: [f32; 3],
+    /// The vertex normal there, along which the fin stands out; zero for the two
+    /// vertices that stay on the edge.
+    pub normal: [f32; 3],
+    /// Normal of face A.
+    pub face_a: [f32; 3],
+    /// Normal of face B; at boundaries the opposite of that of face A, so that
+    /// exactly one of both always looks at the eye.
+    pub face_b: [f32; 3],
+}
+
 /// The edge's random scalar r in [0, 1): a hash of its two end positions, the
 /// same whichever end comes first, so it needs no room in the indexed record
 /// and survives any renumbering of the mesh.
@@ -243,6 +261,7 @@ mod tests {
         assert_eq!(size_of::<EdgeRecord>(), 20);
         assert_eq!(size_of::<EdgeVertex>(), 80);
         assert_eq!(size_of::<EdgeVertex16>(), 40);
+        assert_eq!(size_of::<FinVertex>(), 48);
         assert_eq!(std::mem::offset_of!(EdgeVertex16, flags), 37, "the payload");
     }
 

@@ -24,7 +24,7 @@ use crate::build::planes::{corners_of, face_normal};
 use crate::edge_mesh::{Bounds, EdgeMesh};
 use crate::edge_word::{EdgeWord, edge_words};
 use crate::index::NONE;
-use crate::record::{EdgeRecord, EdgeVertex, EdgeVertex16, edge_random};
+use crate::record::{EdgeFlags, EdgeRecord, EdgeVertex, EdgeVertex16, FinVertex, edge_random};
 
 /// The largest 16-bit step from the middle.
 const LARGEST_STEP: f64 = 32767.0;
@@ -103,6 +103,33 @@ pub fn replicate_16(mesh: &EdgeMesh) -> Vec<EdgeVertex16> {
     })
 }
 
+/// Writes out Card and Mitchell's fins: four vertices a record, in order, the two
+/// ends on the edge and then, from the end back, the two that stand out.
+#[must_use]
+pub fn fins(mesh: &EdgeMesh) -> Vec<FinVertex> {
+    let normal = |face: u32| {
+        let [x, y, z, _] = mesh.face_planes[face as usize].normal;
+        [x, y, z]
+    };
+    let of_record = |record: &EdgeRecord| {
+        let (a, b) = (record.face_a, record.face_b);
+        let face_a = if a == NONE { [0.0, 1.0, 0.0] } else { normal(a) };
+        let mut face_b = if b == NONE { face_a.map(|part| -part) } else { normal(b) };
+        if record.flags.contains(EdgeFlags::CLASH) {
+            face_b = face_b.map(|part| -part);
+        }
+        let corners =
+            [(record.v0, false), (record.v1, false), (record.v1, true), (record.v0, true)];
+        corners.map(|(vertex, stands_out)| FinVertex {
+            position: mesh.positions[vertex as usize],
+            normal: if stands_out { mesh.vertex_normals[vertex as usize] } else { [0.0; 3] },
+            face_a,
+            face_b,
+        })
+    };
+    mesh.records.par_iter().flat_map_iter(of_record).collect()
+}
+
 /// How positions become 16-bit steps and steps positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quantization {
@@ -161,7 +188,6 @@ mod tests {
     use super::*;
     use crate::build::{BuildOptions, build_edge_mesh};
     use crate::model::Model;
-    use crate::record::EdgeFlags;
     use crate::report::Report;
 
     #[test]
@@ -190,6 +216,20 @@ mod tests {
         mesh.records[inner].flags |= EdgeFlags::MARKED;
         let vertex = &replicate(&mesh)[4 * inner];
         assert!(vertex.v3 != vertex.v0 && vertex.flags().contains(EdgeFlags::MARKED));
+    }
+
+    #[test]
+    fn fins_stand_on_their_edges_and_boundaries_negate_their_face() {
+        let positions = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [1., 1., 1.]];
+        let model = Model::from_polygons(&positions, &[&[0, 1, 2], &[1, 3, 2]]);
+        let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
+        for (record, fin) in mesh.records.iter().zip(fins(&mesh).as_chunks::<4>().0) {
+            let ends = [record.v0, record.v1, record.v1, record.v0];
+            assert_eq!(fin.map(|vertex| vertex.position), ends.map(|v| mesh.positions[v as usize]));
+            assert_eq!(fin.map(|vertex| vertex.normal != [0.0; 3]), [false, false, true, true]);
+            let sum = Vec3::from(fin[0].face_a) + Vec3::from(fin[0].face_b);
+            assert_eq!(sum == Vec3::ZERO, record.face_b == NONE, "{record:?}");
+        }
     }
 
     /// A face of three points on a line faces the eye as its neighbour does.

@@ -192,7 +192,41 @@ impl Bench {
                 contenders.push(Contender { name, look, layout, path });
             }
         }
+        let name = name.to_owned();
+        contenders.push(Contender {
+            name: "Card and Mitchell's face normals".into(),
+            look: look(&[EdgeClass::Contour, EdgeClass::Boundary], style(LineKind::Fin, false)),
+            layout: Layout::FaceNormals,
+            path: DetectionPath::Vertex,
+        });
         self.table(&format!("{name}, layouts and paths"), mesh, samples, &contenders);
+    }
+
+    /// What the paper measured in its section 5: contours of 100,000 polygons at
+    /// 250 frames a second without lines, 36 with thin ones (7 times), 5 with quads
+    /// (50 times); and 163,000 polygons with thin lines and 4 samples at 25.
+    fn section_5(&self, balls: [&EdgeMesh; 2]) {
+        let contours = |kind| look(&[EdgeClass::Contour], style(kind, false));
+        let ways = [
+            ("the paper's way", Layout::Replicated, DetectionPath::Vertex),
+            ("the paper's way, 16 bits", Layout::Replicated16, DetectionPath::Vertex),
+            ("our way", Layout::Indexed, DetectionPath::Compute),
+        ];
+        let contenders = |kinds: &[(&str, LineKind)]| -> Vec<Contender> {
+            let of_way = |&(way, layout, path): &(&str, Layout, DetectionPath)| {
+                kinds
+                    .iter()
+                    .map(|&(kind_name, kind)| {
+                        let name = format!("{kind_name}, {way}");
+                        Contender { name, look: contours(kind), layout, path }
+                    })
+                    .collect::<Vec<_>>()
+            };
+            ways.iter().flat_map(of_way).collect()
+        };
+        let both = [("thin", LineKind::Thin), ("quads and caps", LineKind::QuadAndCaps)];
+        self.table("the paper's section 5, first scene", balls[0], 1, &contenders(&both));
+        self.table("the paper's section 5, second scene", balls[1], 4, &contenders(&both[..1]));
     }
 }
 
@@ -248,6 +282,9 @@ fn main() {
         for path in std::env::split_paths(&models) {
             meshes.push((path.file_stem().unwrap().to_string_lossy().into_owned(), load(&path)));
         }
+    }
+    if !is_test {
+        bench.section_5([&ball(100_000), &ball(163_000)]);
     }
     for (name, mesh) in &meshes {
         bench.kinds(name, mesh, 4);

@@ -8,7 +8,7 @@
 //! | triangles | 12 a face | indexed |
 //! | face planes | 32 a face | indexed |
 //! | cones around 32 faces | 1 a face | indexed |
-//! | edge vertices | 320 or 160 an edge | replicated |
+//! | edge vertices | 320, 160 or 192 an edge | replicated, at 16 bits, face normals |
 //! | cones around 64 edges | 0.5 an edge | all |
 //! | positions and triangles of the fill | 12 a vertex, 12 a face | replicated, or in chunks |
 //!
@@ -22,8 +22,8 @@ use edgemesh::edge_mesh::{Bounds, EdgeMesh, FacePlane};
 use edgemesh::edge_word::{EdgeWord, edge_words};
 use edgemesh::index::{MAX_INDEX, NONE, to_u32};
 use edgemesh::oracle::normal_cone::NormalCone;
-use edgemesh::record::{EdgeVertex, EdgeVertex16};
-use edgemesh::replicate::{Quantization, replicate, replicate_16};
+use edgemesh::record::{EdgeVertex, EdgeVertex16, FinVertex};
+use edgemesh::replicate::{Quantization, fins, replicate, replicate_16};
 use rayon::prelude::*;
 use thiserror::Error;
 use wgpu::BufferUsages;
@@ -55,6 +55,10 @@ pub enum Layout {
     Replicated,
     /// The paper's, at 16 bits: 160 bytes an edge.
     Replicated16,
+    /// Card and Mitchell's fins, to compare with: 192 bytes an edge. They draw
+    /// contours and boundaries as fins, whatever the look says of kinds and
+    /// classes, and only where vertex shaders detect.
+    FaceNormals,
 }
 
 /// How large a chunk is. WGSL twin: `ChunkUniform` in `shaders/common/mesh.wgsl`.
@@ -150,6 +154,7 @@ impl MeshBuffers {
             Layout::Indexed => Vec::new(),
             Layout::Replicated => bytemuck::pod_collect_to_vec(&replicate(mesh)),
             Layout::Replicated16 => bytemuck::pod_collect_to_vec::<_, u32>(&replicate_16(mesh)),
+            Layout::FaceNormals => bytemuck::pod_collect_to_vec(&fins(mesh)),
         };
         let words_per_edge = replicated.len() / mesh.records.len().max(1);
         let chunk_buffers = |part: &Chunk| {
@@ -204,6 +209,7 @@ fn chunk_limits(device: &wgpu::Device, layout: Layout) -> Result<ChunkLimits, Me
         Layout::Indexed => 20,
         Layout::Replicated => 4 * size_of::<EdgeVertex>(),
         Layout::Replicated16 => 4 * size_of::<EdgeVertex16>(),
+        Layout::FaceNormals => 4 * size_of::<FinVertex>(),
     };
     let bytes = usize::try_from(limit).unwrap_or(usize::MAX);
     // A run of edges and its faces are the least that can be worked on.

@@ -44,7 +44,8 @@ pub enum DetectionPath {
 pub struct RendererOptions {
     /// How the edges of all meshes lie in memory.
     pub layout: Layout,
-    /// Where features are detected.
+    /// Where features are detected; in the vertex shader for
+    /// [`Layout::FaceNormals`], which has no other.
     pub path: DetectionPath,
     /// What is drawn into.
     pub formats: TargetFormats,
@@ -98,8 +99,11 @@ impl Renderer {
     ///
     /// # Errors
     /// Where a shader cannot be put together.
-    pub fn new(gpu: &Gpu, options: RendererOptions) -> Result<Self, ShaderError> {
+    pub fn new(gpu: &Gpu, mut options: RendererOptions) -> Result<Self, ShaderError> {
         let device = &gpu.device;
+        if options.layout == Layout::FaceNormals {
+            options.path = DetectionPath::Vertex;
+        }
         let frame = frame_layout(device);
         Ok(Self {
             layouts: StrokeLayouts::new(device, &frame, options.layout),
@@ -120,7 +124,10 @@ impl Renderer {
     pub fn prepare(&mut self, gpu: &Gpu, look: &Look) -> Result<Arc<PreparedLook>, ShaderError> {
         let table = look.class_table();
         let mut draws = Vec::new();
-        for (index, draw) in look.draws().iter().enumerate() {
+        for (index, draw) in look.draws().iter_mut().enumerate() {
+            if self.options.layout == Layout::FaceNormals {
+                draw.style.kind = LineKind::Fin;
+            }
             let style = style_group(gpu, &self.layouts, draw, index, &table);
             let RendererOptions { path, layout, .. } = self.options;
             let mut pipeline = |source| self.stroke(gpu, StrokeVariant::new(source, draw));

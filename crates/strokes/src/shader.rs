@@ -49,6 +49,7 @@ pub const EMBEDDED: &[(&str, &str)] = &[
     embedded!("fill.wgsl"),
     embedded!("stroke_all.wgsl"),
     embedded!("stroke_expanded.wgsl"),
+    embedded!("stroke_face_normals.wgsl"),
     embedded!("stroke_listed.wgsl"),
     embedded!("stroke_replicated.wgsl"),
     embedded!("stroke_replicated_16.wgsl"),
@@ -221,7 +222,9 @@ pub fn embedded_text(path: &str) -> Option<String> {
 fn layout_text(path: &str, layout: Layout) -> Option<String> {
     let path = match (path, layout) {
         ("common/edge_source.wgsl", Layout::Indexed) => "common/edges_indexed.wgsl",
-        ("common/edge_source.wgsl", Layout::Replicated) => "common/edges_replicated.wgsl",
+        ("common/edge_source.wgsl", Layout::Replicated | Layout::FaceNormals) => {
+            "common/edges_replicated.wgsl"
+        }
         ("common/edge_source.wgsl", Layout::Replicated16) => "common/edges_replicated_16.wgsl",
         ("common/edge_faces.wgsl", Layout::Indexed) => "common/faces_indexed.wgsl",
         ("common/edge_faces.wgsl", _) => "common/faces_replicated.wgsl",

@@ -165,6 +165,7 @@ impl StrokeVariant {
             (VertexSource::Listed, _) => "stroke_listed.wgsl",
             (VertexSource::All, _) => "stroke_all.wgsl",
             (VertexSource::Attributes, Layout::Replicated16) => "stroke_replicated_16.wgsl",
+            (VertexSource::Attributes, Layout::FaceNormals) => "stroke_face_normals.wgsl",
             (VertexSource::Attributes, _) => "stroke_replicated.wgsl",
         }
     }
@@ -183,6 +184,7 @@ impl StrokeVariant {
             match (self.source, layout) {
                 (VertexSource::Expanded, _) => (crate::expand::BYTES_PER_VERTEX as u64, &EXPANDED),
                 (VertexSource::Attributes, Layout::Replicated16) => (40, &REPLICATED_16),
+                (VertexSource::Attributes, Layout::FaceNormals) => (48, &FACE_NORMALS),
                 (VertexSource::Attributes, _) => (80, &REPLICATED),
                 _ => return None,
             };
@@ -198,6 +200,9 @@ const REPLICATED: [wgpu::VertexAttribute; 8] = wgpu::vertex_attr_array![
     0 => Float32x3, 1 => Float32x3, 2 => Float32x3, 3 => Float32x3,
     4 => Float32x3, 5 => Float32x3, 6 => Float32, 7 => Uint32
 ];
+
+const FACE_NORMALS: [wgpu::VertexAttribute; 4] =
+    wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3, 3 => Float32x3];
 
 const REPLICATED_16: [wgpu::VertexAttribute; 6] = wgpu::vertex_attr_array![
     0 => Sint16x4, 1 => Sint16x4, 2 => Sint16x4, 3 => Sint16x4, 4 => Sint16x2, 5 => Uint8x4

@@ -166,7 +166,10 @@ impl<'a> PictureRenderer<'a> {
         } else {
             TargetFormats::new(options.samples)
         };
-        let PictureOptions { layout, path, .. } = *options;
+        let PictureOptions { layout, mut path, .. } = *options;
+        if layout == Layout::FaceNormals {
+            path = DetectionPath::Vertex;
+        }
         let mut renderer = Renderer::new(gpu, RendererOptions { layout, path, formats })
             .map_err(shader_failure)?;
         // Objects that look alike share pipelines and textures.

@@ -45,7 +45,8 @@ fn every_technique_builds_its_pipelines_within_the_default_limits() {
                 technique.set(setting).unwrap();
             }
             let look = technique.look(&edgemesh::build::Frame::default());
-            for (layout, path) in layouts_and_paths() {
+            let fins = (Layout::FaceNormals, DetectionPath::Vertex);
+            for (layout, path) in layouts_and_paths().into_iter().chain([fins]) {
                 let formats = TargetFormats::with_stencil(&gpu.device, samples);
                 let options = RendererOptions { layout, path, formats };
                 let mut renderer = Renderer::new(&gpu, options).unwrap();

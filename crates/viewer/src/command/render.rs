@@ -94,6 +94,8 @@ enum LayoutName {
     ReplicatedF32,
     /// Four vertices an edge, at 16 bits
     ReplicatedI16,
+    /// Card and Mitchell's fins, with face normals: contours and boundaries only
+    FaceNormals,
 }
 
 impl From<LayoutName> for Layout {
@@ -102,6 +104,7 @@ impl From<LayoutName> for Layout {
             LayoutName::Indexed => Self::Indexed,
             LayoutName::ReplicatedF32 => Self::Replicated,
             LayoutName::ReplicatedI16 => Self::Replicated16,
+            LayoutName::FaceNormals => Self::FaceNormals,
         }
     }
 }
