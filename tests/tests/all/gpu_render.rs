@@ -95,6 +95,34 @@ fn golden_pen() {
     }
 }
 
+/// The four brushes of the paper's Figure 6 on a smooth body, an open surface and
+/// one of sharp corners; dashes where lines are hidden; the other kinds of lines.
+#[test]
+fn golden_styles() {
+    for (golden, model, name, settings) in [
+        ("torus_knot-charcoal", "torus_knot", "charcoal", &[][..]),
+        ("torus_knot-watercolor", "torus_knot", "watercolor", &[]),
+        ("torus_knot-fur", "torus_knot", "fur", &["contour.width=20"]),
+        ("plane_with_hole-watercolor", "plane_with_hole", "watercolor", &[]),
+        ("bracket-charcoal", "bracket", "charcoal", &["strokes.parameterization=screen"]),
+        ("bracket-hidden", "bracket", "hidden-line", &["hidden.color=#c04000", "hidden.width=3"]),
+        (
+            "bracket-silhouette",
+            "bracket",
+            "ink",
+            &["silhouette.show=true", "silhouette.width=8", "silhouette.color=#2040c0"],
+        ),
+        ("cylinder-disks", "cylinder", "ink", &["strokes.width=10", "strokes.ends=disks"]),
+        ("wave_blob-fins", "wave_blob", "ink", &["strokes.width=8", "strokes.kind=fin"]),
+        ("bracket-thin", "bracket", "ink", &["strokes.kind=thin", "ridge.color=#c00000"]),
+        ("torus_knot-world", "torus_knot", "ink", &["strokes.width=0.1u", "strokes.fade=2.5,5"]),
+    ] {
+        let mesh = own_model(model);
+        let camera = from(&mesh, DVec3::new(0.9, 0.7, 1.0), 2.3);
+        check_golden(golden, &picture(&mesh, &camera, &technique(name, settings), 256, 4));
+    }
+}
+
 /// The cylinder's end, where the paper's caps leave gaps (its Figure 5), in
 /// wide strokes.
 #[test]
