@@ -6,7 +6,7 @@ use std::process::Command;
 use crate::failure::Failure;
 use crate::{adapter, programs};
 
-const TECHNIQUES: [&str; 2] = ["ink", "pen"];
+const TECHNIQUES: [&str; 6] = ["ink", "pen", "charcoal", "watercolor", "fur", "hidden-line"];
 
 pub(crate) fn run() -> Result<(), Failure> {
     let root = programs::workspace_root();
