@@ -6,8 +6,9 @@
 /// Marks "no such element" in an index field.
 pub const NONE: u32 = u32::MAX;
 
-/// The largest index of a vertex, face, corner or edge: two bits stay free for
-/// the live list of the GPU, which packs an edge index with its facing.
+/// The largest index of a vertex, face, corner or edge: two bits stay free, and
+/// sums of two indices fit. (The live list of the GPU packs three bits beside an
+/// edge's index in its chunk, which has half as many edges at most.)
 pub const MAX_INDEX: usize = (1 << 30) - 1;
 
 /// Narrows an index or count that [`MAX_INDEX`] bounds.

@@ -19,11 +19,12 @@ use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh::edge_mesh::{Bounds, EdgeMesh, FacePlane};
-use edgemesh::edge_word::{EdgeWord, edge_words};
+use edgemesh::edge_word::edge_words;
 use edgemesh::index::{MAX_INDEX, NONE, to_u32};
 use edgemesh::oracle::normal_cone::NormalCone;
 use edgemesh::record::{EdgeVertex, EdgeVertex16, FinVertex};
 use edgemesh::replicate::{Quantization, fins, replicate, replicate_16};
+use glam::Vec3;
 use rayon::prelude::*;
 use thiserror::Error;
 use wgpu::BufferUsages;
@@ -138,8 +139,7 @@ impl MeshBuffers {
     ///
     /// # Errors
     /// [`MeshTooLarge`], before anything is uploaded: where the adapter cannot
-    /// bind what a single edge needs, or the mesh has more edges than an index
-    /// can tell apart.
+    /// bind even what a run of edges needs.
     pub fn new(
         device: &wgpu::Device,
         mesh: &EdgeMesh,
@@ -171,7 +171,11 @@ impl MeshBuffers {
                     ),
                 },
             };
-            upload.chunk(part, source)
+            let cones = match layout {
+                Layout::Replicated16 => run_cones(part, &rounded_planes(part, &quantization)),
+                _ => run_cones(part, &part.planes),
+            };
+            upload.chunk(part, source, &cones)
         };
         let chunks: Vec<ChunkBuffers> = parts.iter().map(chunk_buffers).collect();
         let fill = match &chunks[..] {
@@ -262,7 +266,7 @@ impl Upload<'_> {
         }
     }
 
-    fn chunk(&self, part: &Chunk, source: EdgeSource) -> ChunkBuffers {
+    fn chunk(&self, part: &Chunk, source: EdgeSource, cones: &[NormalCone]) -> ChunkBuffers {
         let edge_count = part.records.len();
         let most = MAX_EXPANDED_BYTES.min(self.device.limits().max_storage_buffer_binding_size);
         let most = most / u64::from(crate::expand::BYTES_PER_STROKE);
@@ -275,16 +279,11 @@ impl Upload<'_> {
                 edge_count.min(MIN_EXPANDED.max(edge_count / EDGES_PER_EXPANDED)).min(most),
             ),
         };
-        let cones: Vec<NormalCone> = part
-            .records
-            .par_chunks(EDGES_PER_RUN as usize)
-            .map(|run| run_cone(run, &part.planes))
-            .collect();
         ChunkBuffers {
             size,
             uniform: uniform_buffer(self.device, "chunk", &size),
             source,
-            run_cones: self.items("run cones", &cones, BufferUsages::STORAGE),
+            run_cones: self.items("run cones", cones, BufferUsages::STORAGE),
         }
     }
 
@@ -326,14 +325,29 @@ impl Upload<'_> {
     }
 }
 
-/// The cone around the faces of a run of edges.
-fn run_cone(run: &[[u32; 5]], planes: &[FacePlane]) -> NormalCone {
-    let faces = run.iter().flat_map(|&[_, _, face_a, face_b, _]| [face_a, face_b]);
-    NormalCone::of(faces.filter(|&face| face != NONE).map(|face| &planes[face as usize]))
+/// The cones around the faces of each run of edges.
+fn run_cones(part: &Chunk, planes: &[FacePlane]) -> Vec<NormalCone> {
+    let of_run = |run: &[[u32; 5]]| {
+        let faces = run.iter().flat_map(|&[_, _, face_a, face_b, _]| [face_a, face_b]);
+        NormalCone::of(faces.filter(|&face| face != NONE).map(|face| &planes[face as usize]))
+    };
+    part.records.par_chunks(EDGES_PER_RUN as usize).map(of_run).collect()
 }
 
-/// The words of edges, for the oracle's side of a comparison.
-#[must_use]
-pub fn words_of(mesh: &EdgeMesh) -> Vec<EdgeWord> {
-    edge_words(mesh)
+/// The planes of a chunk's faces as they are at 16 bits. A face whose rounded
+/// corners say nothing of where it looks has none, and no cluster answers for it:
+/// one without area, which stands in its neighbour's plane in the vertices.
+fn rounded_planes(part: &Chunk, quantization: &Quantization) -> Vec<FacePlane> {
+    let plane = |(triangle, plane): (&[u32; 3], &FacePlane)| {
+        let corners = triangle.map(|vertex| {
+            let steps = quantization.quantize(part.positions[vertex as usize]);
+            Vec3::from(quantization.dequantize(steps)).as_dvec3()
+        });
+        let [a, b, c] = corners;
+        let normal = (b - a).cross(c - a).normalize_or_zero().as_vec3();
+        let is_told = normal.dot(Vec3::from_slice(&plane.normal)) > 0.0;
+        let normal = if is_told { normal } else { Vec3::ZERO };
+        FacePlane { normal: normal.extend(0.0).into(), point: a.as_vec3().extend(1.0).into() }
+    };
+    part.triangles.par_iter().zip(&part.planes[..]).map(plane).collect()
 }

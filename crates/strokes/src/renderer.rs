@@ -121,7 +121,12 @@ impl Renderer {
     ///
     /// # Errors
     /// Where a shader cannot be put together.
+    ///
+    /// # Panics
+    /// Where the look has a silhouette and the targets have no stencil.
     pub fn prepare(&mut self, gpu: &Gpu, look: &Look) -> Result<Arc<PreparedLook>, ShaderError> {
+        let has_stencil = self.options.formats.has_stencil();
+        assert!(look.silhouette.is_none() || has_stencil, "a silhouette needs a stencil");
         let table = look.class_table();
         let mut draws = Vec::new();
         for (index, draw) in look.draws().iter_mut().enumerate() {

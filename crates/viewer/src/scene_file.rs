@@ -10,7 +10,8 @@
 //! set = ["contour.color=#a03010"]
 //! ```
 //!
-//! An object is scaled, then turned, then moved.
+//! An object is scaled, then turned, then moved, in the numbers of the files: where
+//! any object is, models far from the origin are not recentred.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};

@@ -4,9 +4,11 @@
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::camera::Camera;
 use edgemesh::edge_mesh::{EdgeMesh, FacePlane};
+use edgemesh::model::Model;
 use edgemesh::read::read_model;
-use edgemesh::replicate::Quantization;
-use glam::Vec3;
+use edgemesh::replicate::{Quantization, replicate_16};
+use edgemesh::report::Report;
+use glam::{DVec3, Vec3};
 use image::RgbaImage;
 use strokes::gpu::Gpu;
 use strokes::mesh_buffers::{Layout, MeshBuffers};
@@ -17,7 +19,7 @@ use viewer::technique::Technique;
 
 use crate::gpu_device::{gpu, gpu_with_limits};
 use crate::gpu_render::{own_model, scene_of, technique};
-use crate::gpu_twin::own_models;
+use crate::gpu_twin::{detect, own_models};
 use crate::noop::layouts_and_paths;
 
 fn picture_on(
@@ -167,4 +169,73 @@ fn strokes_without_room_are_drawn_all_the_same() {
         let whole = picture_on(gpu(), &mesh, &look, how);
         assert_eq!(difference(&whole, &picture_on(&crowded, &mesh, &look, how)), 0);
     }
+}
+
+/// Clusters of faces are passed over by the positions that are drawn: at 16 bits
+/// those are the rounded ones, whose faces can look another way.
+#[test]
+fn clusters_at_16_bits_are_those_of_the_rounded_faces() {
+    let mesh = fine_ball(90);
+    let views = (0..12).map(|step| {
+        let angle = f64::from(step) * 0.53;
+        DVec3::new(angle.cos(), (angle * 1.7).sin(), angle.sin()) * 4.0
+    });
+    for eye in views {
+        let view = Camera { eye, target: DVec3::ZERO, ..Camera::default_view(&mesh.bounds) }
+            .view(&mesh.bounds, 1.0);
+        let (_, _, live) = detect(&mesh, &view, &technique("ink", &[]), Layout::Replicated16);
+        let quantization = Quantization::of(&mesh.bounds);
+        let vertices = replicate_16(&mesh);
+        let contours = vertices.iter().step_by(4).enumerate().filter(|(_, vertex)| {
+            let corner = |steps| Vec3::from(quantization.dequantize(steps)).as_dvec3();
+            let [v0, v1, v2, v3] = [vertex.v0, vertex.v1, vertex.v2, vertex.v3].map(corner);
+            let to_eye = view.eye.truncate().as_dvec3() - v0;
+            let cosine = |normal: DVec3| normal.normalize_or_zero().dot(to_eye) / to_eye.length();
+            let a = cosine((v1 - v0).cross(v2 - v0));
+            let b = cosine((v3 - v0).cross(v1 - v0));
+            // Within this the shader's 32 bits are free to differ.
+            (a > 0.0) != (b > 0.0) && a.abs().min(b.abs()) > 2e-3
+        });
+        let contours: Vec<usize> = contours.map(|(edge, _)| edge).collect();
+        let found: Vec<usize> = live
+            .iter()
+            .filter(|&&entry| entry >> 31 == 1)
+            .map(|&entry| (entry & 0x1fff_ffff) as usize)
+            .collect();
+        let missing = contours.iter().filter(|edge| found.binary_search(edge).is_err()).count();
+        assert!(contours.len() > 100 && missing == 0, "{missing} of {} missing", contours.len());
+    }
+}
+
+/// A ball of many small faces, and a face so far away that 16 bits are coarse.
+fn fine_ball(rings: u16) -> EdgeMesh {
+    let around = 2 * rings;
+    let point = |ring: u16, step: u16| {
+        let theta = std::f32::consts::PI * f32::from(ring) / f32::from(rings);
+        let phi = std::f32::consts::TAU * f32::from(step) / f32::from(around);
+        [theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin()]
+    };
+    let mut positions: Vec<[f32; 3]> =
+        (0..=rings).flat_map(|ring| (0..around).map(move |step| point(ring, step))).collect();
+    let far = u32::try_from(positions.len()).unwrap();
+    let far_face = [far, far + 1, far + 2];
+    positions.extend([[150.0, 0.0, 0.0], [150.0, 1.0, 0.0], [150.0, 0.0, 1.0]]);
+    let corner =
+        |ring: u16, step: u16| u32::from(ring) * u32::from(around) + u32::from(step % around);
+    let polygons: Vec<[u32; 4]> = (0..rings)
+        .flat_map(|ring| {
+            (0..around).map(move |step| {
+                [
+                    corner(ring, step),
+                    corner(ring, step + 1),
+                    corner(ring + 1, step + 1),
+                    corner(ring + 1, step),
+                ]
+            })
+        })
+        .collect();
+    let mut polygons: Vec<&[u32]> = polygons.iter().map(|polygon| &polygon[..]).collect();
+    polygons.push(&far_face);
+    let model = Model::from_polygons(&positions, &polygons);
+    build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default())
 }

@@ -487,7 +487,7 @@ fn cameras(mesh: &EdgeMesh) -> Vec<Camera> {
 }
 
 /// What the GPU finds: facing bits, counts, and the live list.
-fn detect(
+pub(crate) fn detect(
     mesh: &EdgeMesh,
     view: &View,
     technique: &Technique,
