@@ -117,6 +117,12 @@ impl Renderer {
         })
     }
 
+    /// What it is made for, as it turned out.
+    #[must_use]
+    pub const fn options(&self) -> &RendererOptions {
+        &self.options
+    }
+
     /// Prepares a look.
     ///
     /// # Errors

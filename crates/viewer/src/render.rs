@@ -120,7 +120,6 @@ pub struct PictureRenderer<'a> {
     objects: Vec<Object>,
     bounds: Bounds,
     background: [f64; 4],
-    path: DetectionPath,
     timer: Option<GpuTimer>,
 }
 
@@ -166,10 +165,7 @@ impl<'a> PictureRenderer<'a> {
         } else {
             TargetFormats::new(options.samples)
         };
-        let PictureOptions { layout, mut path, .. } = *options;
-        if layout == Layout::FaceNormals {
-            path = DetectionPath::Vertex;
-        }
+        let PictureOptions { layout, path, .. } = *options;
         let mut renderer = Renderer::new(gpu, RendererOptions { layout, path, formats })
             .map_err(shader_failure)?;
         // Objects that look alike share pipelines and textures.
@@ -204,7 +200,6 @@ impl<'a> PictureRenderer<'a> {
             targets: Targets::new(&gpu.device, options.size, formats),
             bounds: scene.bounds,
             background: options.background,
-            path,
             timer: GpuTimer::new(gpu, edgemesh::index::to_u32(PASS_NAMES.len())),
         })
     }
@@ -236,7 +231,7 @@ impl<'a> PictureRenderer<'a> {
     }
 
     fn read_tally(&self) -> Result<Option<Tally>, Failure> {
-        if self.path == DetectionPath::Vertex {
+        if self.renderer.options().path == DetectionPath::Vertex {
             return Ok(None);
         }
         let sum = self.objects.iter().try_fold(Tally::default(), |sum, object| {
