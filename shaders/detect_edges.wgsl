@@ -30,7 +30,8 @@ struct DetectUniform {
     layer_count: u32,
     draw_count: u32,
     padding: u32,
-    // Layer and indices an edge of each draw.
+    // Layer and indices an edge of each draw, and 1 where none of its strokes is
+    // expanded.
     draws: array<vec4u, MAX_DRAWS>,
 }
 
@@ -243,7 +244,7 @@ fn set_arguments(draw: u32) {
     let index_count = detect.draws[draw].y;
     let first = first_of(layer);
     let count = first_of(layer + 1u) - first;
-    let expanded = min(count, chunk.capacity);
+    let expanded = select(min(count, chunk.capacity), 0u, detect.draws[draw].z != 0u);
     draws[draw] = DrawArguments(
         index_count * expanded, 1u, 0u, 0u, 0u,
         (expanded + EXPAND_WIDTH - 1u) / EXPAND_WIDTH, 1u, 1u,

@@ -3,7 +3,7 @@
 #import <common/stroke_classified.wgsl>
 
 @vertex
-fn stroke_vertices(@builtin(vertex_index) vertex_index: u32) -> Varying {
+fn stroke_vertices(@builtin(vertex_index) vertex_index: u32) -> StrokeVarying {
     let edge = vertex_index / stroke.index_count;
     let corner = corner_of(vertex_index % stroke.index_count);
     let faces = edge_faces(edge);
@@ -12,5 +12,5 @@ fn stroke_vertices(@builtin(vertex_index) vertex_index: u32) -> Varying {
 
 @fragment
 fn stroke_fragment(in: Varying) -> @location(0) vec4f {
-    return ink(in);
+    return ink(in.uv, in.opacity);
 }

@@ -11,11 +11,11 @@
 @group(3) @binding(1) var<storage, read> draws: array<DrawArguments>;
 
 @vertex
-fn stroke_vertices(@builtin(vertex_index) vertex_index: u32) -> Varying {
+fn stroke_vertices(@builtin(vertex_index) vertex_index: u32) -> StrokeVarying {
     let slot = vertex_index / stroke.index_count;
     let entry = live[draws[stroke.draw_index].first + slot];
     if is_passed_over(entry) {
-        return varying_of(StrokeVertex(BEHIND, 0.0, 0.0, 0.0));
+        return varying_of(unseen_vertex());
     }
     let edge = clip_edge(edge_geometry(entry & EDGE_INDEX_MASK));
     let corner = corner_of(vertex_index % stroke.index_count);
@@ -24,5 +24,5 @@ fn stroke_vertices(@builtin(vertex_index) vertex_index: u32) -> Varying {
 
 @fragment
 fn stroke_fragment(in: Varying) -> @location(0) vec4f {
-    return ink(in);
+    return ink(in.uv, in.opacity);
 }

@@ -14,7 +14,7 @@ struct EdgeVertex {
 }
 
 @vertex
-fn stroke_vertices(in: EdgeVertex, @builtin(instance_index) part: u32) -> Varying {
+fn stroke_vertices(in: EdgeVertex, @builtin(instance_index) part: u32) -> StrokeVarying {
     let edge = EdgeGeometry(in.v0, in.v1, in.v2, in.v3, in.n0, in.n1, in.r);
     let corner = corner_of_part(part, in.corner_and_flags & 3u);
     let faces = faces_of_geometry(edge);
@@ -23,5 +23,5 @@ fn stroke_vertices(in: EdgeVertex, @builtin(instance_index) part: u32) -> Varyin
 
 @fragment
 fn stroke_fragment(in: Varying) -> @location(0) vec4f {
-    return ink(in);
+    return ink(in.uv, in.opacity);
 }

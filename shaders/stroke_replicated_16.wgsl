@@ -12,7 +12,7 @@ struct EdgeVertex16 {
 }
 
 @vertex
-fn stroke_vertices(in: EdgeVertex16, @builtin(instance_index) part: u32) -> Varying {
+fn stroke_vertices(in: EdgeVertex16, @builtin(instance_index) part: u32) -> StrokeVarying {
     let edge = EdgeGeometry(
         position(in.a.xyz),
         position(vec3i(in.a.w, in.b.xy)),
@@ -34,5 +34,5 @@ fn position(steps: vec3i) -> vec3f {
 
 @fragment
 fn stroke_fragment(in: Varying) -> @location(0) vec4f {
-    return ink(in);
+    return ink(in.uv, in.opacity);
 }

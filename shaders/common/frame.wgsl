@@ -6,6 +6,8 @@ struct FrameUniform {
     // Pixels a unit of the world has at w = 1.
     px_per_unit: f32,
     padding: f32,
+    // At a distance d along the line of sight, clip z is x d + y and w is z d + w.
+    projection: vec4f,
 }
 
 struct ObjectUniform {

@@ -7,27 +7,43 @@ override IS_TEXTURED: bool = false;
 @group(1) @binding(1) var brush: texture_2d<f32>;
 @group(1) @binding(2) var brush_sampler: sampler;
 
+// What every fragment needs.
 struct Varying {
     @builtin(position) position: vec4f,
     @location(0) uv: vec2f,
     @location(1) opacity: f32,
 }
 
-// Values across a stroke and its opacity have 16 bits between expansion and
-// drawing, so they have them everywhere.
-fn varying_of(vertex: StrokeVertex) -> Varying {
-    let rounded = unpack2x16unorm(pack2x16unorm(vec2f(vertex.v, vertex.opacity)));
-    return Varying(vec4f(vertex.position, 1.0), vec2f(vertex.u, rounded.x), rounded.y);
+// What those need as well that ask at the edge whether it is visible.
+struct StrokeVarying {
+    @builtin(position) position: vec4f,
+    @location(0) uv: vec2f,
+    @location(1) opacity: f32,
+    @location(2) foot: vec3f,
+    @location(3) over_px: f32,
 }
 
-fn ink(in: Varying) -> vec4f {
-    var coverage = in.opacity;
+// Values across a stroke and its opacity have 16 bits between expansion and
+// drawing, so they have them everywhere.
+fn varying_of(vertex: StrokeVertex) -> StrokeVarying {
+    let rounded = unpack2x16unorm(pack2x16unorm(vec2f(vertex.v, vertex.opacity)));
+    return StrokeVarying(
+        vec4f(vertex.position, 1.0),
+        vec2f(vertex.u, rounded.x),
+        rounded.y,
+        vertex.foot,
+        vertex.over_px,
+    );
+}
+
+fn ink(uv: vec2f, opacity: f32) -> vec4f {
+    var coverage = opacity;
     if IS_TEXTURED {
         // A brush keeps its aspect, so its size across says how small it is drawn.
         // Along a stroke it may be sheared (Figure 9), which must not blur it.
-        let per_px = length(vec2f(dpdx(in.uv.y), dpdy(in.uv.y)));
+        let per_px = length(vec2f(dpdx(uv.y), dpdy(uv.y)));
         let level = log2(max(per_px * f32(textureDimensions(brush).y), 1.0));
-        coverage *= textureSampleLevel(brush, brush_sampler, in.uv, level).a;
+        coverage *= textureSampleLevel(brush, brush_sampler, uv, level).a;
     }
     return stroke.color * coverage;
 }

@@ -57,6 +57,9 @@ struct Segment {
     is_drawn: bool,
     m0: vec2f,
     m1: vec2f,
+    // +1 where the outside of a contour is the side of p, -1 where it is the
+    // other; 0 for what is no contour.
+    outside: f32,
     // How far the near and the far side lie along p, at start and end.
     near_px: vec2f,
     far_px: vec2f,
@@ -87,6 +90,7 @@ fn stroke_segment(edge: ClipEdge, shape: StrokeShape, bits: u32) -> Segment {
     segment.m0 = screen_normal(a, edge.n0, shape.viewport_px);
     segment.m1 = screen_normal(b, edge.n1, shape.viewport_px);
     let side = outside_of(segment, shape, bits);
+    segment.outside = select(0.0, side, (bits & CONTOUR) != 0u);
     let placement = placement_of(shape, bits);
     let width_px = vec2f(width_at(a, shape), width_at(b, shape));
     let start_px = quad_offsets(placement, side, width_px.x);

@@ -9,12 +9,27 @@ const BEHIND: vec3f = vec3f(0.0, 0.0, -1.0);
 const CAP_VERTICES: u32 = 3u;
 const DISK_VERTICES: u32 = DISK_STEPS + 2u;
 
+// So far outside of a contour nothing of its own surface is left, whatever
+// sample of the pixel is asked; and one pixel more, by which the fill is pushed
+// back, so that an edge does not escape what hides it closely.
+const FOOT_PX: f32 = 2.5;
+
 struct StrokeVertex {
     // Of the clip volume with w = 1, so that everything is linear on the screen.
     position: vec3f,
     u: f32,
     v: f32,
     opacity: f32,
+    // Where to ask whether a contour is visible: beside it, off the surface, in
+    // pixels from the middle of the picture; with the depth of the edge there.
+    foot: vec3f,
+    // How far the vertex lies over the surface that a contour bounds, in pixels;
+    // negative off it, 0 for what is no contour.
+    over_px: f32,
+}
+
+fn unseen_vertex() -> StrokeVertex {
+    return StrokeVertex(BEHIND, 0.0, 0.0, 0.0, vec3f(0.0), 0.0);
 }
 
 fn stroke_vertex(edge: ClipEdge, shape: StrokeShape, bits: u32, corner: u32) -> StrokeVertex {
@@ -27,7 +42,7 @@ fn stroke_vertex(edge: ClipEdge, shape: StrokeShape, bits: u32, corner: u32) -> 
 fn segment_vertex(segment: Segment, shape: StrokeShape, corner: u32) -> StrokeVertex {
     let spine = segment.spine;
     if !segment.is_drawn {
-        return StrokeVertex(BEHIND, 0.0, 0.0, 0.0);
+        return unseen_vertex();
     }
     if shape.kind == THIN {
         let is_end = corner == 1u;
@@ -48,7 +63,7 @@ fn segment_vertex(segment: Segment, shape: StrokeShape, corner: u32) -> StrokeVe
     let is_end = corner >= 4u + per_end;
     // A clipped end is no vertex of the mesh, and nobody meets it there.
     if select(spine.t0 > 0.0, spine.t1 < 1.0, is_end) {
-        return StrokeVertex(BEHIND, 0.0, 0.0, 0.0);
+        return unseen_vertex();
     }
     let i = (corner - 4u) % per_end;
     if shape.kind == QUAD_AND_CAPS {
@@ -102,11 +117,14 @@ fn at_end(
     rise: f32,
     v: f32,
 ) -> StrokeVertex {
-    let s = select(segment.spine.s0, segment.spine.s1, is_end) + offset_px;
-    let z = select(segment.spine.z0, segment.spine.z1, is_end) + rise;
+    let s = select(segment.spine.s0, segment.spine.s1, is_end);
+    let z = select(segment.spine.z0, segment.spine.z1, is_end);
+    let position = vec3f((s + offset_px) / (shape.viewport_px * 0.5), z + rise);
     let u = of_end(segment.u, is_end);
     let opacity = of_end(segment.opacity, is_end);
-    return StrokeVertex(vec3f(s / (shape.viewport_px * 0.5), z), u, v, opacity);
+    let outward = segment.spine.p * segment.outside;
+    let foot = vec3f(s + outward * FOOT_PX, z);
+    return StrokeVertex(position, u, v, opacity, foot, -dot(offset_px, outward));
 }
 
 fn of_end(values: vec2f, is_end: bool) -> f32 {
@@ -116,7 +134,7 @@ fn of_end(values: vec2f, is_end: bool) -> f32 {
 // A fin (Card and Mitchell, Listing 1): a quad that stands on the edge along the
 // vertex normals. Corners as those of the quad, 2 and 3 pushed out.
 fn fin_vertex(edge: ClipEdge, shape: StrokeShape, corner: u32) -> StrokeVertex {
-    let hidden = StrokeVertex(BEHIND, 0.0, 0.0, 0.0);
+    let hidden = unseen_vertex();
     let spine = project_spine(edge.c0, edge.c1, shape.viewport_px);
     if all(spine.p == vec2f(0.0)) {
         return hidden;
@@ -137,7 +155,8 @@ fn fin_vertex(edge: ClipEdge, shape: StrokeShape, corner: u32) -> StrokeVertex {
     let u = of_end(stroke_u(spine, shape, side, width_px, edge.r), is_end);
     let t = select(spine.t0, spine.t1, is_end);
     let opacity = opacity_at(edge.distance.x * (1.0 - t) + edge.distance.y * t, shape);
-    return StrokeVertex(clip.xyz / clip.w, u, select(1.0, 0.0, is_tip), opacity);
+    let v = select(1.0, 0.0, is_tip);
+    return StrokeVertex(clip.xyz / clip.w, u, v, opacity, vec3f(0.0), 0.0);
 }
 
 // In units of the world; scaled by the distance, a width in pixels stays one.

@@ -42,7 +42,8 @@ pub struct DetectUniform {
     pub draw_count: u32,
     /// Unused.
     pub padding: u32,
-    /// Layer and indices an edge of each draw.
+    /// Layer and indices an edge of each draw, and 1 where none of its strokes is
+    /// expanded.
     pub draws: [[u32; 4]; MAX_DRAWS],
 }
 
@@ -55,7 +56,7 @@ impl DetectUniform {
         let styled = look.draws();
         for (draw, styled) in draws.iter_mut().zip(&styled) {
             let index_count = edgemesh::index::to_u32(styled.style.kind.indices().len());
-            *draw = [styled.layer, index_count, 0, 0];
+            *draw = [styled.layer, index_count, u32::from(styled.lies_over_surface()), 0];
         }
         Self {
             layers: table.layers,

@@ -9,6 +9,8 @@ use edgemesh::replicate::Quantization;
 use glam::{DMat3, DMat4, Mat4, Vec2, Vec4};
 use wgpu::util::DeviceExt as _;
 
+use crate::targets::Targets;
+
 /// The uniform of a view: `@group(0)` everywhere. WGSL twin:
 /// `shaders/common/frame.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
@@ -20,6 +22,8 @@ pub struct FrameUniform {
     pub px_per_unit: f32,
     /// Unused.
     pub padding: f32,
+    /// At a distance d along the line of sight, clip z is x d + y, and w is z d + w.
+    pub projection: [f32; 4],
 }
 
 impl FrameUniform {
@@ -29,8 +33,26 @@ impl FrameUniform {
         // How long the row that makes y is, in units of the clip volume.
         let y_row = view.clip_from_world.row(1).truncate();
         let px_per_unit = y_row.length() * viewport_px.y * 0.5;
-        Self { viewport_px: viewport_px.to_array(), px_per_unit, padding: 0.0 }
+        let [[z_scale, z_offset], [w_scale, w_offset]] =
+            [2, 3].map(|row| along_sight(view.clip_from_world.row(row), view.distance));
+        Self {
+            viewport_px: viewport_px.to_array(),
+            px_per_unit,
+            padding: 0.0,
+            projection: [z_scale, z_offset, w_scale, w_offset],
+        }
     }
+}
+
+/// A row of the projection as a function of the distance along the line of sight,
+/// the only thing that z and w depend on: its factor and what is added.
+fn along_sight(row: Vec4, distance: Vec4) -> [f32; 2] {
+    let (row, distance) = (row.as_dvec4(), distance.as_dvec4());
+    let direction = distance.truncate();
+    let scale = row.truncate().dot(direction) / direction.length_squared();
+    let offset = row.w - scale * distance.w;
+    #[expect(clippy::cast_possible_truncation, reason = "as the shader has it")]
+    [scale, offset].map(|value| value as f32)
 }
 
 /// What a view makes of one object. WGSL twin: `shaders/common/frame.wgsl`.
@@ -120,6 +142,31 @@ pub fn frame_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     })
 }
 
+/// `@group(0)` of strokes that ask for the depth of the fill: the frame, and the
+/// depth as a texture of one sample a pixel (binding 1) or of several (2).
+#[must_use]
+pub(crate) fn frame_depth_layout(device: &wgpu::Device, samples: u32) -> wgpu::BindGroupLayout {
+    let visibility = wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE;
+    let depth = wgpu::BindGroupLayoutEntry {
+        binding: depth_binding(samples),
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty: wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Depth,
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: samples > 1,
+        },
+        count: None,
+    };
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("frame and depth"),
+        entries: &[uniform_entry(0, visibility), depth],
+    })
+}
+
+const fn depth_binding(samples: u32) -> u32 {
+    if samples > 1 { 2 } else { 1 }
+}
+
 /// The frame's uniform buffer and bind group.
 #[derive(Debug)]
 pub struct Frame {
@@ -142,6 +189,25 @@ impl Frame {
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
         });
         Self { buffer, bind_group }
+    }
+
+    /// The frame with the depth of `targets`, in a [`frame_depth_layout`].
+    pub(crate) fn with_depth(
+        &self,
+        device: &wgpu::Device,
+        layout: &wgpu::BindGroupLayout,
+        targets: &Targets,
+    ) -> wgpu::BindGroup {
+        let depth = wgpu::BindGroupEntry {
+            binding: depth_binding(targets.formats().samples),
+            resource: wgpu::BindingResource::TextureView(targets.depth_texture()),
+        };
+        let frame = wgpu::BindGroupEntry { binding: 0, resource: self.buffer.as_entire_binding() };
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("frame and depth"),
+            layout,
+            entries: &[frame, depth],
+        })
     }
 
     /// Replaces the view for the next submission.
@@ -212,4 +278,34 @@ pub(crate) fn bind_buffers(
         layout,
         entries: &entries,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use edgemesh::camera::Camera;
+    use glam::DVec3;
+
+    use super::*;
+
+    /// The shader's `distance_of`.
+    fn distance_of(depth: f32, [z_scale, z_offset, w_scale, w_offset]: [f32; 4]) -> f32 {
+        (z_offset - depth * w_offset) / (depth * w_scale - z_scale)
+    }
+
+    #[test]
+    fn distances_come_back_from_depths() {
+        let bounds = Bounds { min: [-1.0, -2.0, -3.0], max: [3.0, 2.0, 1.0] };
+        for is_orthographic in [false, true] {
+            let camera = Camera { is_orthographic, ..Camera::default_view(&bounds) };
+            let view = camera.view(&bounds, 1.5);
+            let frame = FrameUniform::new(&view, Vec2::new(300.0, 200.0));
+            for point in [DVec3::ZERO, DVec3::new(2.0, -1.0, -2.5), camera.target] {
+                let point = point.as_vec3().extend(1.0);
+                let clip = view.clip_from_world * point;
+                let want = view.distance.dot(point);
+                let got = distance_of(clip.z / clip.w, frame.projection);
+                assert!((got - want).abs() < 1e-4 * want, "{got} for {want}");
+            }
+        }
+    }
 }

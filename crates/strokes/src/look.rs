@@ -116,6 +116,17 @@ pub(crate) struct StyledDraw {
     pub(crate) layer: u32,
     pub(crate) visibility: Visibility,
     pub(crate) style: StrokeStyle,
+    pub(crate) has_contours: bool,
+}
+
+impl StyledDraw {
+    /// Whether it draws contours over the surface that they bound, which would
+    /// swallow them: their fragments ask at the edge whether they are visible.
+    pub(crate) const fn lies_over_surface(&self) -> bool {
+        let is_wide = !matches!(self.style.kind, LineKind::Thin | LineKind::Fin);
+        let reaches_inside = matches!(self.style.placement, Placement::Centred | Placement::Inside);
+        self.has_contours && is_wide && reaches_inside
+    }
 }
 
 impl Look {
@@ -137,19 +148,21 @@ impl Look {
     /// The draws of strokes in order: what is hidden, then what is visible, each
     /// from the last layer to the first, then the silhouette.
     pub(crate) fn draws(&self) -> Vec<StyledDraw> {
+        let has_contours = |layer: &Layer| layer.classes.contains(&EdgeClass::Contour);
         let of_layers = |visibility, style: fn(&Layer) -> Option<&StrokeStyle>| {
             self.layers.iter().enumerate().rev().filter_map(move |(layer, of_layer)| {
                 let layer = edgemesh::index::to_u32(layer);
-                style(of_layer).cloned().map(|style| StyledDraw { layer, visibility, style })
+                let has_contours = has_contours(of_layer);
+                let style = style(of_layer).cloned();
+                style.map(|style| StyledDraw { layer, visibility, style, has_contours })
             })
         };
         let hidden = of_layers(Visibility::Hidden, |layer| layer.hidden.as_ref());
         let visible = of_layers(Visibility::Visible, |layer| layer.visible.as_ref());
         let silhouette = self.silhouette.iter().filter_map(|style| {
-            let has_contours = |layer: &Layer| layer.classes.contains(&EdgeClass::Contour);
             let layer = edgemesh::index::to_u32(self.layers.iter().position(has_contours)?);
             let visibility = Visibility::Silhouette;
-            Some(StyledDraw { layer, visibility, style: style.clone() })
+            Some(StyledDraw { layer, visibility, style: style.clone(), has_contours: true })
         });
         hidden.chain(visible).chain(silhouette).collect()
     }

@@ -12,7 +12,7 @@ use crate::gpu::Gpu;
 use crate::look::Visibility;
 use crate::mesh_buffers::{ChunkBuffers, EdgeSource, MeshBuffers};
 use crate::readback::{ReadbackError, read_buffer};
-use crate::renderer::{DetectionPath, PreparedLook, Renderer};
+use crate::renderer::{DetectionPath, PreparedDraw, PreparedLook, Renderer};
 use crate::stroke_layouts::StrokeLayouts;
 use crate::view_buffers::{Tally, ViewBuffers};
 
@@ -49,7 +49,7 @@ pub(crate) struct PartLists {
     pub(crate) view: ViewBuffers,
     pub(crate) detect: DetectDraw,
     /// `@group(3)` of the expansion, one a draw.
-    pub(crate) expand: Vec<wgpu::BindGroup>,
+    pub(crate) expand: Vec<Option<wgpu::BindGroup>>,
     /// `@group(3)` of strokes from the list.
     pub(crate) listed: wgpu::BindGroup,
 }
@@ -64,10 +64,11 @@ impl Object {
         let device = &gpu.device;
         let empty: ObjectUniform = bytemuck::Zeroable::zeroed();
         let uniform = uniform_buffer(device, "object", &empty);
-        let kinds: Vec<LineKind> = look.draws.iter().map(|draw| draw.kind).collect();
+        let expanded = |draw: &PreparedDraw| (!draw.lies_over_surface).then_some(draw.kind);
+        let expanded: Vec<Option<LineKind>> = look.draws.iter().map(expanded).collect();
         let part = |chunk: &ChunkBuffers| {
             let lists = (renderer.options.path == DetectionPath::Compute)
-                .then(|| lists(device, renderer, &uniform, chunk, look.layer_count, &kinds));
+                .then(|| lists(device, renderer, &uniform, chunk, look.layer_count, &expanded));
             ObjectPart {
                 edges: edges_group(device, renderer, &uniform, chunk),
                 planes: planes_group(device, &renderer.layouts, chunk),
@@ -152,14 +153,14 @@ fn lists(
     uniform: &wgpu::Buffer,
     chunk: &ChunkBuffers,
     layer_count: u32,
-    kinds: &[LineKind],
+    expanded: &[Option<LineKind>],
 ) -> PartLists {
     let layouts = &renderer.layouts;
-    let view = ViewBuffers::new(device, &chunk.size, layer_count, kinds);
+    let view = ViewBuffers::new(device, &chunk.size, layer_count, expanded);
     let read = [(0, &view.live), (1, &view.draws)];
     let expand = view.vertices.iter().map(|vertices| {
-        let buffers = [(0, &view.live), (1, &view.draws), (2, vertices)];
-        bind_buffers(device, "expand strokes", &layouts.expand, &buffers)
+        let buffers = [(0, &view.live), (1, &view.draws), (2, vertices.as_ref()?)];
+        Some(bind_buffers(device, "expand strokes", &layouts.expand, &buffers))
     });
     PartLists {
         detect: renderer.detect.draw(device, uniform, chunk, &view),

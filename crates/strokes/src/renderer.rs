@@ -79,6 +79,7 @@ pub struct PreparedLook {
 pub(crate) struct PreparedDraw {
     pub(crate) kind: LineKind,
     pub(crate) visibility: Visibility,
+    pub(crate) lies_over_surface: bool,
     style: wgpu::BindGroup,
     vertices: DrawVertices,
 }
@@ -86,8 +87,8 @@ pub(crate) struct PreparedDraw {
 #[derive(Debug)]
 enum DrawVertices {
     Lists {
-        expand: Arc<ExpandPipeline>,
-        expanded: wgpu::RenderPipeline,
+        /// None where no stroke is expanded.
+        expanded: Option<(Arc<ExpandPipeline>, wgpu::RenderPipeline)>,
         listed: wgpu::RenderPipeline,
     },
     All(wgpu::RenderPipeline),
@@ -106,7 +107,7 @@ impl Renderer {
         }
         let frame = frame_layout(device);
         Ok(Self {
-            layouts: StrokeLayouts::new(device, &frame, options.layout),
+            layouts: StrokeLayouts::new(device, &frame, options.layout, options.formats.samples),
             detect: DetectPipeline::new(device, &frame, options.layout)?,
             fill: FillPipeline::new(device, &frame, &options.formats)?,
             frame: Frame::new(device, &frame, &bytemuck::Zeroable::zeroed()),
@@ -143,12 +144,18 @@ impl Renderer {
             let RendererOptions { path, layout, .. } = self.options;
             let mut pipeline = |source| self.stroke(gpu, StrokeVariant::new(source, draw));
             let kind = draw.style.kind;
+            let lies_over_surface = draw.lies_over_surface();
             let vertices = match (path, layout) {
-                (DetectionPath::Compute, _) => DrawVertices::Lists {
-                    expanded: pipeline(VertexSource::Expanded)?,
-                    listed: pipeline(VertexSource::Listed)?,
-                    expand: self.expansion(gpu, kind)?,
-                },
+                (DetectionPath::Compute, _) => {
+                    let listed = pipeline(VertexSource::Listed)?;
+                    let expanded = if lies_over_surface {
+                        None
+                    } else {
+                        let drawn = pipeline(VertexSource::Expanded)?;
+                        Some((self.expansion(gpu, kind)?, drawn))
+                    };
+                    DrawVertices::Lists { expanded, listed }
+                }
                 (DetectionPath::Vertex, Layout::Indexed) => {
                     DrawVertices::All(pipeline(VertexSource::All)?)
                 }
@@ -156,7 +163,8 @@ impl Renderer {
                     DrawVertices::Attributes(pipeline(VertexSource::Attributes)?)
                 }
             };
-            draws.push(PreparedDraw { kind, visibility: draw.visibility, style, vertices });
+            let visibility = draw.visibility;
+            draws.push(PreparedDraw { kind, visibility, lies_over_surface, style, vertices });
         }
         let fill_kind = if look.fill_color.is_some() { FillKind::Whole } else { FillKind::Clear };
         Ok(Arc::new(PreparedLook {
@@ -246,7 +254,13 @@ impl Renderer {
         let placed: Vec<&Object> = objects.iter().filter(|object| object.is_placed).collect();
         self.encode_detect(&mut encoder, &placed, timer);
         self.encode_expand(&mut encoder, &placed, timer);
-        let frame = FrameEncoder { renderer: self, targets, objects: &placed };
+        let asks_for_depth =
+            |object: &&Object| object.look.draws.iter().any(|draw| draw.lies_over_surface);
+        let frame_depth = placed
+            .iter()
+            .any(asks_for_depth)
+            .then(|| self.frame.with_depth(&gpu.device, &self.layouts.frame_depth, targets));
+        let frame = FrameEncoder { renderer: self, targets, objects: &placed, frame_depth };
         let values = frame.stencil_values();
         frame.encode_fill(&mut encoder, background, &values, timer);
         frame.encode_strokes(&mut encoder, &values, timer);
@@ -296,12 +310,15 @@ impl Renderer {
         pass.set_bind_group(0, &self.frame.bind_group, &[]);
         for object in objects {
             for (index, draw) in object.look.draws.iter().enumerate() {
-                let DrawVertices::Lists { expand, .. } = &draw.vertices else { continue };
+                let DrawVertices::Lists { expanded: Some((expand, _)), .. } = &draw.vertices else {
+                    continue;
+                };
                 pass.set_bind_group(1, &draw.style, &[]);
                 for part in &object.parts {
                     let Some(lists) = &part.lists else { continue };
+                    let Some(group) = &lists.expand[index] else { continue };
                     pass.set_bind_group(2, &part.edges, &[]);
-                    expand.record(&mut pass, &lists.expand[index], &lists.view, index);
+                    expand.record(&mut pass, group, &lists.view, index);
                 }
             }
         }
@@ -319,6 +336,8 @@ struct FrameEncoder<'a> {
     renderer: &'a Renderer,
     targets: &'a Targets,
     objects: &'a [&'a Object],
+    /// The frame with the depth, where a draw asks for it.
+    frame_depth: Option<wgpu::BindGroup>,
 }
 
 /// The stencil values of the objects, cut where the stencil must be cleared.
@@ -397,14 +416,15 @@ impl FrameEncoder<'_> {
         let ranges = batches.ranges();
         for (batch, range) in ranges.iter().enumerate() {
             let is_first = batch == 0;
+            if !is_first {
+                self.encode_marks(encoder, range.clone(), &batches.values);
+            }
             let is_last = batch + 1 == ranges.len();
-            let store = if is_last { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store };
+            let color = self.targets.color_attachment(wgpu::LoadOp::Load, is_last);
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some(PASS_NAMES[3]),
-                color_attachments: &[Some(
-                    self.targets.color_attachment(wgpu::LoadOp::Load, is_last),
-                )],
-                depth_stencil_attachment: Some(self.targets.kept_depth(!is_first, store)),
+                color_attachments: &[Some(color)],
+                depth_stencil_attachment: Some(self.targets.read_depth()),
                 timestamp_writes: timer.filter(|_| is_first).map(|timer| timer.render(3)),
                 ..Default::default()
             });
@@ -414,11 +434,6 @@ impl FrameEncoder<'_> {
                         self.strokes(&mut pass, object, visibility);
                     }
                 }
-            } else {
-                for index in range.clone() {
-                    let value = batches.values[index];
-                    self.fill(&mut pass, self.objects[index], FillKind::Mark, value);
-                }
             }
             for index in range.clone().filter(|&index| batches.values[index] != NO_OBJECT) {
                 pass.set_stencil_reference(batches.values[index]);
@@ -427,15 +442,38 @@ impl FrameEncoder<'_> {
         }
     }
 
+    /// Clears the stencil and marks a further batch of objects in it.
+    fn encode_marks(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        range: std::ops::Range<usize>,
+        values: &[u32],
+    ) {
+        let color = self.targets.color_attachment(wgpu::LoadOp::Load, false);
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("marks"),
+            color_attachments: &[Some(color)],
+            depth_stencil_attachment: Some(self.targets.cleared_stencil()),
+            ..Default::default()
+        });
+        for index in range {
+            self.fill(&mut pass, self.objects[index], FillKind::Mark, values[index]);
+        }
+    }
+
     fn strokes(&self, pass: &mut wgpu::RenderPass, object: &Object, visibility: Visibility) {
         let draws = object.look.draws.iter().enumerate();
         for (index, draw) in draws.filter(|(_, draw)| draw.visibility == visibility) {
-            pass.set_bind_group(0, &self.renderer.frame.bind_group, &[]);
+            let frame = &self.renderer.frame.bind_group;
+            let frame =
+                self.frame_depth.as_ref().filter(|_| draw.lies_over_surface).unwrap_or(frame);
+            pass.set_bind_group(0, frame, &[]);
             pass.set_bind_group(1, &draw.style, &[]);
             for (chunk, part) in object.mesh.chunks.iter().zip(&object.parts) {
                 match &draw.vertices {
-                    DrawVertices::Lists { expanded, listed, .. } => {
-                        self.listed_strokes(pass, part, draw, index, [expanded, listed]);
+                    DrawVertices::Lists { expanded, listed } => {
+                        let expanded = expanded.as_ref().map(|(_, pipeline)| pipeline);
+                        self.listed_strokes(pass, part, draw, index, expanded, listed);
                     }
                     DrawVertices::All(pipeline) => {
                         let index_count = edgemesh::index::to_u32(draw.kind.indices().len());
@@ -467,14 +505,17 @@ impl FrameEncoder<'_> {
         part: &ObjectPart,
         draw: &PreparedDraw,
         index: usize,
-        [expanded, listed]: [&wgpu::RenderPipeline; 2],
+        expanded: Option<&wgpu::RenderPipeline>,
+        listed: &wgpu::RenderPipeline,
     ) {
         let Some(lists) = &part.lists else { return };
         let arguments = (index * size_of::<DrawArguments>()) as u64;
-        pass.set_pipeline(expanded);
-        pass.set_vertex_buffer(0, lists.view.vertices[index].slice(..));
-        self.renderer.set_indices(pass, IndexKey::Expanded(draw.kind));
-        pass.draw_indexed_indirect(&lists.view.draws, arguments);
+        if let (Some(expanded), Some(vertices)) = (expanded, &lists.view.vertices[index]) {
+            pass.set_pipeline(expanded);
+            pass.set_vertex_buffer(0, vertices.slice(..));
+            self.renderer.set_indices(pass, IndexKey::Expanded(draw.kind));
+            pass.draw_indexed_indirect(&lists.view.draws, arguments);
+        }
         pass.set_pipeline(listed);
         pass.set_bind_group(2, &part.edges, &[]);
         pass.set_bind_group(3, &lists.listed, &[]);
@@ -511,6 +552,7 @@ enum IndexKey {
 impl IndexKey {
     fn of(draw: &PreparedDraw) -> Vec<Self> {
         match &draw.vertices {
+            DrawVertices::Lists { expanded: None, .. } => Vec::new(),
             DrawVertices::Lists { .. } => vec![Self::Expanded(draw.kind)],
             DrawVertices::All(_) => Vec::new(),
             DrawVertices::Attributes(_) => vec![Self::Lines, Self::Quads, Self::Ends],

@@ -51,6 +51,7 @@ pub const EMBEDDED: &[(&str, &str)] = &[
     embedded!("stroke_expanded.wgsl"),
     embedded!("stroke_face_normals.wgsl"),
     embedded!("stroke_listed.wgsl"),
+    embedded!("stroke_over_surface.wgsl"),
     embedded!("stroke_replicated.wgsl"),
     embedded!("stroke_replicated_16.wgsl"),
 ];

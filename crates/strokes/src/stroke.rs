@@ -147,6 +147,8 @@ pub(crate) struct StrokeVariant {
     pub(crate) visibility: Visibility,
     pub(crate) is_thin: bool,
     pub(crate) is_textured: bool,
+    /// See [`StyledDraw::lies_over_surface`].
+    pub(crate) is_over_surface: bool,
 }
 
 impl StrokeVariant {
@@ -156,6 +158,16 @@ impl StrokeVariant {
             visibility: draw.visibility,
             is_thin: draw.style.kind == LineKind::Thin,
             is_textured: draw.style.brush.is_some(),
+            is_over_surface: draw.lies_over_surface(),
+        }
+    }
+
+    /// The shader of the fragments, and its entry point.
+    const fn fragment(self, vertex_shader: &'static str, samples: u32) -> [&'static str; 2] {
+        match (self.is_over_surface, samples) {
+            (false, _) => [vertex_shader, "stroke_fragment"],
+            (true, 1) => ["stroke_over_surface.wgsl", "over_surface_of_pixels"],
+            (true, _) => ["stroke_over_surface.wgsl", "over_surface_of_samples"],
         }
     }
 
@@ -171,12 +183,16 @@ impl StrokeVariant {
     }
 
     fn groups(self, layouts: &StrokeLayouts) -> [Option<&wgpu::BindGroupLayout>; 4] {
-        match self.source {
+        let mut groups = match self.source {
             VertexSource::Expanded => layouts.groups(None, None),
             VertexSource::Listed => layouts.groups(Some(&layouts.edges), Some(&layouts.listed)),
             VertexSource::All => layouts.groups(Some(&layouts.edges), Some(&layouts.planes)),
             VertexSource::Attributes => layouts.groups(Some(&layouts.object), None),
+        };
+        if self.is_over_surface {
+            groups[0] = Some(&layouts.frame_depth);
         }
+        groups
     }
 
     const fn vertex_buffer(self, layout: Layout) -> Option<wgpu::VertexBufferLayout<'static>> {
@@ -218,9 +234,17 @@ pub(crate) fn stroke_pipeline(
 ) -> Result<wgpu::RenderPipeline, ShaderError> {
     let shader = variant.shader(layout);
     let module = ShaderSource::embedded_for(shader, layout)?.module(device, shader);
-    let constants = [("IS_TEXTURED", f64::from(u8::from(variant.is_textured)))];
-    let compilation_options =
-        wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+    let [fragment_shader, fragment_entry] = variant.fragment(shader, formats.samples);
+    let fragments = if fragment_shader == shader {
+        module.clone()
+    } else {
+        ShaderSource::embedded(fragment_shader)?.module(device, fragment_shader)
+    };
+    let is_hidden = variant.visibility == Visibility::Hidden;
+    let constants = [("IS_TEXTURED", variant.is_textured), ("IS_HIDDEN", is_hidden)]
+        .map(|(name, value)| (name, f64::from(u8::from(value))));
+    let constants = if variant.is_over_surface { &constants[..] } else { &constants[..1] };
+    let compilation_options = wgpu::PipelineCompilationOptions { constants, ..Default::default() };
     let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some(shader),
         bind_group_layouts: trimmed(&variant.groups(layouts)),
@@ -242,11 +266,11 @@ pub(crate) fn stroke_pipeline(
             buffers: if buffers[0].is_some() { &buffers } else { &[] },
         },
         primitive: wgpu::PrimitiveState { topology, ..wgpu::PrimitiveState::default() },
-        depth_stencil: Some(depth_stencil(formats, variant.visibility)),
+        depth_stencil: Some(depth_stencil(formats, variant)),
         multisample: wgpu::MultisampleState { count: formats.samples, ..Default::default() },
         fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("stroke_fragment"),
+            module: &fragments,
+            entry_point: Some(fragment_entry),
             compilation_options,
             targets: &[Some(wgpu::ColorTargetState {
                 format: formats.color,
@@ -267,10 +291,11 @@ fn trimmed<'a, 'b>(
     &groups[..used]
 }
 
-fn depth_stencil(formats: &TargetFormats, visibility: Visibility) -> wgpu::DepthStencilState {
+fn depth_stencil(formats: &TargetFormats, variant: StrokeVariant) -> wgpu::DepthStencilState {
     // Depth is reversed. What is behind anything is hidden, and what is not is
     // visible: no sample is in both or in neither.
-    let compare = match visibility {
+    let compare = match variant.visibility {
+        _ if variant.is_over_surface => CompareFunction::Always,
         Visibility::Hidden => CompareFunction::Less,
         Visibility::Visible | Visibility::Silhouette => CompareFunction::GreaterEqual,
     };
@@ -280,7 +305,7 @@ fn depth_stencil(formats: &TargetFormats, visibility: Visibility) -> wgpu::Depth
         depth_fail_op: StencilOperation::Keep,
         pass_op: StencilOperation::Keep,
     };
-    let stencil = match visibility {
+    let stencil = match variant.visibility {
         Visibility::Silhouette => {
             wgpu::StencilState { front: face, back: face, read_mask: 0xff, write_mask: 0 }
         }

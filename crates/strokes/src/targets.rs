@@ -61,6 +61,8 @@ pub struct Targets {
     /// The texture with several samples, where there are several.
     sampled_view: Option<wgpu::TextureView>,
     depth_view: wgpu::TextureView,
+    /// The depth alone, to be read.
+    depth_texture: wgpu::TextureView,
 }
 
 impl Targets {
@@ -86,15 +88,32 @@ impl Targets {
         let picture =
             texture("picture", formats.color, 1, attachment | wgpu::TextureUsages::COPY_SRC);
         let sampled = (samples > 1).then(|| texture("samples", formats.color, samples, attachment));
-        let depth = texture("depth", formats.depth, samples, attachment);
+        let read = wgpu::TextureUsages::TEXTURE_BINDING;
+        let depth = texture("depth", formats.depth, samples, attachment | read);
+        let depth_alone = wgpu::TextureViewDescriptor {
+            aspect: wgpu::TextureAspect::DepthOnly,
+            ..wgpu::TextureViewDescriptor::default()
+        };
         Self {
             size,
             formats,
             picture_view: view(&picture),
             sampled_view: sampled.as_ref().map(view),
             depth_view: view(&depth),
+            depth_texture: depth.create_view(&depth_alone),
             picture,
         }
+    }
+
+    /// The formats.
+    #[must_use]
+    pub const fn formats(&self) -> &TargetFormats {
+        &self.formats
+    }
+
+    /// The depth, to be read.
+    pub(crate) const fn depth_texture(&self) -> &wgpu::TextureView {
+        &self.depth_texture
     }
 
     /// Bytes that textures of this size take, for messages.
@@ -142,26 +161,29 @@ impl Targets {
     /// Depth and stencil, cleared to nothing drawn.
     pub(crate) fn cleared_depth(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
         // Reversed depth: 0 is the far plane.
-        self.depth(wgpu::LoadOp::Clear(0.0), wgpu::LoadOp::Clear(NO_OBJECT), wgpu::StoreOp::Store)
+        self.depth(wgpu::LoadOp::Clear(0.0), wgpu::LoadOp::Clear(NO_OBJECT))
     }
 
-    /// Depth and stencil as they are; kept for a pass behind this one, or not.
-    pub(crate) fn kept_depth(
-        &self,
-        clears_stencil: bool,
-        store: wgpu::StoreOp,
-    ) -> wgpu::RenderPassDepthStencilAttachment<'_> {
-        let stencil =
-            if clears_stencil { wgpu::LoadOp::Clear(NO_OBJECT) } else { wgpu::LoadOp::Load };
-        self.depth(wgpu::LoadOp::Load, stencil, store)
+    /// Depth as it is, and the stencil cleared.
+    pub(crate) fn cleared_stencil(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+        self.depth(wgpu::LoadOp::Load, wgpu::LoadOp::Clear(NO_OBJECT))
+    }
+
+    /// Depth and stencil as they are, to be tested against, and read meanwhile.
+    pub(crate) const fn read_depth(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+        wgpu::RenderPassDepthStencilAttachment {
+            view: &self.depth_view,
+            depth_ops: None,
+            stencil_ops: None,
+        }
     }
 
     fn depth(
         &self,
         load: wgpu::LoadOp<f32>,
         load_stencil: wgpu::LoadOp<u32>,
-        store: wgpu::StoreOp,
     ) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+        let store = wgpu::StoreOp::Store;
         let stencil_ops = wgpu::Operations { load: load_stencil, store };
         wgpu::RenderPassDepthStencilAttachment {
             view: &self.depth_view,

@@ -147,8 +147,8 @@ pub(crate) struct ViewBuffers {
     pub(crate) tally: wgpu::Buffer,
     /// The arguments of the draws, in order.
     pub(crate) draws: wgpu::Buffer,
-    /// Expanded vertices, one buffer a draw.
-    pub(crate) vertices: Vec<wgpu::Buffer>,
+    /// Expanded vertices, one buffer a draw; none where no stroke is expanded.
+    pub(crate) vertices: Vec<Option<wgpu::Buffer>>,
 }
 
 impl ViewBuffers {
@@ -156,7 +156,7 @@ impl ViewBuffers {
         device: &wgpu::Device,
         chunk: &ChunkUniform,
         layer_count: u32,
-        kinds: &[LineKind],
+        expanded: &[Option<LineKind>],
     ) -> Self {
         let buffer = |label: &str, size: u64, usage: BufferUsages| {
             device.create_buffer(&wgpu::BufferDescriptor {
@@ -183,7 +183,7 @@ impl ViewBuffers {
             live: buffer("live edges", 4 * u64::from(chunk.edge_count), BufferUsages::COPY_SRC),
             tally: buffer("tally", size_of::<Tally>() as u64, read_back),
             draws: buffer("draws", draws, BufferUsages::INDIRECT | BufferUsages::COPY_SRC),
-            vertices: kinds.iter().map(vertices).collect(),
+            vertices: expanded.iter().map(|kind| kind.as_ref().map(vertices)).collect(),
         }
     }
 }

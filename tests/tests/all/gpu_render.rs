@@ -104,6 +104,13 @@ fn golden_styles() {
         ("torus_knot-watercolor", "torus_knot", "watercolor", &[]),
         ("torus_knot-fur", "torus_knot", "fur", &["contour.width=20"]),
         ("plane_with_hole-watercolor", "plane_with_hole", "watercolor", &[]),
+        (
+            "cylinder-inside",
+            "cylinder",
+            "ink",
+            &["contour.placement=inside", "strokes.width=10", "ridge.color=#c04000"],
+        ),
+        ("torus_knot-centred", "torus_knot", "charcoal", &["contour.placement=centred"]),
         ("bracket-charcoal", "bracket", "charcoal", &["strokes.parameterization=screen"]),
         ("bracket-hidden", "bracket", "hidden-line", &["hidden.color=#c04000", "hidden.width=3"]),
         (
@@ -160,33 +167,77 @@ fn the_same_view_gives_the_same_bytes() {
 /// next to its silhouette is inked, and none inside of it.
 #[test]
 fn contours_of_a_convex_body_ring_it_from_outside() {
-    let mesh = without_creases(&own_model("cylinder"));
-    let solid = technique("ink", &["fill.color=#000000", "strokes.color=#00000000"]);
-    let lines = technique("ink", &["strokes.width=3"]);
-    for direction in [DVec3::new(1.0, 0.6, 1.2), DVec3::new(0.2, -1.0, 0.3), DVec3::X] {
-        let camera = from(&mesh, direction, 3.0);
-        let body = ink(&picture(&mesh, &camera, &solid, 256, 1));
-        let stroke = ink(&picture(&mesh, &camera, &lines, 256, 1));
-        let (mut ring, mut gaps, mut inside) = (0, 0, 0);
-        for (x, y) in (2..254).flat_map(|y| (2..254).map(move |x| (x, y))) {
-            let near = |reach: u32| {
-                (x - reach..=x + reach)
-                    .flat_map(|x| (y - reach..=y + reach).map(move |y| (x, y)))
-                    .filter(|&(x, y)| body.get_pixel(x, y).0[0] > 0)
-                    .count()
-            };
-            let is_inked = stroke.get_pixel(x, y).0[0] > 0;
-            let is_body = body.get_pixel(x, y).0[0] > 0;
+    for (body, stroke, direction) in rings("outside") {
+        let [mut ring, mut gaps, mut inside] = [0; 3];
+        for pixel in inner_pixels() {
+            let is_inked = is_marked(&stroke, pixel);
             // A neighbour along a side, not only across a corner.
-            if !is_body && near(1) >= 2 {
+            if !is_marked(&body, pixel) && marked_around(&body, pixel, 1) >= 2 {
                 ring += 1;
                 gaps += usize::from(!is_inked);
             }
-            inside += usize::from(is_inked && near(2) == 25);
+            inside += usize::from(is_inked && marked_around(&body, pixel, 2) == 25);
         }
         assert!(ring > 200, "the body is in the picture");
         assert_eq!((gaps, inside), (0, 0), "from {direction}, of {ring} pixels around");
     }
+}
+
+/// And inside, where the surface turns toward the eye and would swallow them:
+/// every pixel of the body along its silhouette is inked, and none around it.
+#[test]
+fn contours_of_a_convex_body_ring_it_from_inside() {
+    for (body, stroke, direction) in rings("inside") {
+        let [mut ring, mut gaps, mut outside] = [0; 3];
+        for pixel in inner_pixels() {
+            let is_inked = is_marked(&stroke, pixel);
+            // Two rows of pixels, the third is cut.
+            if is_marked(&body, pixel) && marked_around(&body, pixel, 2) < 24 {
+                ring += 1;
+                gaps += usize::from(!is_inked);
+            }
+            outside += usize::from(is_inked && marked_around(&body, pixel, 1) == 0);
+        }
+        assert!(ring > 400, "the body is in the picture");
+        assert_eq!(outside, 0, "from {direction}, of {ring} pixels around");
+        // Pixels whose centre is on the edge itself may be nobody's.
+        assert!(gaps * 200 < ring, "from {direction}: {gaps} gaps of {ring} pixels around");
+    }
+}
+
+/// A convex body without creases and its contours, three pixels wide, from three
+/// directions.
+fn rings(placement: &str) -> Vec<(GrayImage, GrayImage, DVec3)> {
+    let mesh = without_creases(&own_model("cylinder"));
+    let solid = technique("ink", &["fill.color=#000000", "strokes.color=#00000000"]);
+    let placement = format!("contour.placement={placement}");
+    let lines = technique("ink", &["strokes.width=3", &placement]);
+    let directions = [DVec3::new(1.0, 0.6, 1.2), DVec3::new(0.2, -1.0, 0.3), DVec3::X];
+    directions
+        .map(|direction| {
+            let camera = from(&mesh, direction, 3.0);
+            let body = ink(&picture(&mesh, &camera, &solid, 256, 1));
+            let stroke = ink(&picture(&mesh, &camera, &lines, 256, 1));
+            (body, stroke, direction)
+        })
+        .into()
+}
+
+/// Those of a picture 256 pixels wide that have neighbours two pixels around.
+fn inner_pixels() -> impl Iterator<Item = [u32; 2]> {
+    (2..254).flat_map(|y| (2..254).map(move |x| [x, y]))
+}
+
+fn is_marked(picture: &GrayImage, [x, y]: [u32; 2]) -> bool {
+    picture.get_pixel(x, y).0[0] > 0
+}
+
+/// How many pixels are marked in a square around this one, itself among them.
+fn marked_around(picture: &GrayImage, [x, y]: [u32; 2], reach: u32) -> usize {
+    (x - reach..=x + reach)
+        .flat_map(|x| (y - reach..=y + reach).map(move |y| [x, y]))
+        .filter(|&pixel| is_marked(picture, pixel))
+        .count()
 }
 
 fn without_creases(mesh: &EdgeMesh) -> EdgeMesh {

@@ -272,7 +272,7 @@ const MOST_VERTICES: usize = LineKind::QuadAndDisks.vertex_count() as usize;
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
 #[repr(C)]
 struct StrokeOutput {
-    vertices: [[f32; 6]; MOST_VERTICES],
+    vertices: [[f32; 10]; MOST_VERTICES],
 }
 
 const KINDS: [LineKind; 5] =
@@ -379,7 +379,7 @@ const STROKE_BODY: &str = "#import <common/stroke_vertex.wgsl>
         parameterization: u32,
         is_world_width: u32,
     }
-    struct Output { vertices: array<array<f32, 6>, 24> }
+    struct Output { vertices: array<array<f32, 10>, 24> }
     fn run(input: Input) -> Output {
         let edge = ClipEdge(input.c[0], input.c[1], input.c[2], input.c[3], input.n[0], input.n[1],
             input.facing, input.distance, input.r);
@@ -391,8 +391,9 @@ const STROKE_BODY: &str = "#import <common/stroke_vertex.wgsl>
         for (var i = 0u; i < counts[input.kind]; i++) {
             let vertex = stroke_vertex(edge, shape, input.bits, i);
             let position = vertex.position;
-            output.vertices[i] = array<f32, 6>(
-                position.x, position.y, position.z, vertex.u, vertex.v, vertex.opacity);
+            output.vertices[i] = array<f32, 10>(
+                position.x, position.y, position.z, vertex.u, vertex.v, vertex.opacity,
+                vertex.foot.x, vertex.foot.y, vertex.foot.z, vertex.over_px);
         }
         return output;
     }";
@@ -412,16 +413,20 @@ fn stroke_vertices_agree_and_are_always_finite() {
         for corner in 0..shape.kind.vertex_count() {
             let bits = LineBits::from_bits_truncate(input.bits);
             let want = stroke_vertex(&edge, &shape, bits, corner);
-            let [x, y, z, u, v, opacity] = output.vertices[corner as usize];
-            let got = Vec3::new(x, y, z);
-            let is_finite =
-                got.is_finite() && [u, v, opacity].iter().all(|value| value.is_finite());
+            let [x, y, z, u, v, opacity, foot @ .., over_px] = output.vertices[corner as usize];
+            let (got, foot) = (Vec3::new(x, y, z), Vec3::from(foot));
+            let is_finite = got.is_finite()
+                && foot.is_finite()
+                && [u, v, opacity, over_px].iter().all(|value| value.is_finite());
             assert!(is_finite, "case {case}: {got} {u} {v} {opacity}");
             let apart = (got - want.position).truncate() * shape.viewport_px * 0.5;
             let is_equal = apart.length() < 0.02 * (1.0 + got.truncate().length() * 1e-3)
                 && (got.z - want.position.z).abs() < 1e-3
                 && (v - want.v).abs() < 1e-3
                 && (opacity - want.opacity).abs() < 1e-3
+                && (foot - want.foot).truncate().length() < 0.02 * (1.0 + foot.length() * 1e-3)
+                && (foot.z - want.foot.z).abs() < 1e-3
+                && (over_px - want.over_px).abs() < 0.02
                 && (u - want.u).abs() < 1e-2 * (1.0 + want.u.abs() * 1e-2);
             compared += 1;
             if !is_equal {

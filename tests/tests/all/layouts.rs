@@ -11,7 +11,7 @@ use edgemesh::oracle::spine::{GUARD_BAND, MIN_LENGTH_PX};
 use edgemesh::oracle::stroke_cap::DISK_STEPS;
 use edgemesh::oracle::stroke_quad::Placement;
 use edgemesh::oracle::stroke_segment::{EDGE_ON_FACING, LIFTED_FACING, LineKind, Parameterization};
-use edgemesh::oracle::stroke_vertex::{CAP_VERTICES, DISK_VERTICES};
+use edgemesh::oracle::stroke_vertex::{CAP_VERTICES, DISK_VERTICES, FOOT_PX};
 use edgemesh::record::{EdgeFlags, EdgeRecord, EdgeVertex, EdgeVertex16};
 use strokes::detect::DetectUniform;
 use strokes::fill::FillUniform;
@@ -48,7 +48,7 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
 /// What a scene and its styles are.
 fn scene_layouts() -> BTreeMap<String, Layout> {
     BTreeMap::from([
-        layout!(FrameUniform { viewport_px, px_per_unit, padding }),
+        layout!(FrameUniform { viewport_px, px_per_unit, padding, projection }),
         layout!(ObjectUniform {
             clip_from_object,
             clip_from_normal,
@@ -177,6 +177,10 @@ fn structs_in_buffers_are_laid_out_alike_and_found_on_both_sides() {
     assert_eq!(in_wgsl, rust_layouts());
 }
 
+/// Constants of one side only: how the shader works inside.
+const OF_SHADERS: [&str; 7] =
+    ["BEHIND", "SCAN_WIDTH", "EXPAND_WIDTH", "WORDS_PER_EDGE", "START_PX", "NEARER", "FARTHER"];
+
 #[test]
 fn constants_are_equal_and_found_on_both_sides() {
     let float = |value: f32| u64::from(value.to_bits());
@@ -198,6 +202,7 @@ fn constants_are_equal_and_found_on_both_sides() {
         ("CREASE_STEPS", CREASE_STEPS.into()),
         ("CONCAVE", CONCAVE.into()),
         ("DISK_STEPS", DISK_STEPS.into()),
+        ("FOOT_PX", float(FOOT_PX)),
         ("CAP_VERTICES", CAP_VERTICES.into()),
         ("DISK_VERTICES", DISK_VERTICES.into()),
         ("CENTRED", Placement::Centred as u64),
@@ -215,13 +220,11 @@ fn constants_are_equal_and_found_on_both_sides() {
     ]);
     expected.extend(EdgeFlags::all().iter_names().map(|(name, bits)| (name, bits.bits().into())));
     expected.extend(LineBits::all().iter_names().map(|(name, bits)| (name, bits.bits().into())));
-    // Constants of one side only: how the shader works inside.
-    let own = ["BEHIND", "SCAN_WIDTH", "EXPAND_WIDTH", "WORDS_PER_EDGE"];
     let mut found = BTreeMap::new();
     for (path, module) in modules() {
         for (_, constant) in module.constants.iter() {
             let name = constant.name.clone().unwrap_or_default();
-            if own.contains(&name.as_str()) {
+            if OF_SHADERS.contains(&name.as_str()) {
                 continue;
             }
             let literal = match module.global_expressions[constant.init] {

@@ -8,7 +8,9 @@
 //! A stroke lies over the faces beside its edge, which can rise toward the eye
 //! under it. So its sides take the depth of those faces ([`rise_toward_eye`])
 //! where that is nearer than the edge's own, and are not swallowed however wide
-//! they are. Only outside of a contour there is no face.
+//! they are. Only outside of a contour there is no face; and over the surface that
+//! a contour bounds, which goes on rising behind those faces, strokes ask at the
+//! edge whether they are visible (`shaders/stroke_over_surface.wgsl`).
 //!
 //! The brush is laid on by one of the paper's two parameterizations (section 4).
 //! In object space u begins at the edge's random scalar and grows with the length
@@ -139,6 +141,9 @@ pub struct Segment {
     pub m0: Vec2,
     /// Projected normal at the end.
     pub m1: Vec2,
+    /// +1 where the outside of a contour is the side of p, -1 where it is the
+    /// other; 0 for what is no contour.
+    pub outside: f32,
     /// How far the near side lies along p, at start and end.
     pub near_px: Vec2,
     /// How far the far side does.
@@ -175,6 +180,7 @@ pub fn stroke_segment(edge: &ClipEdge, shape: &StrokeShape, bits: LineBits) -> S
     segment.m0 = screen_normal(a, edge.n0, shape.viewport_px);
     segment.m1 = screen_normal(b, edge.n1, shape.viewport_px);
     let side = outside_of(&segment, shape, bits);
+    segment.outside = if bits.contains(LineBits::CONTOUR) { side } else { 0.0 };
     let placement = placement_of(shape, bits);
     let width_px = Vec2::new(width_at(a, shape), width_at(b, shape));
     let [start_px, end_px] =

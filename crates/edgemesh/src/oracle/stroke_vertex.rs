@@ -34,6 +34,11 @@ use super::stroke_segment::{
 /// paper's section 3.2.
 pub const BEHIND: Vec3 = Vec3::new(0.0, 0.0, -1.0);
 
+/// So far outside of a contour nothing of its own surface is left, whatever sample
+/// of the pixel is asked; and one pixel more, by which the fill is pushed back, so
+/// that an edge does not escape what hides it closely.
+pub const FOOT_PX: f32 = 2.5;
+
 /// Vertices that a cap has besides those of the quad.
 pub const CAP_VERTICES: u32 = 3;
 
@@ -51,9 +56,17 @@ pub struct StrokeVertex {
     pub v: f32,
     /// What is left of the stroke after fading.
     pub opacity: f32,
+    /// Where to ask whether a contour is visible: [`FOOT_PX`] beside it, off the
+    /// surface, in pixels from the middle of the picture; with the depth of the
+    /// edge there.
+    pub foot: Vec3,
+    /// How far the vertex lies over the surface that a contour bounds, in pixels;
+    /// negative off it, 0 for what is no contour.
+    pub over_px: f32,
 }
 
-const HIDDEN: StrokeVertex = StrokeVertex { position: BEHIND, u: 0.0, v: 0.0, opacity: 0.0 };
+const HIDDEN: StrokeVertex =
+    StrokeVertex { position: BEHIND, u: 0.0, v: 0.0, opacity: 0.0, foot: Vec3::ZERO, over_px: 0.0 };
 
 impl LineKind {
     /// Vertices an edge.
@@ -184,11 +197,14 @@ fn at_end(
 ) -> StrokeVertex {
     let spine = &segment.spine;
     let (s, z) = if is_end { (spine.s1, spine.z1) } else { (spine.s0, spine.z0) };
+    let outward = spine.p * segment.outside;
     StrokeVertex {
         position: ((s + offset_px) / (shape.viewport_px * 0.5)).extend(z + rise),
         u: of_end(segment.u, is_end),
         v,
         opacity: of_end(segment.opacity, is_end),
+        foot: (s + outward * FOOT_PX).extend(z),
+        over_px: -offset_px.dot(outward),
     }
 }
 
@@ -219,6 +235,7 @@ fn fin_vertex(edge: &ClipEdge, shape: &StrokeShape, corner: u32) -> StrokeVertex
         u: of_end(stroke_u(&spine, shape, side, width_px, edge.r), is_end),
         v: if corner >= 2 { 0.0 } else { 1.0 },
         opacity: opacity_at(edge.distance.x * (1.0 - t) + edge.distance.y * t, shape),
+        ..HIDDEN
     }
 }
 
@@ -347,6 +364,21 @@ mod tests {
         assert_eq!(pixels(corner(3)), [0.0, 5.0]);
         assert_eq!(pixels(corner(2)), [40.0, 2.5]);
         assert_eq!([corner(0).opacity, corner(1).opacity], [1.0, 0.5]);
+    }
+
+    #[test]
+    fn contours_know_how_far_they_lie_over_their_surface() {
+        let shape = StrokeShape { placement: Placement::Centred, ..SHAPE };
+        // Without A_FACES the outside is the side of p: up.
+        let corners = [0, 3].map(|corner| vertex(&shape, LineBits::CONTOUR, corner));
+        assert_eq!(corners.map(|corner| corner.over_px), [2.0, -2.0]);
+        assert_eq!(corners.map(|corner| corner.foot), [Vec3::new(0.0, FOOT_PX, 0.5); 2]);
+        let facing = LineBits::CONTOUR | LineBits::A_FACES;
+        let corners = [1, 2].map(|corner| vertex(&shape, facing, corner));
+        assert_eq!(corners.map(|corner| corner.over_px), [-2.0, 2.0]);
+        assert_eq!(corners.map(|corner| corner.foot), [Vec3::new(40.0, -FOOT_PX, 0.25); 2]);
+        let crease = [0, 3].map(|corner| vertex(&shape, LineBits::empty(), corner));
+        assert_eq!(crease.map(|corner| corner.over_px), [0.0; 2]);
     }
 
     #[test]

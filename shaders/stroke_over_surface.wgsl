@@ -1,0 +1,131 @@
+// The fragments of contours that lie inside of their edge, or centred on it: over
+// the surface that they bound.
+//
+// That surface turns toward the eye faster than any one face tells, and would
+// swallow them if each fragment were tested where it is. So these ask whether the
+// edge is visible: a little outside of it, where nothing of its own surface lies.
+// Everything else they ask where they are, as the depth test would.
+//
+//   on the screen:                      from the side, the eye on the right:
+//
+//     outside    x foot                           x foot
+//     ===========o=========== edge                o edge
+//                x start                          | '.
+//     inside     x a fragment         the stroke  |   '.  the surface
+#import <common/stroke_ink.wgsl>
+
+// Whether what is hidden is drawn, and what is visible is not.
+override IS_HIDDEN: bool = false;
+
+// The fill's depth, in pictures of one sample a pixel and of four.
+@group(0) @binding(1) var fill_depth: texture_depth_2d;
+@group(0) @binding(2) var fill_depth_of_samples: texture_depth_multisampled_2d;
+
+@fragment
+fn over_surface_of_pixels(in: StrokeVarying) -> @location(0) vec4f {
+    // Before anything is discarded: it takes derivatives.
+    let color = ink(in.uv, in.opacity);
+    let at = places_of(in);
+    let depths = vec3f(
+        textureLoad(fill_depth, pixel_of(at.here), 0),
+        textureLoad(fill_depth, pixel_of(at.start), 0),
+        textureLoad(fill_depth, pixel_of(at.foot), 0),
+    );
+    if !is_drawn(in, depths) {
+        discard;
+    }
+    return color;
+}
+
+@fragment
+fn over_surface_of_samples(
+    in: StrokeVarying,
+    @builtin(sample_index) sample: u32,
+) -> @location(0) vec4f {
+    let color = ink(in.uv, in.opacity);
+    let at = places_of(in);
+    let depths = vec3f(
+        textureLoad(fill_depth_of_samples, pixel_of(at.here), i32(sample)),
+        textureLoad(fill_depth_of_samples, pixel_of(at.start), i32(sample)),
+        textureLoad(fill_depth_of_samples, pixel_of(at.foot), i32(sample)),
+    );
+    if !is_drawn(in, depths) {
+        discard;
+    }
+    return color;
+}
+
+// Where a fragment asks for the depth of the fill, in pixels from the upper left:
+// at its own place, where it would start over the surface, beside the edge.
+struct Places {
+    here: vec2f,
+    start: vec2f,
+    foot: vec2f,
+}
+
+// Far enough over the surface for every sample of the pixel to be on it.
+const START_PX: f32 = 1.0;
+
+// How much nearer than the edge its own surface may be, and how much farther, in
+// heights of the picture.
+const NEARER: f32 = 0.5;
+const FARTHER: f32 = 0.125;
+
+fn places_of(in: StrokeVarying) -> Places {
+    let here = in.position.xy;
+    let foot = foot_of(in);
+    let inward = here - foot;
+    let reach_px = max(length(inward), FOOT_PX);
+    return Places(here, foot + inward * ((FOOT_PX + START_PX) / reach_px), foot);
+}
+
+fn foot_of(in: StrokeVarying) -> vec2f {
+    return vec2f(in.foot.x, -in.foot.y) + frame.viewport_px * 0.5;
+}
+
+fn is_in_picture(position_px: vec2f) -> bool {
+    return all(position_px >= vec2f(0.0)) && all(position_px < frame.viewport_px);
+}
+
+fn pixel_of(position_px: vec2f) -> vec2i {
+    return clamp(vec2i(floor(position_px)), vec2i(0), vec2i(frame.viewport_px) - 1);
+}
+
+// `depths` are those of the fill at the three places; reversed: 1 near, 0 far and
+// where nothing was filled.
+fn is_drawn(in: StrokeVarying, depths: vec3f) -> bool {
+    if in.over_px <= 0.0 {
+        return (in.position.z < depths.x) == IS_HIDDEN;
+    }
+    let edge = in.foot.z;
+    // Beyond the picture nothing is known to hide it.
+    let is_hidden = edge < depths.z && is_in_picture(foot_of(in));
+    if is_hidden != IS_HIDDEN {
+        return false;
+    }
+    if IS_HIDDEN {
+        return edge < depths.x;
+    }
+    return is_own_surface(edge, depths.x) && is_own_surface(edge, depths.y);
+}
+
+// Whether what was filled there can be the surface that the edge bounds, by how
+// far before or behind the edge it lies. Where edges are small, a stroke reaches
+// past that surface, over what is elsewhere; and something else can lie before it.
+fn is_own_surface(edge: f32, filled: f32) -> bool {
+    if filled <= 0.0 {
+        return false;
+    }
+    let edge_distance = distance_of(edge);
+    let px_per_unit = frame.px_per_unit / dot(frame.projection.zw, vec2f(edge_distance, 1.0));
+    let nearer_px = (edge_distance - distance_of(filled)) * px_per_unit;
+    // A wall seen nearly edge on comes nearer by its whole length; and the fill is
+    // pushed back by a pixel of slope.
+    return nearer_px <= NEARER * frame.viewport_px.y && nearer_px >= -FARTHER * frame.viewport_px.y;
+}
+
+// The distance from the eye along the line of sight.
+fn distance_of(depth: f32) -> f32 {
+    let clip = frame.projection;
+    return (clip.y - depth * clip.w) / (depth * clip.z - clip.x);
+}
