@@ -16,6 +16,7 @@ const SMOOTHING: u32 = 512u;
 const CREASE_SHIFT: u32 = 10u;
 const CREASE_STEPS: u32 = 0x1fffu;
 const CONCAVE: u32 = 0x800000u;
+const SURELY_CONCAVE_STEPS: u32 = 45u;
 
 // Line bits: what a view says of an edge. The live list carries the first three
 // above the edge's index.
@@ -79,8 +80,13 @@ fn classify_edge(word: u32, faces: EdgeFaces, table: ClassTable, eye_is_outside:
     // Contour where exactly one of the two faces looks at the eye.
     let is_contour = is_manifold && faces.a_faces != b_faces;
     let classes = (static_classes(word, table) | u32(is_contour)) & table.drawn;
-    // The solid itself hides what turns away from an eye outside of it.
-    let is_behind = eye_is_outside && (word & SOLID) != 0u && !faces.a_faces && !b_faces;
+    // The solid itself hides what turns away from an eye outside of it, and the
+    // contours in its grooves.
+    let steps = (word >> CREASE_SHIFT) & CREASE_STEPS;
+    let is_concave = (word & CONCAVE) != 0u && steps >= SURELY_CONCAVE_STEPS;
+    let is_turned_away = !faces.a_faces && !b_faces;
+    let is_behind = eye_is_outside && (word & SOLID) != 0u
+        && (is_turned_away || (is_contour && is_concave));
     let is_drawn = classes != 0u && (!is_behind || table.keeps_hidden != 0u);
     let bits = select(0u, CONTOUR, is_contour)
         | select(0u, A_FACES, faces.a_faces)

@@ -27,6 +27,13 @@ fn stroke_cap(s: vec2f, p: vec2f, m: vec2f, outside: f32, reach_px: f32, j: u32)
     return s + m * (stroke_sign(dot(m, p)) * outside * reach_px);
 }
 
+// Whether the cap fills a gap: whether m, turned to the side `outside`, leans out
+// beyond the end of the quad; `forward` is +1 at the finish, -1 at the start.
+fn cap_fills_gap(p: vec2f, m: vec2f, outside: f32, forward: f32) -> bool {
+    let beyond = vec2f(p.y, -p.x) * forward;
+    return dot(m, beyond) * stroke_sign(dot(m, p)) * outside > 0.0;
+}
+
 // Where step k of the half disk lies, from the end of the spine: from the left
 // rim (p) around the end to the right one. `left_px` and `right_px` are how far
 // the quad reaches to each side; a half quad has a quarter disk.

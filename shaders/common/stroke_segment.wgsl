@@ -176,19 +176,21 @@ fn stroke_u(spine: Spine, shape: StrokeShape, side: f32, width_px: f32, r: f32) 
 // well (Figure 9).
 fn stretched_u(segment: Segment) -> vec2f {
     let spine = segment.spine;
-    let a = cap_length(spine.p, segment.m0, segment.far_px.x, spine.t0 > 0.0);
+    let a = select(cap_length(spine.p, segment.m0, segment.far_px.x, -1.0), 0.0, spine.t0 > 0.0);
     let b = length(spine.s1 - spine.s0);
-    let c = cap_length(spine.p, segment.m1, segment.far_px.y, spine.t1 < 1.0);
+    let c = select(cap_length(spine.p, segment.m1, segment.far_px.y, 1.0), 0.0, spine.t1 < 1.0);
     let run = segment.u.y - segment.u.x;
     return segment.u.x + run * vec2f(a, a + b) / (a + b + c);
 }
 
-// From the rim of the quad to the tip of its cap.
-fn cap_length(p: vec2f, m: vec2f, far_px: f32, is_cut: bool) -> f32 {
+// From the rim of the quad to the tip of its cap, where it has one.
+fn cap_length(p: vec2f, m: vec2f, far_px: f32, forward: f32) -> f32 {
     let side = stroke_sign(far_px);
-    let zero = vec2f(0.0);
-    let tip = stroke_cap(zero, p, m, side, abs(far_px), 2u);
-    return select(length(tip - p * far_px), 0.0, is_cut);
+    if !cap_fills_gap(p, m, side, forward) {
+        return 0.0;
+    }
+    let tip = stroke_cap(vec2f(0.0), p, m, side, abs(far_px), 2u);
+    return length(tip - p * far_px);
 }
 
 // How much nearer than the edge the side of a stroke must lie that is this far

@@ -74,11 +74,12 @@ fn segment_vertex(segment: Segment, shape: StrokeShape, corner: u32) -> StrokeVe
 
 fn cap_vertex(segment: Segment, shape: StrokeShape, is_end: bool, i: u32) -> StrokeVertex {
     let side = of_end(segment.cap_side, is_end);
+    let m = select(segment.m0, segment.m1, is_end);
     let j = cap_corner(side, i);
-    if j == 0u {
+    // A cap that is left out has no area.
+    if j == 0u || !cap_fills_gap(segment.spine.p, m, side, select(-1.0, 1.0, is_end)) {
         return at_end(segment, shape, is_end, vec2f(0.0), 0.0, segment.v_spine);
     }
-    let m = select(segment.m0, segment.m1, is_end);
     let far_px = of_end(segment.far_px, is_end);
     let offset = stroke_cap(vec2f(0.0), segment.spine.p, m, side, abs(far_px), j);
     let is_far = stroke_sign(far_px) == side;

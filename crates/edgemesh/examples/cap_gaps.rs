@@ -109,7 +109,11 @@ impl Stroke {
             let side =
                 |from: Vec2, to: Vec2| (to - from).normalize_or_zero().perp_dot(point - from);
             let sides = [side(a, b), side(b, c), side(c, a)];
-            sides.iter().all(|side| *side >= -0.01) || sides.iter().all(|side| *side <= 0.01)
+            // A cap that is left out is three times the same corner.
+            let has_area = (b - a).perp_dot(c - a) != 0.0;
+            let is_within =
+                sides.iter().all(|side| *side >= -0.01) || sides.iter().all(|side| *side <= 0.01);
+            has_area && is_within
         })
     }
 

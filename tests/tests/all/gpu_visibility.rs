@@ -144,3 +144,36 @@ fn is_alone(samples: &[Sample], sample: &Sample) -> bool {
         .filter(|other| other.depth_radii <= SURELY_HIDDEN)
         .all(|other| (other.ink_px - sample.ink_px).length() > 12.0)
 }
+
+/// What is left out as hidden by its own solid is hidden: a little beside a contour
+/// in a groove, on its back face, something lies nearer to the eye.
+#[test]
+fn contours_in_grooves_are_hidden() {
+    for name in ["bracket", "torus_knot", "wave_blob"] {
+        let mesh = own_model(name);
+        let center = |face: u32| {
+            let corners = mesh.triangles[face as usize].map(|v| mesh.positions[v as usize]);
+            corners.iter().map(|corner| Vec3::from(*corner).as_dvec3()).sum::<DVec3>() / 3.0
+        };
+        let mut grooves = 0;
+        for direction in [DVec3::new(1.0, 0.6, 1.2), DVec3::new(-1.0, 0.3, 0.6), DVec3::NEG_Y] {
+            let target = mesh.bounds.center();
+            let eye = target + direction.normalize_or_zero() * mesh.bounds.radius() * 3.0;
+            let view = Camera { eye, ..Camera::default_view(&mesh.bounds) }.view(&mesh.bounds, 1.0);
+            for (record, bits) in mesh.records.iter().zip(classify_edges(&mesh, view.eye)) {
+                if !bits.contains(LineBits::CONTOUR | LineBits::BEHIND_SOLID) {
+                    continue;
+                }
+                grooves += 1;
+                let ends = [record.v0, record.v1].map(|v| Vec3::from(mesh.positions[v as usize]));
+                let middle = ends[0].midpoint(ends[1]).as_dvec3();
+                let a_faces = bits.contains(LineBits::A_FACES);
+                let back = center(if a_faces { record.face_b } else { record.face_a });
+                let beside = middle.lerp(back, 0.05);
+                let cover = depth_under(&mesh, eye, beside);
+                assert!(cover > 0.0, "{name} from {direction}: {record:?} is seen");
+            }
+        }
+        assert!(grooves > 0 || name == "bracket", "{name} has grooves");
+    }
+}

@@ -5,7 +5,7 @@ use std::mem::offset_of;
 
 use edgemesh::edge_mesh::FacePlane;
 use edgemesh::edge_word::{CONCAVE, CREASE_SHIFT, CREASE_STEPS};
-use edgemesh::oracle::feature::{ClassTable, EdgeClass, LineBits, NO_LAYER};
+use edgemesh::oracle::feature::{ClassTable, EdgeClass, LineBits, NO_LAYER, SURELY_CONCAVE_STEPS};
 use edgemesh::oracle::normal_cone::{CONE_MARGIN, ConeFacing, NormalCone};
 use edgemesh::oracle::spine::{GUARD_BAND, MIN_LENGTH_PX};
 use edgemesh::oracle::stroke_cap::DISK_STEPS;
@@ -201,6 +201,7 @@ fn constants_are_equal_and_found_on_both_sides() {
         ("CREASE_SHIFT", CREASE_SHIFT.into()),
         ("CREASE_STEPS", CREASE_STEPS.into()),
         ("CONCAVE", CONCAVE.into()),
+        ("SURELY_CONCAVE_STEPS", SURELY_CONCAVE_STEPS.into()),
         ("DISK_STEPS", DISK_STEPS.into()),
         ("FOOT_PX", float(FOOT_PX)),
         ("CAP_VERTICES", CAP_VERTICES.into()),

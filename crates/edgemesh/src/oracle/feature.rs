@@ -11,7 +11,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
 
-use crate::edge_word::EdgeWord;
+use crate::edge_word::{EdgeWord, STEPS_PER_DEGREE};
 use crate::record::{EdgeFlags, EdgeVertex};
 
 bitflags::bitflags! {
@@ -81,6 +81,10 @@ impl EdgeClass {
 
 /// The layer of a class that is not drawn. WGSL twin: the constant of this name.
 pub const NO_LAYER: u32 = 15;
+
+/// From this many steps on, one degree, an edge is concave whatever rounding, that
+/// of the 16-bit layout included, makes of its faces.
+pub const SURELY_CONCAVE_STEPS: u32 = STEPS_PER_DEGREE;
 
 /// Which classes are drawn, in which layer, and from which angle on an edge is a
 /// crease. WGSL twin: `shaders/common/feature.wgsl`.
@@ -165,9 +169,11 @@ pub fn static_classes(word: EdgeWord, table: &ClassTable) -> u32 {
 /// Pairs of a non-manifold edge are drawn in every view and are no contours.
 ///
 /// An edge of a solid with both faces turned away from an eye outside of it is
-/// hidden by the solid itself, and is not drawn unless the table keeps it. Left to
-/// the depth test it would show at its ends, where its width reaches past the
-/// faces in front.
+/// hidden by the solid itself, and is not drawn unless the table keeps it. So is a
+/// concave contour: a line of sight beside it would meet the back face first, and
+/// be inside of the solid already. Left to the depth test such edges would show at
+/// their ends, where their width reaches past the faces in front; and on rough
+/// meshes every other contour is one.
 #[must_use]
 pub fn classify_edge(
     word: EdgeWord,
@@ -181,8 +187,10 @@ pub fn classify_edge(
     // Contour where exactly one of the two faces looks at the eye.
     let is_contour = is_manifold && faces.a_faces != b_faces;
     let classes = (static_classes(word, table) | u32::from(is_contour)) & table.drawn;
-    let is_behind_solid =
-        eye_is_outside && flags.contains(EdgeFlags::SOLID) && !faces.a_faces && !b_faces;
+    let is_turned_away = !faces.a_faces && !b_faces;
+    let is_behind_solid = eye_is_outside
+        && flags.contains(EdgeFlags::SOLID)
+        && (is_turned_away || is_contour && is_surely_concave(word));
     let is_drawn = classes != 0 && (!is_behind_solid || table.keeps_hidden != 0);
     let mut bits = LineBits::empty();
     bits.set(LineBits::CONTOUR, is_contour);
@@ -192,6 +200,10 @@ pub fn classify_edge(
     let class = classes.trailing_zeros();
     let layer = if is_drawn { table.layers >> (4 * class) & NO_LAYER } else { NO_LAYER };
     Line { bits, layer }
+}
+
+fn is_surely_concave(word: EdgeWord) -> bool {
+    word.is_concave() && word.crease_steps() >= SURELY_CONCAVE_STEPS
 }
 
 /// Equation 1 as the paper evaluates it, from one edge vertex alone.
@@ -281,6 +293,18 @@ mod tests {
         for (a, b) in [(true, true), (true, false), (false, true)] {
             assert!(is_drawn(ridge, a, b, true));
         }
+        // A contour in a groove is behind what rises before it.
+        let contour = |degrees: f64, is_concave, outside| {
+            let word = EdgeWord::new(EdgeFlags::SOLID, degrees.to_radians(), is_concave);
+            let faces = EdgeFaces { has_b: true, a_faces: true, b_faces: false };
+            let bits = classify_edge(word, faces, &ClassTable::all_in_one(), outside).bits;
+            assert!(bits.contains(LineBits::CONTOUR));
+            bits.contains(LineBits::DRAWN)
+        };
+        assert!(!contour(1.0, true, true));
+        assert!(contour(0.9, true, true), "within rounding");
+        assert!(contour(20.0, false, true), "on a ridge");
+        assert!(contour(20.0, true, false), "from inside");
         let keeping = ClassTable { keeps_hidden: 1, ..ClassTable::all_in_one() };
         let faces = EdgeFaces { has_b: true, a_faces: false, b_faces: false };
         let kept = classify_edge(ridge.into(), faces, &keeping, true).bits;

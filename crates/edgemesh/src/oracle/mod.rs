@@ -28,7 +28,7 @@ pub mod stroke_vertex;
 use glam::Vec4;
 
 use crate::edge_mesh::EdgeMesh;
-use crate::edge_word::EdgeWord;
+use crate::edge_word::{EdgeWord, edge_words};
 use crate::index::NONE;
 use crate::record::{EdgeFlags, EdgeRecord};
 use facing::faces_eye;
@@ -65,7 +65,7 @@ pub fn facing_bits(mesh: &EdgeMesh, eye: Vec4) -> Vec<bool> {
 /// What a view makes of every record, in order; all classes in one layer.
 #[must_use]
 pub fn classify_edges(mesh: &EdgeMesh, eye: Vec4) -> Vec<LineBits> {
-    let words: Vec<EdgeWord> = mesh.records.iter().map(|record| record.flags.into()).collect();
+    let words = edge_words(mesh);
     let outside = eye_is_outside(eye, mesh.bounds.min.into(), mesh.bounds.max.into());
     let lines = classify_lines(mesh, &words, eye, &ClassTable::all_in_one(), outside);
     lines.into_iter().map(|line| line.bits).collect()

@@ -16,6 +16,10 @@
 //! of m0; where those differ the cap would lie across its own quad. A cap
 //! follows its quad here: `outside` is given, and m is turned to that side.
 //!
+//! A gap is only on the convex side of a bend; where m leans back over the quad,
+//! two quads overlap. The paper's winding by j makes such a cap a back face, and it
+//! is left out: it would only lay its ink on that of its own quad.
+//!
 //! WGSL twin: `shaders/common/stroke_cap.wgsl`.
 
 use std::cmp::Ordering;
@@ -43,6 +47,14 @@ pub fn stroke_cap(s: Vec2, p: Vec2, m: Vec2, outside: f32, reach_px: f32, j: u32
         1 => s + p * (outside * reach_px),
         _ => s + m * (sign(m.dot(p)) * outside * reach_px),
     }
+}
+
+/// Whether a cap fills a gap: whether `m`, turned to the side `outside`, leans out
+/// beyond the end of the quad. `forward` is +1 at the finish and -1 at the start.
+#[must_use]
+pub fn cap_fills_gap(p: Vec2, m: Vec2, outside: f32, forward: f32) -> bool {
+    let beyond = Vec2::new(p.y, -p.x) * forward;
+    m.dot(beyond) * sign(m.dot(p)) * outside > 0.0
 }
 
 /// Triangles of a half disk. WGSL twin: the constant of this name.
@@ -99,6 +111,23 @@ mod tests {
             let [a, b, c] = [0, 1, 2].map(corner);
             assert!((b - a).perp_dot(c - a) > 0.0, "outside {outside}");
         }
+    }
+
+    #[test]
+    fn caps_fill_gaps_and_do_not_lie_over_their_quads() {
+        // p points up, so the spine runs to the right.
+        for (m, at_start) in [
+            (Vec2::new(-0.6, 0.8), true),
+            (Vec2::new(0.6, 0.8), false),
+            // Turned to the outside, the normals point the other way.
+            (Vec2::new(0.6, -0.8), true),
+            (Vec2::new(-0.6, -0.8), false),
+        ] {
+            assert_eq!(cap_fills_gap(P, m, 1.0, -1.0), at_start, "start, {m}");
+            assert_eq!(cap_fills_gap(P, m, 1.0, 1.0), !at_start, "finish, {m}");
+            assert_eq!(cap_fills_gap(P, m, -1.0, -1.0), !at_start, "start below, {m}");
+        }
+        assert!(!cap_fills_gap(P, P, 1.0, 1.0), "no bend, no gap");
     }
 
     #[test]

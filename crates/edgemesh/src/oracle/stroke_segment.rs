@@ -35,7 +35,7 @@ use glam::{Vec2, Vec4};
 
 use super::feature::LineBits;
 use super::spine::{MIN_LENGTH_PX, Spine, lerp, project_spine, screen_normal, to_pixels};
-use super::stroke_cap::stroke_cap;
+use super::stroke_cap::{cap_fills_gap, stroke_cap};
 use super::stroke_quad::{Placement, quad_offsets, sign};
 
 /// A narrow face that looks at the eye by no more than this cosine, 87 degrees
@@ -278,19 +278,23 @@ pub(super) fn stroke_u(
 /// well (Figure 9).
 fn stretched_u(segment: &Segment) -> Vec2 {
     let spine = &segment.spine;
-    let a = cap_length(spine.p, segment.m0, segment.far_px.x, spine.t0 > 0.0);
+    let cap = |m, far_px, is_cut, forward| {
+        if is_cut { 0.0 } else { cap_length(spine.p, m, far_px, forward) }
+    };
+    let a = cap(segment.m0, segment.far_px.x, spine.t0 > 0.0, -1.0);
     let b = (spine.s1 - spine.s0).length();
-    let c = cap_length(spine.p, segment.m1, segment.far_px.y, spine.t1 < 1.0);
+    let c = cap(segment.m1, segment.far_px.y, spine.t1 < 1.0, 1.0);
     let run = segment.u.y - segment.u.x;
     segment.u.x + run * Vec2::new(a, a + b) / (a + b + c)
 }
 
-/// From the rim of the quad to the tip of its cap; a cut end has none.
-fn cap_length(p: Vec2, m: Vec2, far_px: f32, is_cut: bool) -> f32 {
-    if is_cut {
+/// From the rim of the quad to the tip of its cap, where it has one.
+fn cap_length(p: Vec2, m: Vec2, far_px: f32, forward: f32) -> f32 {
+    let side = sign(far_px);
+    if !cap_fills_gap(p, m, side, forward) {
         return 0.0;
     }
-    let tip = stroke_cap(Vec2::ZERO, p, m, sign(far_px), far_px.abs(), 2);
+    let tip = stroke_cap(Vec2::ZERO, p, m, side, far_px.abs(), 2);
     (tip - p * far_px).length()
 }
 

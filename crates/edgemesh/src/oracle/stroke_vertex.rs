@@ -24,7 +24,7 @@ use glam::{Vec2, Vec3, Vec4};
 
 use super::feature::LineBits;
 use super::spine::{MIN_LENGTH_PX, lerp, project_spine, screen_normal};
-use super::stroke_cap::{DISK_STEPS, cap_corner, half_disk, stroke_cap};
+use super::stroke_cap::{DISK_STEPS, cap_corner, cap_fills_gap, half_disk, stroke_cap};
 use super::stroke_quad::sign;
 use super::stroke_segment::{
     ClipEdge, LineKind, Segment, StrokeShape, opacity_at, stroke_segment, stroke_u, width_at,
@@ -153,11 +153,13 @@ pub fn segment_vertex(segment: &Segment, shape: &StrokeShape, corner: u32) -> St
 
 fn cap_vertex(segment: &Segment, shape: &StrokeShape, is_end: bool, i: u32) -> StrokeVertex {
     let side = of_end(segment.cap_side, is_end);
+    let (m, forward) = if is_end { (segment.m1, 1.0) } else { (segment.m0, -1.0) };
     let j = cap_corner(side, i);
-    if j == 0 {
+    // A cap that is left out has no area. Sent behind the near plane, it would cost
+    // rasterizers their fast path for all that is drawn with it.
+    if j == 0 || !cap_fills_gap(segment.spine.p, m, side, forward) {
         return at_end(segment, shape, is_end, Vec2::ZERO, 0.0, segment.v_spine);
     }
-    let m = if is_end { segment.m1 } else { segment.m0 };
     let far_px = of_end(segment.far_px, is_end);
     let offset = stroke_cap(Vec2::ZERO, segment.spine.p, m, side, far_px.abs(), j);
     let is_far = (far_px < 0.0) == (side < 0.0);
@@ -439,6 +441,8 @@ mod tests {
     fn clipped_ends_have_no_caps_and_hidden_edges_no_vertices() {
         let mut through = edge();
         through.c0 = Vec4::new(0.0, 0.0, 0.5, -1.0);
+        // At both ends the normal leans out, so that there are caps to be left out.
+        (through.n0, through.n1) = (Vec4::new(0.5, 1.0, 0.0, 0.0), Vec4::new(-0.5, 1.0, 0.0, 0.0));
         for kind in [LineKind::QuadAndCaps, LineKind::QuadAndDisks] {
             let shape = StrokeShape { kind, ..SHAPE };
             let per_end = (kind.vertex_count() - 4) / 2;
