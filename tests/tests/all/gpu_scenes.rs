@@ -218,51 +218,54 @@ fn an_object_of_no_size_is_not_drawn() {
 }
 
 /// Lines fight the surface at no distance: from 1 radius to 100, what is visible
-/// of a model's strokes is the same share of them.
+/// of a model's strokes is the same share of them, wherever on their edge they lie.
 #[test]
 fn lines_stay_whole_in_a_slow_zoom() {
-    for name in ["cube", "bracket", "cylinder"] {
+    for (name, placement) in [
+        ("cube", "auto"),
+        ("bracket", "auto"),
+        ("cylinder", "auto"),
+        ("bracket", "inside"),
+        ("cylinder", "centred"),
+    ] {
         let mesh = own_model(name);
-        let default = Camera::default_view(&mesh.bounds);
-        let direction = (default.eye - default.target).normalize_or_zero();
-        let share = |radii: f64, is_orthographic: bool| {
-            let mut camera = default;
-            // The picture keeps its size while the eye goes away.
-            camera.eye = camera.target + direction * mesh.bounds.radius() * radii;
-            camera.fov_y_rad = 2.0 * (0.8 / (radii - 0.2).max(0.9)).atan().min(1.2);
-            camera.is_orthographic = is_orthographic;
-            let draw = |settings: &[&str]| {
-                let look = technique("ink", settings);
-                let picture = picture(&mesh, &camera, &look, 256, 1);
-                count(&picture, |pixel| pixel[0] < 128)
-            };
-            let hidden = draw(&[
-                "strokes.show=false",
-                "hidden.show=true",
-                "hidden.color=#000000",
-                "hidden.width=2",
-            ]);
-            (draw(&[]), hidden)
-        };
-        let mut last: Option<(usize, usize)> = None;
+        let mut last: Option<[usize; 2]> = None;
         for step in 0..=40 {
             let radii = 1.3 * (100.0_f64 / 1.3).powf(f64::from(step) / 40.0);
-            let (visible, hidden) = share(radii, false);
-            if let Some((last_visible, last_hidden)) = last {
-                let jump = visible.abs_diff(last_visible).max(hidden.abs_diff(last_hidden));
+            let [visible, hidden] = zoomed(&mesh, placement, radii, false);
+            if let Some(last) = last {
+                let jump = visible.abs_diff(last[0]).max(hidden.abs_diff(last[1]));
                 assert!(
                     jump * 4 < visible + hidden,
-                    "{name} at {radii:.1} radii: {visible} and {hidden} pixels, \
-                     {last_visible} and {last_hidden} before"
+                    "{name} {placement} at {radii:.1} radii: {visible} and {hidden} pixels, \
+                     {last:?} before"
                 );
             }
-            assert!(visible > 200, "{name} at {radii:.1} radii: {visible} pixels");
-            last = Some((visible, hidden));
+            assert!(visible > 200, "{name} {placement} at {radii:.1} radii: {visible} pixels");
+            last = Some([visible, hidden]);
         }
         // Far away perspective is no different from none.
-        let (far, flat) = (share(100.0, false).0, share(100.0, true).0);
-        assert!(far.abs_diff(flat) * 20 < flat, "{name}: {far} and {flat}");
+        let [far, flat] = [false, true].map(|is_flat| zoomed(&mesh, placement, 100.0, is_flat)[0]);
+        assert!(far.abs_diff(flat) * 20 < flat, "{name} {placement}: {far} and {flat}");
     }
+}
+
+/// Pixels of visible and of hidden strokes, in a picture that keeps the model's
+/// size while the eye goes `radii` away.
+fn zoomed(mesh: &EdgeMesh, placement: &str, radii: f64, is_orthographic: bool) -> [usize; 2] {
+    let mut camera = Camera::default_view(&mesh.bounds);
+    let direction = (camera.eye - camera.target).normalize_or_zero();
+    camera.eye = camera.target + direction * mesh.bounds.radius() * radii;
+    camera.fov_y_rad = 2.0 * (0.8 / (radii - 0.2).max(0.9)).atan().min(1.2);
+    camera.is_orthographic = is_orthographic;
+    let hidden = ["strokes.show=false", "hidden.show=true", "hidden.color=#000000"];
+    [&[][..], &hidden].map(|settings| {
+        let [visible, hidden] =
+            ["strokes", "hidden"].map(|pass| format!("{pass}.placement={placement}"));
+        let placed = [&visible, &hidden, "hidden.width=2"];
+        let look = technique("ink", &[settings, &placed].concat());
+        count(&picture(mesh, &camera, &look, 256, 1), |pixel| pixel[0] < 128)
+    })
 }
 
 /// Eyes inside, on an edge, at a vertex; edges through the eye plane, along the
