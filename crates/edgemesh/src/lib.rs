@@ -39,6 +39,7 @@ pub mod command;
 pub mod edge_mesh;
 pub mod edge_word;
 pub mod export;
+pub mod face_edges;
 pub mod file;
 pub mod index;
 pub mod model;

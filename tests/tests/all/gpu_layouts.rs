@@ -19,8 +19,9 @@ use viewer::technique::Technique;
 
 use crate::gpu_device::{gpu, gpu_with_limits};
 use crate::gpu_render::{own_model, scene_of, technique};
-use crate::gpu_twin::{detect, own_models};
+use crate::gpu_twin::detect;
 use crate::noop::layouts_and_paths;
+use crate::own_models::own_models;
 
 fn picture_on(
     gpu: &Gpu,

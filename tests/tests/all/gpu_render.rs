@@ -15,7 +15,7 @@ use viewer::render::{PictureOptions, PictureRenderer, Scene};
 use viewer::technique::Technique;
 
 use crate::gpu_device::{gpu, is_pinned_driver};
-use crate::gpu_twin::own_models;
+use crate::own_models::own_models;
 
 pub(crate) fn technique(name: &str, settings: &[&str]) -> Technique {
     let mut technique = Technique::by_name(name).unwrap();

@@ -18,7 +18,6 @@ use edgemesh::oracle::stroke_quad::Placement;
 use edgemesh::oracle::stroke_segment::{ClipEdge, LineKind, Parameterization, StrokeShape};
 use edgemesh::oracle::stroke_vertex::stroke_vertex;
 use edgemesh::oracle::{classify_lines, count_features, facing_bits};
-use edgemesh::read::read_model;
 use edgemesh::record::{EdgeFlags, edge_random};
 use edgemesh::report::Report;
 use glam::{DVec3, Vec2, Vec3, Vec4};
@@ -26,12 +25,12 @@ use strokes::mesh_buffers::{Layout, MeshBuffers};
 use strokes::renderer::{DetectionPath, Renderer, RendererOptions};
 use strokes::targets::{TargetFormats, Targets};
 use strokes::view_buffers::Tally;
-use testkit::locate::workspace_root;
 use testkit::wgsl_fn::run_wgsl;
 use viewer::technique::Technique;
 
 use crate::gpu_device::gpu;
 use crate::gpu_render::technique;
+use crate::own_models::own_models;
 
 /// Numbers from a fixed seed (Marsaglia's xorshift), the same on every machine.
 struct Random(u64);
@@ -453,25 +452,6 @@ fn is_side_unclear(edge: &ClipEdge, spine: &Spine, shape: &StrokeShape) -> bool 
         m.dot(spine.p).abs() < 1e-4
     });
     is_along || is_diagonal && shape.parameterization == Parameterization::ScreenSpace
-}
-
-/// The project's own models.
-pub(crate) fn own_models() -> Vec<(String, EdgeMesh)> {
-    let mut paths: Vec<_> = std::fs::read_dir(workspace_root().join("models"))
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|end| end == "obj"))
-        .collect();
-    paths.sort();
-    assert!(paths.len() >= 4, "the project's own models are there");
-    paths
-        .into_iter()
-        .map(|path| {
-            let (model, mut report) = read_model(&path).unwrap();
-            let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut report);
-            (path.file_stem().unwrap().to_string_lossy().into_owned(), mesh)
-        })
-        .collect()
 }
 
 /// Cameras around a mesh, one of them inside it.

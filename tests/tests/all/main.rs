@@ -4,6 +4,7 @@
 
 mod child;
 mod commands;
+mod contour_chains;
 mod corpus;
 mod dependencies;
 mod expectations;
@@ -23,6 +24,7 @@ mod hostile;
 mod layouts;
 mod models;
 mod noop;
+mod own_models;
 mod preprocess_commands;
 mod render_command;
 mod shaders;

@@ -16,6 +16,7 @@
 //! counts of [`count_features`] are what `edgemesh info` prints and what the
 //! GPU's own counts must equal.
 
+pub mod contour_chain;
 pub mod facing;
 pub mod feature;
 pub mod normal_cone;
