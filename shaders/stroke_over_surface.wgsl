@@ -14,24 +14,24 @@
 //     inside     x a fragment         the stroke  |   '.  the surface
 #import <common/stroke_ink.wgsl>
 
+// Rust twin: NO_OBJECT in crates/strokes/src/silhouette.rs.
+const NO_OBJECT: u32 = 255u;
+
 // Whether what is hidden is drawn, and what is visible is not.
 override IS_HIDDEN: bool = false;
 
-// The fill's depth, in pictures of one sample a pixel and of four.
+// The fill's depth and its objects, in pictures of one sample a pixel and of four.
 @group(0) @binding(1) var fill_depth: texture_depth_2d;
 @group(0) @binding(2) var fill_depth_of_samples: texture_depth_multisampled_2d;
+@group(0) @binding(3) var fill_object: texture_2d<u32>;
+@group(0) @binding(4) var fill_object_of_samples: texture_multisampled_2d<u32>;
 
 @fragment
 fn over_surface_of_pixels(in: StrokeVarying) -> @location(0) vec4f {
-    // Before anything is discarded: it takes derivatives.
+    // Before anything is discarded: these take derivatives.
     let color = ink(in.uv, in.opacity);
     let at = places_of(in);
-    let depths = vec3f(
-        textureLoad(fill_depth, pixel_of(at.here), 0),
-        textureLoad(fill_depth, pixel_of(at.start), 0),
-        textureLoad(fill_depth, pixel_of(at.foot), 0),
-    );
-    if !is_drawn(in, depths) {
+    if !is_drawn(in, depths_of_pixels(at)) {
         discard;
     }
     return color;
@@ -44,23 +44,67 @@ fn over_surface_of_samples(
 ) -> @location(0) vec4f {
     let color = ink(in.uv, in.opacity);
     let at = places_of(in);
-    let depths = vec3f(
-        textureLoad(fill_depth_of_samples, pixel_of(at.here), i32(sample)),
-        textureLoad(fill_depth_of_samples, pixel_of(at.start), i32(sample)),
-        textureLoad(fill_depth_of_samples, pixel_of(at.foot), i32(sample)),
-    );
-    if !is_drawn(in, depths) {
+    if !is_drawn(in, depths_of_samples(at, sample)) {
         discard;
     }
     return color;
 }
 
-// Where a fragment asks for the depth of the fill, in pixels from the upper left:
-// at its own place, where it would start over the surface, beside the edge.
+@fragment
+fn silhouette_of_pixels(in: StrokeVarying) -> @location(0) vec4f {
+    let color = ink(in.uv, in.opacity);
+    let at = places_of(in);
+    let objects = vec3u(
+        textureLoad(fill_object, at.here, 0).x,
+        textureLoad(fill_object, at.start, 0).x,
+        textureLoad(fill_object, at.foot, 0).x,
+    );
+    if !is_around(in, objects) || !is_drawn(in, depths_of_pixels(at)) {
+        discard;
+    }
+    return color;
+}
+
+@fragment
+fn silhouette_of_samples(
+    in: StrokeVarying,
+    @builtin(sample_index) sample: u32,
+) -> @location(0) vec4f {
+    let color = ink(in.uv, in.opacity);
+    let at = places_of(in);
+    let objects = vec3u(
+        textureLoad(fill_object_of_samples, at.here, i32(sample)).x,
+        textureLoad(fill_object_of_samples, at.start, i32(sample)).x,
+        textureLoad(fill_object_of_samples, at.foot, i32(sample)).x,
+    );
+    if !is_around(in, objects) || !is_drawn(in, depths_of_samples(at, sample)) {
+        discard;
+    }
+    return color;
+}
+
+fn depths_of_pixels(at: Places) -> vec3f {
+    return vec3f(
+        textureLoad(fill_depth, at.here, 0),
+        textureLoad(fill_depth, at.start, 0),
+        textureLoad(fill_depth, at.foot, 0),
+    );
+}
+
+fn depths_of_samples(at: Places, sample: u32) -> vec3f {
+    return vec3f(
+        textureLoad(fill_depth_of_samples, at.here, i32(sample)),
+        textureLoad(fill_depth_of_samples, at.start, i32(sample)),
+        textureLoad(fill_depth_of_samples, at.foot, i32(sample)),
+    );
+}
+
+// The pixels where a fragment asks what was filled: its own, the one where its
+// stroke starts over the surface, the one beside the edge.
 struct Places {
-    here: vec2f,
-    start: vec2f,
-    foot: vec2f,
+    here: vec2i,
+    start: vec2i,
+    foot: vec2i,
 }
 
 // Far enough over the surface for every sample of the pixel to be on it.
@@ -72,11 +116,17 @@ const NEARER: f32 = 0.5;
 const FARTHER: f32 = 0.125;
 
 fn places_of(in: StrokeVarying) -> Places {
-    let here = in.position.xy;
+    // A pixel further in is a pixel further over the surface.
+    let inward = vec2f(dpdx(in.over_px), dpdy(in.over_px));
     let foot = foot_of(in);
-    let inward = here - foot;
-    let reach_px = max(length(inward), FOOT_PX);
-    return Places(here, foot + inward * ((FOOT_PX + START_PX) / reach_px), foot);
+    let start = foot + inward * (FOOT_PX + START_PX);
+    return Places(pixel_of(in.position.xy), pixel_of(start), pixel_of(foot));
+}
+
+// Whether the edge is between its own object and anything else (section 3.4).
+fn is_around(in: StrokeVarying, objects: vec3u) -> bool {
+    let own = objects.y;
+    return own != NO_OBJECT && own != select(objects.x, objects.z, in.over_px > 0.0);
 }
 
 fn foot_of(in: StrokeVarying) -> vec2f {

@@ -9,7 +9,7 @@ use edgemesh::replicate::Quantization;
 use glam::{DMat3, DMat4, Mat4, Vec2, Vec4};
 use wgpu::util::DeviceExt as _;
 
-use crate::targets::Targets;
+use crate::targets::{TargetFormats, Targets};
 
 /// The uniform of a view: `@group(0)` everywhere. WGSL twin:
 /// `shaders/common/frame.wgsl`.
@@ -142,29 +142,40 @@ pub fn frame_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     })
 }
 
-/// `@group(0)` of strokes that ask for the depth of the fill: the frame, and the
-/// depth as a texture of one sample a pixel (binding 1) or of several (2).
+/// `@group(0)` of strokes that ask what was filled: the frame, the depth as a
+/// texture of one sample a pixel (binding 1) or of several (2), and, for targets
+/// with a stencil, the objects in the same way (3 or 4).
 #[must_use]
-pub(crate) fn frame_depth_layout(device: &wgpu::Device, samples: u32) -> wgpu::BindGroupLayout {
+pub(crate) fn frame_fill_layout(
+    device: &wgpu::Device,
+    formats: &TargetFormats,
+) -> wgpu::BindGroupLayout {
     let visibility = wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE;
-    let depth = wgpu::BindGroupLayoutEntry {
-        binding: depth_binding(samples),
+    let texture = |binding, sample_type| wgpu::BindGroupLayoutEntry {
+        binding,
         visibility: wgpu::ShaderStages::FRAGMENT,
         ty: wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Depth,
+            sample_type,
             view_dimension: wgpu::TextureViewDimension::D2,
-            multisampled: samples > 1,
+            multisampled: formats.samples > 1,
         },
         count: None,
     };
+    let [depth, objects] = fill_bindings(formats.samples);
+    let mut entries =
+        vec![uniform_entry(0, visibility), texture(depth, wgpu::TextureSampleType::Depth)];
+    if formats.has_stencil() {
+        entries.push(texture(objects, wgpu::TextureSampleType::Uint));
+    }
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("frame and depth"),
-        entries: &[uniform_entry(0, visibility), depth],
+        label: Some("frame and fill"),
+        entries: &entries,
     })
 }
 
-const fn depth_binding(samples: u32) -> u32 {
-    if samples > 1 { 2 } else { 1 }
+/// The bindings of the depth and of the objects.
+const fn fill_bindings(samples: u32) -> [u32; 2] {
+    if samples > 1 { [2, 4] } else { [1, 3] }
 }
 
 /// The frame's uniform buffer and bind group.
@@ -191,22 +202,28 @@ impl Frame {
         Self { buffer, bind_group }
     }
 
-    /// The frame with the depth of `targets`, in a [`frame_depth_layout`].
-    pub(crate) fn with_depth(
+    /// The frame with what `targets` hold of the fill, in a [`frame_fill_layout`].
+    pub(crate) fn with_fill(
         &self,
         device: &wgpu::Device,
         layout: &wgpu::BindGroupLayout,
         targets: &Targets,
     ) -> wgpu::BindGroup {
-        let depth = wgpu::BindGroupEntry {
-            binding: depth_binding(targets.formats().samples),
-            resource: wgpu::BindingResource::TextureView(targets.depth_texture()),
-        };
-        let frame = wgpu::BindGroupEntry { binding: 0, resource: self.buffer.as_entire_binding() };
+        let [depth, objects] = fill_bindings(targets.formats().samples);
+        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
+        let mut entries = vec![
+            entry(0, self.buffer.as_entire_binding()),
+            entry(depth, wgpu::BindingResource::TextureView(targets.depth_texture())),
+        ];
+        entries.extend(
+            targets
+                .object_texture()
+                .map(|texture| entry(objects, wgpu::BindingResource::TextureView(texture))),
+        );
         device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("frame and depth"),
+            label: Some("frame and fill"),
             layout,
-            entries: &[frame, depth],
+            entries: &entries,
         })
     }
 

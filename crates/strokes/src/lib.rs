@@ -35,7 +35,7 @@ pub mod object;
 pub mod readback;
 pub mod renderer;
 pub mod shader;
-mod silhouette;
+pub mod silhouette;
 pub mod stroke;
 mod stroke_layouts;
 pub mod targets;

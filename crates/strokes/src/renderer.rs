@@ -107,7 +107,7 @@ impl Renderer {
         }
         let frame = frame_layout(device);
         Ok(Self {
-            layouts: StrokeLayouts::new(device, &frame, options.layout, options.formats.samples),
+            layouts: StrokeLayouts::new(device, &frame, options.layout, &options.formats),
             detect: DetectPipeline::new(device, &frame, options.layout)?,
             fill: FillPipeline::new(device, &frame, &options.formats)?,
             frame: Frame::new(device, &frame, &bytemuck::Zeroable::zeroed()),
@@ -254,13 +254,13 @@ impl Renderer {
         let placed: Vec<&Object> = objects.iter().filter(|object| object.is_placed).collect();
         self.encode_detect(&mut encoder, &placed, timer);
         self.encode_expand(&mut encoder, &placed, timer);
-        let asks_for_depth =
+        let asks_for_fill =
             |object: &&Object| object.look.draws.iter().any(|draw| draw.lies_over_surface);
-        let frame_depth = placed
+        let frame_fill = placed
             .iter()
-            .any(asks_for_depth)
-            .then(|| self.frame.with_depth(&gpu.device, &self.layouts.frame_depth, targets));
-        let frame = FrameEncoder { renderer: self, targets, objects: &placed, frame_depth };
+            .any(asks_for_fill)
+            .then(|| self.frame.with_fill(&gpu.device, &self.layouts.frame_fill, targets));
+        let frame = FrameEncoder { renderer: self, targets, objects: &placed, frame_fill };
         let values = frame.stencil_values();
         frame.encode_fill(&mut encoder, background, &values, timer);
         frame.encode_strokes(&mut encoder, &values, timer);
@@ -336,8 +336,8 @@ struct FrameEncoder<'a> {
     renderer: &'a Renderer,
     targets: &'a Targets,
     objects: &'a [&'a Object],
-    /// The frame with the depth, where a draw asks for it.
-    frame_depth: Option<wgpu::BindGroup>,
+    /// The frame with what was filled, where a draw asks for it.
+    frame_fill: Option<wgpu::BindGroup>,
 }
 
 /// The stencil values of the objects, cut where the stencil must be cleared.
@@ -466,7 +466,7 @@ impl FrameEncoder<'_> {
         for (index, draw) in draws.filter(|(_, draw)| draw.visibility == visibility) {
             let frame = &self.renderer.frame.bind_group;
             let frame =
-                self.frame_depth.as_ref().filter(|_| draw.lies_over_surface).unwrap_or(frame);
+                self.frame_fill.as_ref().filter(|_| draw.lies_over_surface).unwrap_or(frame);
             pass.set_bind_group(0, frame, &[]);
             pass.set_bind_group(1, &draw.style, &[]);
             for (chunk, part) in object.mesh.chunks.iter().zip(&object.parts) {

@@ -9,9 +9,12 @@
 //! lines of an earlier one then covers them, as lines leave no depth. Here all
 //! objects are filled first; those past the first 254 are marked again when
 //! their turn comes, where their depth is the one that is there.
+//!
+//! A silhouette that lies inside of its edge, or centred, is over its own object;
+//! its fragments compare the values beside the edge (`stroke_over_surface.wgsl`).
 
 /// The stencil's value where no object is: what it is cleared to.
-pub(crate) const NO_OBJECT: u32 = 255;
+pub const NO_OBJECT: u32 = 255;
 
 /// The value for each object, and when to clear.
 #[derive(Debug, Clone, Copy, Default)]

@@ -164,11 +164,14 @@ impl StrokeVariant {
 
     /// The shader of the fragments, and its entry point.
     const fn fragment(self, vertex_shader: &'static str, samples: u32) -> [&'static str; 2] {
-        match (self.is_over_surface, samples) {
-            (false, _) => [vertex_shader, "stroke_fragment"],
-            (true, 1) => ["stroke_over_surface.wgsl", "over_surface_of_pixels"],
-            (true, _) => ["stroke_over_surface.wgsl", "over_surface_of_samples"],
-        }
+        let entry = match (self.visibility, samples) {
+            _ if !self.is_over_surface => return [vertex_shader, "stroke_fragment"],
+            (Visibility::Silhouette, 1) => "silhouette_of_pixels",
+            (Visibility::Silhouette, _) => "silhouette_of_samples",
+            (_, 1) => "over_surface_of_pixels",
+            _ => "over_surface_of_samples",
+        };
+        ["stroke_over_surface.wgsl", entry]
     }
 
     const fn shader(self, layout: Layout) -> &'static str {
@@ -190,7 +193,7 @@ impl StrokeVariant {
             VertexSource::Attributes => layouts.groups(Some(&layouts.object), None),
         };
         if self.is_over_surface {
-            groups[0] = Some(&layouts.frame_depth);
+            groups[0] = Some(&layouts.frame_fill);
         }
         groups
     }
@@ -306,7 +309,7 @@ fn depth_stencil(formats: &TargetFormats, variant: StrokeVariant) -> wgpu::Depth
         pass_op: StencilOperation::Keep,
     };
     let stencil = match variant.visibility {
-        Visibility::Silhouette => {
+        Visibility::Silhouette if !variant.is_over_surface => {
             wgpu::StencilState { front: face, back: face, read_mask: 0xff, write_mask: 0 }
         }
         _ => wgpu::StencilState::default(),

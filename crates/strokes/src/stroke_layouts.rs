@@ -5,15 +5,16 @@
 
 use wgpu::ShaderStages;
 
-use crate::frame::{frame_depth_layout, storage_entry, uniform_entry};
+use crate::frame::{frame_fill_layout, storage_entry, uniform_entry};
 use crate::mesh_buffers::Layout;
+use crate::targets::TargetFormats;
 
 /// The bind group layouts of strokes in one layout of edges.
 #[derive(Debug)]
 pub(crate) struct StrokeLayouts {
     frame: wgpu::BindGroupLayout,
-    /// `@group(0)` of strokes that ask for the depth of the fill.
-    pub(crate) frame_depth: wgpu::BindGroupLayout,
+    /// `@group(0)` of strokes that ask what was filled.
+    pub(crate) frame_fill: wgpu::BindGroupLayout,
     /// `@group(1)`: the style.
     pub(crate) pass: wgpu::BindGroupLayout,
     /// `@group(2)` where edges are pulled: the object and the edges.
@@ -33,7 +34,7 @@ impl StrokeLayouts {
         device: &wgpu::Device,
         frame: &wgpu::BindGroupLayout,
         layout: Layout,
-        samples: u32,
+        formats: &TargetFormats,
     ) -> Self {
         let make = |label: &str, entries: &[wgpu::BindGroupLayoutEntry]| {
             device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -51,7 +52,7 @@ impl StrokeLayouts {
         let write = storage_entry(2, compute, false);
         Self {
             frame: frame.clone(),
-            frame_depth: frame_depth_layout(device, samples),
+            frame_fill: frame_fill_layout(device, formats),
             pass: make("stroke style", &style_entries()),
             edges: make("stroke edges", &edges),
             object: make("stroke object", &[uniform_entry(0, both), uniform_entry(1, both)]),

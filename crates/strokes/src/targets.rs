@@ -63,6 +63,8 @@ pub struct Targets {
     depth_view: wgpu::TextureView,
     /// The depth alone, to be read.
     depth_texture: wgpu::TextureView,
+    /// The stencil alone, to be read, where there is one.
+    object_texture: Option<wgpu::TextureView>,
 }
 
 impl Targets {
@@ -90,9 +92,9 @@ impl Targets {
         let sampled = (samples > 1).then(|| texture("samples", formats.color, samples, attachment));
         let read = wgpu::TextureUsages::TEXTURE_BINDING;
         let depth = texture("depth", formats.depth, samples, attachment | read);
-        let depth_alone = wgpu::TextureViewDescriptor {
-            aspect: wgpu::TextureAspect::DepthOnly,
-            ..wgpu::TextureViewDescriptor::default()
+        let alone = |aspect| {
+            let descriptor = wgpu::TextureViewDescriptor { aspect, ..Default::default() };
+            depth.create_view(&descriptor)
         };
         Self {
             size,
@@ -100,7 +102,8 @@ impl Targets {
             picture_view: view(&picture),
             sampled_view: sampled.as_ref().map(view),
             depth_view: view(&depth),
-            depth_texture: depth.create_view(&depth_alone),
+            depth_texture: alone(wgpu::TextureAspect::DepthOnly),
+            object_texture: formats.has_stencil().then(|| alone(wgpu::TextureAspect::StencilOnly)),
             picture,
         }
     }
@@ -114,6 +117,11 @@ impl Targets {
     /// The depth, to be read.
     pub(crate) const fn depth_texture(&self) -> &wgpu::TextureView {
         &self.depth_texture
+    }
+
+    /// The values of the objects in the stencil, to be read.
+    pub(crate) const fn object_texture(&self) -> Option<&wgpu::TextureView> {
+        self.object_texture.as_ref()
     }
 
     /// Bytes that textures of this size take, for messages.

@@ -110,6 +110,17 @@ fn golden_styles() {
             "ink",
             &["contour.placement=inside", "strokes.width=10", "ridge.color=#c04000"],
         ),
+        (
+            "torus_knot-silhouette-inside",
+            "torus_knot",
+            "ink",
+            &[
+                "silhouette.show=true",
+                "silhouette.width=6",
+                "silhouette.placement=inside",
+                "silhouette.color=#c04000",
+            ],
+        ),
         ("torus_knot-centred", "torus_knot", "charcoal", &["contour.placement=centred"]),
         ("bracket-charcoal", "bracket", "charcoal", &["strokes.parameterization=screen"]),
         ("bracket-hidden", "bracket", "hidden-line", &["hidden.color=#c04000", "hidden.width=3"]),

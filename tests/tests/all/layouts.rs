@@ -19,6 +19,7 @@ use strokes::frame::{FrameUniform, ObjectUniform};
 use strokes::look::{MAX_DRAWS, MAX_LAYERS};
 use strokes::mesh_buffers::{ChunkUniform, EDGES_PER_RUN};
 use strokes::shader::ShaderSource;
+use strokes::silhouette::NO_OBJECT;
 use strokes::stroke::StrokeUniform;
 use strokes::view_buffers::{DrawArguments, RunState, Tally};
 
@@ -181,6 +182,33 @@ fn structs_in_buffers_are_laid_out_alike_and_found_on_both_sides() {
 const OF_SHADERS: [&str; 7] =
     ["BEHIND", "SCAN_WIDTH", "EXPAND_WIDTH", "WORDS_PER_EDGE", "START_PX", "NEARER", "FARTHER"];
 
+/// The constants that both sides should have, as the shaders have them.
+fn constants_of_shaders() -> BTreeMap<String, u64> {
+    let float = |value: f32| u64::from(value.to_bits());
+    let mut found = BTreeMap::new();
+    for (path, module) in modules() {
+        for (_, constant) in module.constants.iter() {
+            let name = constant.name.clone().unwrap_or_default();
+            if OF_SHADERS.contains(&name.as_str()) {
+                continue;
+            }
+            let literal = match module.global_expressions[constant.init] {
+                naga::Expression::Literal(literal) => literal,
+                // DISK_VERTICES is a sum.
+                _ if name == "DISK_VERTICES" => naga::Literal::U32(DISK_VERTICES),
+                _ => panic!("{path}: {name} is no number"),
+            };
+            let value = match literal {
+                naga::Literal::U32(value) => u64::from(value),
+                naga::Literal::F32(value) => float(value),
+                other => panic!("{path}: {name} is {other:?}"),
+            };
+            found.insert(name, value);
+        }
+    }
+    found
+}
+
 #[test]
 fn constants_are_equal_and_found_on_both_sides() {
     let float = |value: f32| u64::from(value.to_bits());
@@ -190,6 +218,7 @@ fn constants_are_equal_and_found_on_both_sides() {
         ("MAX_LAYERS", MAX_LAYERS as u64),
         ("MAX_DRAWS", MAX_DRAWS as u64),
         ("NO_LAYER", NO_LAYER.into()),
+        ("NO_OBJECT", NO_OBJECT.into()),
         ("GUARD_BAND", float(GUARD_BAND)),
         ("MIN_LENGTH_PX", float(MIN_LENGTH_PX)),
         ("EDGE_ON_FACING", float(EDGE_ON_FACING)),
@@ -221,27 +250,7 @@ fn constants_are_equal_and_found_on_both_sides() {
     ]);
     expected.extend(EdgeFlags::all().iter_names().map(|(name, bits)| (name, bits.bits().into())));
     expected.extend(LineBits::all().iter_names().map(|(name, bits)| (name, bits.bits().into())));
-    let mut found = BTreeMap::new();
-    for (path, module) in modules() {
-        for (_, constant) in module.constants.iter() {
-            let name = constant.name.clone().unwrap_or_default();
-            if OF_SHADERS.contains(&name.as_str()) {
-                continue;
-            }
-            let literal = match module.global_expressions[constant.init] {
-                naga::Expression::Literal(literal) => literal,
-                // DISK_VERTICES is a sum.
-                _ if name == "DISK_VERTICES" => naga::Literal::U32(DISK_VERTICES),
-                _ => panic!("{path}: {name} is no number"),
-            };
-            let value = match literal {
-                naga::Literal::U32(value) => u64::from(value),
-                naga::Literal::F32(value) => float(value),
-                other => panic!("{path}: {name} is {other:?}"),
-            };
-            found.insert(name, value);
-        }
-    }
+    let found = constants_of_shaders();
     // EdgeFlags and LineBits overlap with nothing else by name.
     let found: BTreeMap<&str, u64> = found.iter().map(|(name, value)| (&**name, *value)).collect();
     assert_eq!(found, expected);
