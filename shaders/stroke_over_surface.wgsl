@@ -108,7 +108,7 @@ struct Places {
 }
 
 // Far enough over the surface for every sample of the pixel to be on it.
-const START_PX: f32 = 1.0;
+const START_PX: f32 = 1.5;
 
 // How much nearer than the edge its own surface may be, and how much farther, in
 // heights of the picture.
