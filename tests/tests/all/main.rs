@@ -4,7 +4,6 @@
 
 mod child;
 mod commands;
-mod contour_chains;
 mod corpus;
 mod dependencies;
 mod expectations;
@@ -21,6 +20,7 @@ mod gpu_twin;
 #[cfg(feature = "gpu")]
 mod gpu_visibility;
 mod hostile;
+mod layer_chains;
 mod layouts;
 mod models;
 mod noop;

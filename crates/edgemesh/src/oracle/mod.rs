@@ -19,6 +19,7 @@
 pub mod contour_chain;
 pub mod facing;
 pub mod feature;
+pub mod layer_chain;
 pub mod normal_cone;
 pub mod spine;
 pub mod stroke_cap;

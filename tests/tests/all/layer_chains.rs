@@ -1,5 +1,5 @@
-//! Contours are linked into chains: each in exactly one, none lost, none twice, and
-//! open only where the surface is.
+//! What a view draws is linked into chains: each edge in exactly one, none lost, none
+//! twice; chains of contours are open only where the surface is.
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::camera::Camera;
@@ -8,10 +8,9 @@ use edgemesh::edge_word::edge_words;
 use edgemesh::face_edges::FaceEdges;
 use edgemesh::index::NONE;
 use edgemesh::oracle::classify_lines;
-use edgemesh::oracle::contour_chain::{
-    ContourChain, Successor, contour_chains, contour_ends, successor,
-};
-use edgemesh::oracle::feature::{ClassTable, Line, LineBits};
+use edgemesh::oracle::contour_chain::{Successor, successor};
+use edgemesh::oracle::feature::{ClassTable, EdgeClass, LineBits};
+use edgemesh::oracle::layer_chain::{Element, LayerChain, LayerLinks, StaticLinks};
 use edgemesh::read::read_model;
 use edgemesh::record::EdgeFlags;
 use edgemesh::report::Report;
@@ -37,56 +36,68 @@ fn eye(mesh: &EdgeMesh, view: u32) -> DVec3 {
 
 /// Checks every view of a model, and says how many contours they had.
 fn check(name: &str, mesh: &EdgeMesh) -> u32 {
-    let faces = FaceEdges::of(mesh);
+    let (faces, links) = (FaceEdges::of(mesh), StaticLinks::of(mesh));
     let words = edge_words(mesh);
-    let table = ClassTable { keeps_hidden: 1, ..ClassTable::all_in_one() };
+    // Contours apart, and then all classes in one layer.
+    let apart = ClassTable::new(|class| Some(u32::from(class != EdgeClass::Contour)));
     let mut linked = 0;
     for view in 0..VIEWS {
         let camera = Camera { eye: eye(mesh, view), ..Camera::default_view(&mesh.bounds) };
         let eye = camera.view(&mesh.bounds, 1.0).eye;
-        let lines = classify_lines(mesh, &words, eye, &table, true);
-        let chains = contour_chains(mesh, &faces, &lines);
-        let mut count = vec![0_u32; mesh.records.len()];
-        for chain in &chains {
-            chain.edges.iter().for_each(|&edge| count[edge as usize] += 1);
-            check_chain(mesh, &faces, &lines, chain);
-        }
-        for (edge, line) in lines.iter().enumerate() {
-            let wanted = u32::from(line.bits.contains(LineBits::CONTOUR));
-            assert_eq!(count[edge], wanted, "{name}, view {view}, edge {edge}");
-            linked += wanted;
+        for (table, layers) in [(apart, 2), (ClassTable::all_in_one(), 1)] {
+            let table = ClassTable { keeps_hidden: 1, ..table };
+            let lines = classify_lines(mesh, &words, eye, &table, true);
+            let linking = LayerLinks { mesh, faces: &faces, links: &links, lines: &lines };
+            let mut count = vec![0_u32; mesh.records.len()];
+            for layer in 0..layers {
+                for chain in linking.chains(layer) {
+                    chain.elements.iter().for_each(|element| count[element.edge as usize] += 1);
+                    check_chain(&linking, &chain);
+                }
+            }
+            for (edge, line) in lines.iter().enumerate() {
+                let wanted = u32::from(line.bits.contains(LineBits::DRAWN));
+                assert_eq!(count[edge], wanted, "{name}, view {view}, edge {edge}");
+                linked += u32::from(line.bits.contains(LineBits::CONTOUR));
+            }
         }
     }
     linked
 }
 
-fn check_chain(mesh: &EdgeMesh, faces: &FaceEdges, lines: &[Line], chain: &ContourChain) {
-    let ends = |edge: u32| contour_ends(mesh, edge, lines[edge as usize].bits);
-    for pair in chain.edges.windows(2) {
-        assert_eq!(ends(pair[0])[1], ends(pair[1])[0], "each begins where the last one ended");
+fn check_chain(linking: &LayerLinks, chain: &LayerChain) {
+    let LayerLinks { mesh, faces, lines, .. } = *linking;
+    let is_contour =
+        |element: &Element| lines[element.edge as usize].bits.contains(LineBits::CONTOUR);
+    let (first, last) = (chain.elements[0], chain.elements[chain.elements.len() - 1]);
+    for pair in chain.elements.windows(2) {
+        let [end, start] = [pair[0].ends(mesh)[1], pair[1].ends(mesh)[0]];
+        assert_eq!(end, start, "each begins where the last one ended");
+        assert_eq!(is_contour(&pair[0]), is_contour(&pair[1]), "contours among themselves");
     }
-    let (first, last) = (chain.edges[0], chain.edges[chain.edges.len() - 1]);
     if chain.is_closed {
-        assert_eq!(ends(last)[1], ends(first)[0], "a loop closes");
-        assert_eq!(chain.edges.iter().min(), Some(&first), "a loop begins at its smallest edge");
+        assert_eq!(last.ends(mesh)[1], first.ends(mesh)[0], "a loop closes");
+        let least = chain.elements.iter().map(|element| element.edge).min();
+        assert_eq!(least, Some(first.edge), "a loop begins at its smallest edge");
         return;
     }
-    let open_vertices = [ends(first)[0], ends(last)[1]];
-    for vertex in open_vertices {
-        let ends_surface = |flags: EdgeFlags, face_b: u32| {
-            face_b == NONE || flags.intersects(EdgeFlags::CLASH | EdgeFlags::NON_MANIFOLD)
-        };
+    if !is_contour(&first) {
+        return;
+    }
+    for vertex in [first.ends(mesh)[0], last.ends(mesh)[1]] {
         let is_open = mesh.records.iter().any(|record| {
-            [record.v0, record.v1].contains(&vertex) && ends_surface(record.flags, record.face_b)
+            let cuts = EdgeFlags::CLASH | EdgeFlags::NON_MANIFOLD;
+            let ends_surface = record.face_b == NONE || record.flags.intersects(cuts);
+            ends_surface && [record.v0, record.v1].contains(&vertex)
         });
         assert!(is_open, "a chain ends at vertex {vertex}, where the surface goes on");
     }
-    let following = successor(mesh, faces, lines, last);
+    let following = successor(mesh, faces, lines, last.edge);
     assert!(!matches!(following, Successor::Edge(_)), "{following:?} follows an open end");
 }
 
 #[test]
-fn contours_of_the_projects_models_are_linked_one_to_one() {
+fn edges_of_the_projects_models_are_linked_one_to_one() {
     for (name, mesh) in own_models() {
         let linked = check(&name, &mesh);
         assert!(linked > VIEWS || name.starts_with("plane"), "{name}: {linked} contours");
@@ -94,7 +105,7 @@ fn contours_of_the_projects_models_are_linked_one_to_one() {
 }
 
 #[test]
-fn contours_of_real_models_are_linked_one_to_one() {
+fn edges_of_real_models_are_linked_one_to_one() {
     let Some(folder) = shared() else { return left_out("chains of contours", 8) };
     for name in ["cow", "fandisk", "rocker-arm", "spot", "stanford-bunny", "suzanne", "teapot"] {
         let path = folder.join("models").join(format!("{name}.obj"));
@@ -106,7 +117,7 @@ fn contours_of_real_models_are_linked_one_to_one() {
 
 /// Broken files make awkward surfaces; those that can be read are linked as well.
 #[test]
-fn contours_of_awkward_files_are_linked_one_to_one() {
+fn edges_of_awkward_files_are_linked_one_to_one() {
     let Some(folder) = shared() else { return left_out("chains of awkward contours", 1) };
     let mut checked = 0;
     let mut folders = vec![folder.join("corpus")];
