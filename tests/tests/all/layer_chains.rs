@@ -106,7 +106,7 @@ fn edges_of_the_projects_models_are_linked_one_to_one() {
 
 #[test]
 fn edges_of_real_models_are_linked_one_to_one() {
-    let Some(folder) = shared() else { return left_out("chains of contours", 8) };
+    let Some(folder) = shared() else { return left_out("chains of real models", 7) };
     for name in ["cow", "fandisk", "rocker-arm", "spot", "stanford-bunny", "suzanne", "teapot"] {
         let path = folder.join("models").join(format!("{name}.obj"));
         let (model, mut report) = read_model(&path).unwrap();
@@ -118,7 +118,7 @@ fn edges_of_real_models_are_linked_one_to_one() {
 /// Broken files make awkward surfaces; those that can be read are linked as well.
 #[test]
 fn edges_of_awkward_files_are_linked_one_to_one() {
-    let Some(folder) = shared() else { return left_out("chains of awkward contours", 1) };
+    let Some(folder) = shared() else { return left_out("chains of awkward files", 1) };
     let mut checked = 0;
     let mut folders = vec![folder.join("corpus")];
     while let Some(folder) = folders.pop() {
