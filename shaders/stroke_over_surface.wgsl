@@ -4,7 +4,8 @@
 // That surface turns toward the eye faster than any one face tells, and would
 // swallow them if each fragment were tested where it is. So these ask whether the
 // edge is visible: a little outside of it, where nothing of its own surface lies.
-// Everything else they ask where they are, as the depth test would.
+// Silhouettes ask there as well whether it is their own object. What lies off the
+// surface asks where it is, as the depth test would.
 //
 //   on the screen:                      from the side, the eye on the right:
 //
@@ -110,10 +111,9 @@ struct Places {
 // Far enough over the surface for every sample of the pixel to be on it.
 const START_PX: f32 = 1.5;
 
-// How much nearer than the edge its own surface may be, and how much farther, in
-// heights of the picture.
-const NEARER: f32 = 0.5;
-const FARTHER: f32 = 0.125;
+// How much nearer than the edge its own surface may be, or farther, in heights of
+// the picture.
+const OWN_REACH: f32 = 0.5;
 
 fn places_of(in: StrokeVarying) -> Places {
     // A pixel further in is a pixel further over the surface.
@@ -168,10 +168,10 @@ fn is_own_surface(edge: f32, filled: f32) -> bool {
     }
     let edge_distance = distance_of(edge);
     let px_per_unit = frame.px_per_unit / dot(frame.projection.zw, vec2f(edge_distance, 1.0));
-    let nearer_px = (edge_distance - distance_of(filled)) * px_per_unit;
-    // A wall seen nearly edge on comes nearer by its whole length; and the fill is
-    // pushed back by a pixel of slope.
-    return nearer_px <= NEARER * frame.viewport_px.y && nearer_px >= -FARTHER * frame.viewport_px.y;
+    // A wall seen nearly edge on comes nearer by its whole length within a pixel;
+    // and as far its fill is pushed back, by a pixel of slope.
+    let away_px = abs(edge_distance - distance_of(filled)) * px_per_unit;
+    return away_px <= OWN_REACH * frame.viewport_px.y;
 }
 
 // The distance from the eye along the line of sight.

@@ -16,7 +16,8 @@ const SMOOTHING: u32 = 512u;
 const CREASE_SHIFT: u32 = 10u;
 const CREASE_STEPS: u32 = 0x1fffu;
 const CONCAVE: u32 = 0x800000u;
-const SURELY_CONCAVE_STEPS: u32 = 45u;
+const LEAST_GROOVE_STEPS: u32 = 45u;
+const MOST_GROOVE_STEPS: u32 = 6750u;
 
 // Line bits: what a view says of an edge. The live list carries the first three
 // above the edge's index.
@@ -74,6 +75,11 @@ fn static_classes(word: u32, table: ClassTable) -> u32 {
         | select(0u, 64u, is_valley);
 }
 
+fn is_groove(word: u32) -> bool {
+    let steps = (word >> CREASE_SHIFT) & CREASE_STEPS;
+    return (word & CONCAVE) != 0u && steps >= LEAST_GROOVE_STEPS && steps <= MOST_GROOVE_STEPS;
+}
+
 fn classify_edge(word: u32, faces: EdgeFaces, table: ClassTable, eye_is_outside: bool) -> Line {
     let b_faces = faces.b_faces != ((word & CLASH) != 0u);
     let is_manifold = faces.has_b && (word & NON_MANIFOLD) == 0u;
@@ -82,11 +88,9 @@ fn classify_edge(word: u32, faces: EdgeFaces, table: ClassTable, eye_is_outside:
     let classes = (static_classes(word, table) | u32(is_contour)) & table.drawn;
     // The solid itself hides what turns away from an eye outside of it, and the
     // contours in its grooves.
-    let steps = (word >> CREASE_SHIFT) & CREASE_STEPS;
-    let is_concave = (word & CONCAVE) != 0u && steps >= SURELY_CONCAVE_STEPS;
     let is_turned_away = !faces.a_faces && !b_faces;
     let is_behind = eye_is_outside && (word & SOLID) != 0u
-        && (is_turned_away || (is_contour && is_concave));
+        && (is_turned_away || (is_contour && is_groove(word)));
     let is_drawn = classes != 0u && (!is_behind || table.keeps_hidden != 0u);
     let bits = select(0u, CONTOUR, is_contour)
         | select(0u, A_FACES, faces.a_faces)

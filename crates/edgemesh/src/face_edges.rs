@@ -8,6 +8,7 @@
 use crate::edge_mesh::EdgeMesh;
 use crate::index::{NONE, to_u32};
 use crate::record::EdgeRecord;
+use crate::topology::triangle_side;
 
 /// The records of the sides of all faces: side k runs from corner k to corner k+1.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -19,10 +20,9 @@ impl FaceEdges {
     pub fn of(mesh: &EdgeMesh) -> Self {
         let mut sides = vec![[NONE; 3]; mesh.triangles.len()];
         for (edge, record) in mesh.records.iter().enumerate() {
-            for face in [record.face_a, record.face_b] {
-                let Some(triangle) = mesh.triangles.get(face as usize) else { continue };
-                if let Some(side) = side_of(triangle, record) {
-                    sides[face as usize][side] = to_u32(edge);
+            for face in [record.face_a, record.face_b].into_iter().filter(|&face| face != NONE) {
+                if let Some(side) = side_on(mesh, face, record) {
+                    sides[face as usize][side as usize] = to_u32(edge);
                 }
             }
         }
@@ -34,19 +34,14 @@ impl FaceEdges {
     pub fn sides(&self, face: u32) -> [u32; 3] {
         self.0.get(face as usize).copied().unwrap_or([NONE; 3])
     }
-
-    /// All of them, in the order of the faces.
-    #[must_use]
-    pub fn all(&self) -> &[[u32; 3]] {
-        &self.0
-    }
 }
 
-/// The side of a triangle that lies on the edge of a record.
-fn side_of(triangle: &[u32; 3], record: &EdgeRecord) -> Option<usize> {
+/// The side of `face`, 0 to 2, that lies on the edge of `record`.
+#[must_use]
+pub(crate) fn side_on(mesh: &EdgeMesh, face: u32, record: &EdgeRecord) -> Option<u32> {
     let ends = [record.v0, record.v1];
-    (0..3).find(|&side| {
-        let [from, to] = [triangle[side], triangle[(side + 1) % 3]];
+    (0..3).find(|side| {
+        let [from, to] = triangle_side(&mesh.triangles, 3 * face + side);
         [from, to] == ends || [to, from] == ends
     })
 }
@@ -85,7 +80,6 @@ mod tests {
     #[test]
     fn a_face_beyond_the_mesh_has_no_sides() {
         let table = FaceEdges::of(&mesh(&[&[0, 1, 2]]));
-        assert_eq!(table.all().len(), 1);
         assert_eq!(table.sides(7), [NONE; 3]);
     }
 }

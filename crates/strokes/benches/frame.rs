@@ -21,6 +21,7 @@ use edgemesh::camera::{Camera, View};
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::model::Model;
 use edgemesh::oracle::feature::EdgeClass;
+use edgemesh::oracle::stroke_quad::Placement;
 use edgemesh::oracle::stroke_segment::LineKind;
 use edgemesh::read::read_model;
 use edgemesh::report::Report;
@@ -161,12 +162,15 @@ impl Bench {
 
     fn kinds(&self, name: &str, mesh: &EdgeMesh, samples: u32) {
         let all = EdgeClass::ALL;
+        let centred =
+            StrokeStyle { placement: Placement::Centred, ..style(LineKind::QuadAndCaps, false) };
         let contenders = [
             ("thin lines", look(&all, style(LineKind::Thin, false))),
             ("quads", look(&all, style(LineKind::Quad, false))),
             ("quads with caps", look(&all, style(LineKind::QuadAndCaps, false))),
             ("quads with caps, textured", look(&all, style(LineKind::QuadAndCaps, true))),
             ("quads with half disks", look(&all, style(LineKind::QuadAndDisks, false))),
+            ("quads with caps, centred on contours too", look(&all, centred)),
             ("fins", look(&all, style(LineKind::Fin, false))),
             (
                 "quads with caps, contours only",

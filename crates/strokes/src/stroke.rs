@@ -13,7 +13,8 @@
 //! All of them call the same functions, so they draw the same picture. What is
 //! hidden is drawn by turning the depth test around (section 3.5); a silhouette
 //! where the stencil is not that of its own object (section 3.4; step 4 of the
-//! printed list keeps what the text means to suppress).
+//! printed list keeps what the text means to suppress). Contours over the surface
+//! that they bound decide both in their fragments (`stroke_over_surface.wgsl`).
 //!
 //! ```text
 //!        6                          9

@@ -5,7 +5,9 @@ use std::mem::offset_of;
 
 use edgemesh::edge_mesh::FacePlane;
 use edgemesh::edge_word::{CONCAVE, CREASE_SHIFT, CREASE_STEPS};
-use edgemesh::oracle::feature::{ClassTable, EdgeClass, LineBits, NO_LAYER, SURELY_CONCAVE_STEPS};
+use edgemesh::oracle::feature::{
+    ClassTable, EdgeClass, LEAST_GROOVE_STEPS, LineBits, MOST_GROOVE_STEPS, NO_LAYER,
+};
 use edgemesh::oracle::normal_cone::{CONE_MARGIN, ConeFacing, NormalCone};
 use edgemesh::oracle::spine::{GUARD_BAND, MIN_LENGTH_PX};
 use edgemesh::oracle::stroke_cap::DISK_STEPS;
@@ -179,8 +181,8 @@ fn structs_in_buffers_are_laid_out_alike_and_found_on_both_sides() {
 }
 
 /// Constants of one side only: how the shader works inside.
-const OF_SHADERS: [&str; 7] =
-    ["BEHIND", "SCAN_WIDTH", "EXPAND_WIDTH", "WORDS_PER_EDGE", "START_PX", "NEARER", "FARTHER"];
+const OF_SHADERS: [&str; 6] =
+    ["BEHIND", "SCAN_WIDTH", "EXPAND_WIDTH", "WORDS_PER_EDGE", "START_PX", "OWN_REACH"];
 
 /// The constants that both sides should have, as the shaders have them.
 fn constants_of_shaders() -> BTreeMap<String, u64> {
@@ -224,13 +226,11 @@ fn constants_are_equal_and_found_on_both_sides() {
         ("EDGE_ON_FACING", float(EDGE_ON_FACING)),
         ("LIFTED_FACING", float(LIFTED_FACING)),
         ("CONE_MARGIN", float(CONE_MARGIN)),
-        ("MIXED", ConeFacing::Mixed as u64),
-        ("ALL_FACE", ConeFacing::AllFace as u64),
-        ("ALL_AWAY", ConeFacing::AllAway as u64),
         ("CREASE_SHIFT", CREASE_SHIFT.into()),
         ("CREASE_STEPS", CREASE_STEPS.into()),
         ("CONCAVE", CONCAVE.into()),
-        ("SURELY_CONCAVE_STEPS", SURELY_CONCAVE_STEPS.into()),
+        ("LEAST_GROOVE_STEPS", LEAST_GROOVE_STEPS.into()),
+        ("MOST_GROOVE_STEPS", MOST_GROOVE_STEPS.into()),
         ("DISK_STEPS", DISK_STEPS.into()),
         ("FOOT_PX", float(FOOT_PX)),
         ("CAP_VERTICES", CAP_VERTICES.into()),
@@ -248,6 +248,8 @@ fn constants_are_equal_and_found_on_both_sides() {
         ("SCREEN_SPACE", Parameterization::ScreenSpace as u64),
         ("EDGE_INDEX_MASK", u64::from(!LineBits::all().bits() | LineBits::DRAWN.bits())),
     ]);
+    let facing = [ConeFacing::Mixed, ConeFacing::AllFace, ConeFacing::AllAway];
+    expected.extend(["MIXED", "ALL_FACE", "ALL_AWAY"].into_iter().zip(facing.map(|f| f as u64)));
     expected.extend(EdgeFlags::all().iter_names().map(|(name, bits)| (name, bits.bits().into())));
     expected.extend(LineBits::all().iter_names().map(|(name, bits)| (name, bits.bits().into())));
     let found = constants_of_shaders();

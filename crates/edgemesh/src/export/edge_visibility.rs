@@ -28,6 +28,7 @@ use glam::{Vec3, Vec4Swizzles as _};
 use super::{edges, hard_classes, link_ends, welded_ends};
 use crate::build::{CLASSES, class_of};
 use crate::edge_mesh::{ChainLink, EdgeMesh};
+use crate::face_edges::side_on;
 use crate::index::NONE;
 use crate::record::{EdgeFlags, EdgeRecord};
 
@@ -130,16 +131,8 @@ impl EdgeVisibility {
 fn sides_of(mesh: &EdgeMesh, records: &[EdgeRecord]) -> impl Iterator<Item = usize> {
     records.iter().flat_map(|record| {
         let faces = [record.face_a, record.face_b].into_iter().filter(|&face| face != NONE);
-        faces.filter_map(|face| side_of(mesh, face as usize, record))
+        faces.filter_map(|face| Some((3 * face + side_on(mesh, face, record)?) as usize))
     })
-}
-
-fn side_of(mesh: &EdgeMesh, face: usize, record: &EdgeRecord) -> Option<usize> {
-    let [a, b, c] = mesh.triangles[face];
-    let is_side = |&[start, end]: &[u32; 2]| {
-        [start, end] == [record.v0, record.v1] || [end, start] == [record.v0, record.v1]
-    };
-    [[a, b], [b, c], [c, a]].iter().position(is_side).map(|side| 3 * face + side)
 }
 
 /// The normals of the faces of an edge that may be a contour, that of the face

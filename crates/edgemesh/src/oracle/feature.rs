@@ -82,9 +82,13 @@ impl EdgeClass {
 /// The layer of a class that is not drawn. WGSL twin: the constant of this name.
 pub const NO_LAYER: u32 = 15;
 
-/// From this many steps on, one degree, an edge is concave whatever rounding, that
-/// of the 16-bit layout included, makes of its faces.
-pub const SURELY_CONCAVE_STEPS: u32 = STEPS_PER_DEGREE;
+/// From this many steps on, one degree, an edge is a groove: flatter ones could be
+/// concave by rounding alone, most of all at 16 bits.
+pub const LEAST_GROOVE_STEPS: u32 = STEPS_PER_DEGREE;
+
+/// Up to this many steps, 150 degrees, an edge is a groove. Beyond it is a fold; in
+/// many meshes that is a face turned over, behind which nothing hides it.
+pub const MOST_GROOVE_STEPS: u32 = 150 * STEPS_PER_DEGREE;
 
 /// Which classes are drawn, in which layer, and from which angle on an edge is a
 /// crease. WGSL twin: `shaders/common/feature.wgsl`.
@@ -170,7 +174,7 @@ pub fn static_classes(word: EdgeWord, table: &ClassTable) -> u32 {
 ///
 /// An edge of a solid with both faces turned away from an eye outside of it is
 /// hidden by the solid itself, and is not drawn unless the table keeps it. So is a
-/// concave contour: a line of sight beside it would meet the back face first, and
+/// contour in a groove: a line of sight beside it would meet the back face first, and
 /// be inside of the solid already. Left to the depth test such edges would show at
 /// their ends, where their width reaches past the faces in front; and on rough
 /// meshes every other contour is one.
@@ -190,7 +194,7 @@ pub fn classify_edge(
     let is_turned_away = !faces.a_faces && !b_faces;
     let is_behind_solid = eye_is_outside
         && flags.contains(EdgeFlags::SOLID)
-        && (is_turned_away || is_contour && is_surely_concave(word));
+        && (is_turned_away || is_contour && is_groove(word));
     let is_drawn = classes != 0 && (!is_behind_solid || table.keeps_hidden != 0);
     let mut bits = LineBits::empty();
     bits.set(LineBits::CONTOUR, is_contour);
@@ -202,8 +206,9 @@ pub fn classify_edge(
     Line { bits, layer }
 }
 
-fn is_surely_concave(word: EdgeWord) -> bool {
-    word.is_concave() && word.crease_steps() >= SURELY_CONCAVE_STEPS
+fn is_groove(word: EdgeWord) -> bool {
+    let range = LEAST_GROOVE_STEPS..=MOST_GROOVE_STEPS;
+    word.is_concave() && range.contains(&word.crease_steps())
 }
 
 /// Equation 1 as the paper evaluates it, from one edge vertex alone.
@@ -303,6 +308,8 @@ mod tests {
         };
         assert!(!contour(1.0, true, true));
         assert!(contour(0.9, true, true), "within rounding");
+        assert!(!contour(150.0, true, true));
+        assert!(contour(151.0, true, true), "a face turned over");
         assert!(contour(20.0, false, true), "on a ridge");
         assert!(contour(20.0, true, false), "from inside");
         let keeping = ClassTable { keeps_hidden: 1, ..ClassTable::all_in_one() };
