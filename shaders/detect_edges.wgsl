@@ -13,12 +13,7 @@
 #import <common/frame.wgsl>
 #import <common/normal_cone.wgsl>
 #import <common/draw_arguments.wgsl>
-
-// Edges an invocation looks at. Rust twin: EDGES_PER_RUN in mesh_buffers.rs.
-const EDGES_PER_RUN: u32 = 64u;
-
-// Layers that one object can have. Rust twin: MAX_LAYERS in look.rs.
-const MAX_LAYERS: u32 = 7u;
+#import <common/view_runs.wgsl>
 
 // Rust twin: DetectUniform in crates/strokes/src/detect.rs.
 struct DetectUniform {
@@ -30,43 +25,19 @@ struct DetectUniform {
     layer_count: u32,
     draw_count: u32,
     padding: u32,
-    // Layer and indices an edge of each draw, and 1 where none of its strokes is
-    // expanded.
+    // Layer and indices an edge of each draw, 1 where none of its strokes is
+    // expanded, 1 where they are linked.
     draws: array<vec4u, MAX_DRAWS>,
-}
-
-// Rust twin: RunState in crates/strokes/src/view_buffers.rs.
-struct RunState {
-    // Edges that are drawn without being contours, one bit each.
-    marked: vec2u,
-    // Those of them that their own solid can hide.
-    solid: vec2u,
-    // Edges drawn in this view.
-    live: vec2u,
-    // 1 where the winding of two faces clashes: their contours are elsewhere.
-    has_clash: u32,
-    padding: u32,
-}
-
-// The counts of a view. Rust twin: Tally in crates/strokes/src/view_buffers.rs.
-struct Tally {
-    contour: atomic<u32>,
-    stroke_count: u32,
-    ridge: atomic<u32>,
-    valley: atomic<u32>,
-    boundary: atomic<u32>,
-    marked: atomic<u32>,
-    material: atomic<u32>,
-    smoothing: atomic<u32>,
 }
 
 @group(1) @binding(0) var<uniform> detect: DetectUniform;
 @group(2) @binding(6) var<storage, read> run_cones: array<NormalCone>;
+// Of the runs and the tallies of all chunks, one after another.
 @group(3) @binding(1) var<storage, read_write> runs: array<RunState>;
 // Live edges of each run, layer by layer; then where they begin in the list.
 @group(3) @binding(2) var<storage, read_write> counts: array<u32>;
 @group(3) @binding(3) var<storage, read_write> live: array<u32>;
-@group(3) @binding(4) var<storage, read_write> tally: Tally;
+@group(3) @binding(4) var<storage, read_write> tallies: array<Tally>;
 @group(3) @binding(5) var<storage, read_write> draws: array<DrawArguments, MAX_DRAWS>;
 
 fn class_table() -> ClassTable {
@@ -130,14 +101,14 @@ fn mark_static(@builtin(global_invocation_id) id: vec3u) {
         material += u32((word & MATERIAL) != 0u);
         smoothing += u32((word & SMOOTHING) != 0u);
     }
-    runs[run] = state;
+    runs[chunk.first_run + run] = state;
     // Sums of whole numbers: the same in any order.
-    if ridge > 0u { atomicAdd(&tally.ridge, ridge); }
-    if valley > 0u { atomicAdd(&tally.valley, valley); }
-    if boundary > 0u { atomicAdd(&tally.boundary, boundary); }
-    if marked > 0u { atomicAdd(&tally.marked, marked); }
-    if material > 0u { atomicAdd(&tally.material, material); }
-    if smoothing > 0u { atomicAdd(&tally.smoothing, smoothing); }
+    if ridge > 0u { atomicAdd(&tallies[chunk.chunk_index].ridge, ridge); }
+    if valley > 0u { atomicAdd(&tallies[chunk.chunk_index].valley, valley); }
+    if boundary > 0u { atomicAdd(&tallies[chunk.chunk_index].boundary, boundary); }
+    if marked > 0u { atomicAdd(&tallies[chunk.chunk_index].marked, marked); }
+    if material > 0u { atomicAdd(&tallies[chunk.chunk_index].material, material); }
+    if smoothing > 0u { atomicAdd(&tallies[chunk.chunk_index].smoothing, smoothing); }
 }
 
 @compute @workgroup_size(64)
@@ -146,14 +117,17 @@ fn count_runs(@builtin(global_invocation_id) id: vec3u) {
     if run >= chunk.run_count {
         return;
     }
-    var live_bits = runs[run].marked;
+    let at = chunk.first_run + run;
+    var bits = LiveBits(runs[at].marked, vec2u(0u));
     let whole = cone_facing(run_cones[run], object.eye);
-    if whole == MIXED || runs[run].has_clash != 0u {
-        live_bits = look_at_each(run);
+    if whole == MIXED || runs[at].has_clash != 0u {
+        bits = look_at_each(run);
     } else if whole == ALL_AWAY && object.eye_is_outside != 0u && detect.keeps_hidden == 0u {
-        live_bits &= ~runs[run].solid;
+        bits.live &= ~runs[at].solid;
     }
-    runs[run].live = live_bits;
+    let live_bits = bits.live;
+    runs[at].live = live_bits;
+    runs[at].contour = bits.contour;
     if detect.layer_count == 1u {
         counts[run] = countOneBits(live_bits.x) + countOneBits(live_bits.y);
     } else {
@@ -161,19 +135,24 @@ fn count_runs(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
+struct LiveBits {
+    live: vec2u,
+    contour: vec2u,
+}
+
 // The live edges of a run that may have contours, one bit each.
-fn look_at_each(run: u32) -> vec2u {
+fn look_at_each(run: u32) -> LiveBits {
     let edges = edges_of(run);
-    var live_bits = vec2u(0u);
-    var contour = 0u;
+    var found = LiveBits();
     for (var edge = edges.x; edge < edges.y; edge++) {
         let bits = line_of(edge).bits;
         let bit = bit_of(edge - edges.x);
-        live_bits |= select(vec2u(0u), bit, (bits & DRAWN) != 0u);
-        contour += u32((bits & CONTOUR) != 0u);
+        found.live |= select(vec2u(0u), bit, (bits & DRAWN) != 0u);
+        found.contour |= select(vec2u(0u), bit, (bits & CONTOUR) != 0u);
     }
-    if contour > 0u { atomicAdd(&tally.contour, contour); }
-    return live_bits;
+    let contour = countOneBits(found.contour.x) + countOneBits(found.contour.y);
+    if contour > 0u { atomicAdd(&tallies[chunk.chunk_index].contour, contour); }
+    return found;
 }
 
 fn count_layers(run: u32, live_bits: vec2u) {
@@ -214,7 +193,7 @@ fn scan_runs(@builtin(local_invocation_index) lane: u32) {
             sums[other] = total;
             total += count;
         }
-        tally.stroke_count = total;
+        tallies[chunk.chunk_index].stroke_count = total;
     }
     workgroupBarrier();
     var base = sums[lane];
@@ -227,12 +206,15 @@ fn scan_runs(@builtin(local_invocation_index) lane: u32) {
     if lane < detect.draw_count {
         set_arguments(lane);
     }
+    if lane <= MAX_LAYERS {
+        tallies[chunk.chunk_index].layer_first[lane] = first_of(lane);
+    }
 }
 
 // Where the edges of a layer begin in the list.
 fn first_of(layer: u32) -> u32 {
     if layer >= detect.layer_count {
-        return tally.stroke_count;
+        return tallies[chunk.chunk_index].stroke_count;
     }
     return counts[layer * chunk.run_count];
 }
@@ -245,10 +227,13 @@ fn set_arguments(draw: u32) {
     let first = first_of(layer);
     let count = first_of(layer + 1u) - first;
     let expanded = select(min(count, chunk.capacity), 0u, detect.draws[draw].z != 0u);
+    // What is linked is not drawn edge by edge.
+    let linked = min(first + count, chunk.node_capacity) - min(first, chunk.node_capacity);
+    let done = select(expanded, linked, detect.draws[draw].w != 0u);
     draws[draw] = DrawArguments(
         index_count * expanded, 1u, 0u, 0u, 0u,
         (expanded + EXPAND_WIDTH - 1u) / EXPAND_WIDTH, 1u, 1u,
-        index_count * (count - expanded), 1u, index_count * expanded, 0u,
+        index_count * (count - done), 1u, index_count * done, 0u,
         first, expanded, vec2u(0u),
     );
 }
@@ -263,7 +248,7 @@ fn write_runs(@builtin(global_invocation_id) id: vec3u) {
     for (var layer = 0u; layer < detect.layer_count; layer++) {
         place[layer] = counts[layer * chunk.run_count + run];
     }
-    let live_bits = runs[run].live;
+    let live_bits = runs[chunk.first_run + run].live;
     for (var half = 0u; half < 2u; half++) {
         var rest = live_bits[half];
         while rest != 0u {

@@ -1,8 +1,6 @@
 // The arguments of one draw of strokes, written by the GPU alone. Rust twin:
 // DrawArguments in crates/strokes/src/view_buffers.rs.
-
-// Draws of strokes that one object can have. Rust twin: MAX_DRAWS in look.rs.
-const MAX_DRAWS: u32 = 16u;
+#import <common/object_limits.wgsl>
 
 struct DrawArguments {
     // Strokes that were expanded, drawn with indices.

@@ -12,6 +12,12 @@ fn edge_word(edge: u32) -> u32 {
     return records[edge].flags;
 }
 
+// Where an edge begins and ends.
+fn edge_ends(edge: u32) -> array<vec3f, 2> {
+    let record = records[edge];
+    return array<vec3f, 2>(position_of(record.v0), position_of(record.v1));
+}
+
 fn edge_geometry(edge: u32) -> EdgeGeometry {
     let record = records[edge];
     let p0 = position_of(record.v0);

@@ -10,6 +10,12 @@ fn edge_word(edge: u32) -> u32 {
     return words[WORDS_PER_EDGE * edge + 19u] >> 8u;
 }
 
+// Where an edge begins and ends.
+fn edge_ends(edge: u32) -> array<vec3f, 2> {
+    let at = WORDS_PER_EDGE * edge;
+    return array<vec3f, 2>(vector_at(at), vector_at(at + 3u));
+}
+
 fn edge_geometry(edge: u32) -> EdgeGeometry {
     let at = WORDS_PER_EDGE * edge;
     return EdgeGeometry(

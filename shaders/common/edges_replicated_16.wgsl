@@ -10,6 +10,12 @@ fn edge_word(edge: u32) -> u32 {
     return words[WORDS_PER_EDGE * edge + 9u] >> 8u;
 }
 
+// Where an edge begins and ends.
+fn edge_ends(edge: u32) -> array<vec3f, 2> {
+    let at = WORDS_PER_EDGE * edge;
+    return array<vec3f, 2>(position_at(at, 0u), position_at(at, 3u));
+}
+
 fn edge_geometry(edge: u32) -> EdgeGeometry {
     let at = WORDS_PER_EDGE * edge;
     return EdgeGeometry(

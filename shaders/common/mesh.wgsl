@@ -26,6 +26,12 @@ struct ChunkUniform {
     run_count: u32,
     // Strokes that there is room for between expansion and drawing.
     capacity: u32,
+    // The chunk's first run among those of the mesh, and its own number.
+    first_run: u32,
+    chunk_index: u32,
+    // Edges that can be linked.
+    node_capacity: u32,
+    padding: u32,
 }
 
 @group(2) @binding(1) var<uniform> chunk: ChunkUniform;

@@ -4,7 +4,8 @@
 //! numbered anew; faces and vertices between two chunks are in both. Each face is
 //! the same to the bit wherever it is, so a contour that runs from one chunk into
 //! the next does not break, and chunks drawn in order draw the picture of the
-//! whole.
+//! whole. Cuts are between runs of edges, so that what a view says of runs is one
+//! list for all chunks.
 //!
 //! Rejected: cutting by space. The strokes would be drawn in another order, and
 //! where translucent ones cross, one would see it.
@@ -16,6 +17,8 @@ use edgemesh::edge_mesh::{EdgeMesh, FacePlane};
 use edgemesh::edge_word::EdgeWord;
 use edgemesh::index::{NONE, to_u32};
 use edgemesh::record::EdgeRecord;
+
+use crate::mesh_buffers::EDGES_PER_RUN;
 
 /// A part of a mesh.
 #[derive(Debug)]
@@ -30,7 +33,7 @@ pub(crate) struct Chunk<'a> {
     pub(crate) planes: Cow<'a, [FacePlane]>,
 }
 
-/// What one chunk can hold.
+/// What one chunk can hold: a run of edges with all that it needs, or more.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ChunkLimits {
     pub(crate) edges: usize,
@@ -66,16 +69,17 @@ pub(crate) fn chunks<'a>(
     }
     let mut cutter = Cutter::new(mesh);
     let mut first = 0;
-    for (at, record) in mesh.records.iter().enumerate() {
-        let (faces, vertices) = cutter.count_new(record);
-        let is_full = at - first == limits.edges
+    for (index, run) in mesh.records.chunks(EDGES_PER_RUN as usize).enumerate() {
+        let at = index * EDGES_PER_RUN as usize;
+        let (faces, vertices) = cutter.count_new(run);
+        let is_full = at + run.len() - first > limits.edges
             || cutter.faces.taken.len() + faces > limits.faces
             || cutter.vertices.taken.len() + vertices > limits.vertices;
-        if is_full {
+        if is_full && at > first {
             cutter.cut(first..at, words);
             first = at;
         }
-        cutter.take(record);
+        run.iter().for_each(|record| cutter.take(record));
     }
     cutter.cut(first..mesh.records.len(), words);
     cutter.chunks
@@ -142,18 +146,23 @@ impl<'a> Cutter<'a> {
         }
     }
 
-    /// The faces of an edge that are not in the chunk yet.
-    fn new_faces(&self, record: &EdgeRecord) -> impl Iterator<Item = u32> + use<'_, 'a> {
-        let faces = [record.face_a, record.face_b].into_iter();
-        faces.filter(|&face| face != NONE && !self.faces.has(face))
-    }
-
-    /// How many faces, and at most how many vertices, an edge brings along.
-    fn count_new(&self, record: &EdgeRecord) -> (usize, usize) {
-        let faces = self.new_faces(record).count();
-        let corners = self.new_faces(record).flat_map(|face| self.mesh.triangles[face as usize]);
-        let vertices = corners.chain([record.v0, record.v1]);
-        (faces, vertices.filter(|&vertex| !self.vertices.has(vertex)).count())
+    /// How many faces and vertices a run of edges brings along.
+    fn count_new(&self, run: &[EdgeRecord]) -> (usize, usize) {
+        let mut faces: Vec<u32> = run
+            .iter()
+            .flat_map(|record| [record.face_a, record.face_b])
+            .filter(|&face| face != NONE && !self.faces.has(face))
+            .collect();
+        faces.sort_unstable();
+        faces.dedup();
+        let corners = faces.iter().flat_map(|&face| self.mesh.triangles[face as usize]);
+        let mut vertices: Vec<u32> = corners
+            .chain(run.iter().flat_map(|record| [record.v0, record.v1]))
+            .filter(|&vertex| !self.vertices.has(vertex))
+            .collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        (faces.len(), vertices.len())
     }
 
     fn take(&mut self, record: &EdgeRecord) {
@@ -206,8 +215,8 @@ mod tests {
 
     fn strip() -> EdgeMesh {
         let positions: Vec<[f32; 3]> =
-            (0..40_u8).map(|at| [f32::from(at / 2), f32::from(at % 2), 0.0]).collect();
-        let polygons: Vec<[u32; 3]> = (0..38)
+            (0..240_u8).map(|at| [f32::from(at / 2), f32::from(at % 2), 0.0]).collect();
+        let polygons: Vec<[u32; 3]> = (0..238)
             .map(|at| if at % 2 == 0 { [at, at + 2, at + 1] } else { [at, at + 1, at + 2] })
             .collect();
         let polygons: Vec<&[u32]> = polygons.iter().map(|polygon| &polygon[..]).collect();
@@ -219,15 +228,16 @@ mod tests {
     fn chunks_have_every_edge_once_with_its_own_faces() {
         let mesh = strip();
         let words = edge_words(&mesh);
-        let limits = ChunkLimits { edges: 20, faces: 9, vertices: 12 };
+        let limits = ChunkLimits { edges: 150, faces: 128, vertices: 256 };
         let chunks = chunks(&mesh, &words, &limits);
         assert!(chunks.len() > 3);
         let mut next = 0;
         for chunk in &chunks {
             assert_eq!(chunk.edges.start, next);
             next = chunk.edges.end;
-            assert!(chunk.records.len() <= 20 && chunk.positions.len() <= 12);
-            assert!(chunk.triangles.len() <= 9 && chunk.planes.len() == chunk.triangles.len());
+            assert_eq!(chunk.edges.start % EDGES_PER_RUN as usize, 0);
+            assert!(chunk.records.len() <= 150 && chunk.positions.len() <= 256);
+            assert!(chunk.triangles.len() <= 128 && chunk.planes.len() == chunk.triangles.len());
             for (local, edge) in chunk.records.iter().zip(chunk.edges.clone()) {
                 let record = &mesh.records[edge];
                 let corner = |vertex: u32| mesh.positions[vertex as usize];

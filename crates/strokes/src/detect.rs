@@ -17,7 +17,7 @@ use crate::frame::{bind_buffers, storage_entry, uniform_buffer, uniform_entry};
 use crate::look::{Look, MAX_DRAWS};
 use crate::mesh_buffers::{ChunkBuffers, EdgeSource, FACES_PER_WORD, Layout};
 use crate::shader::{ShaderError, ShaderSource};
-use crate::view_buffers::{Tally, ViewBuffers};
+use crate::view_buffers::{ObjectBuffers, Tally, ViewBuffers};
 
 /// Invocations a workgroup, as in the shaders.
 const WORKGROUP: u32 = 64;
@@ -42,8 +42,8 @@ pub struct DetectUniform {
     pub draw_count: u32,
     /// Unused.
     pub padding: u32,
-    /// Layer and indices an edge of each draw, and 1 where none of its strokes is
-    /// expanded.
+    /// Layer and indices an edge of each draw, 1 where none of its strokes is
+    /// expanded, 1 where they are linked.
     pub draws: [[u32; 4]; MAX_DRAWS],
 }
 
@@ -56,7 +56,9 @@ impl DetectUniform {
         let styled = look.draws();
         for (draw, styled) in draws.iter_mut().zip(&styled) {
             let index_count = edgemesh::index::to_u32(styled.style.kind.indices().len());
-            *draw = [styled.layer, index_count, u32::from(styled.lies_over_surface()), 0];
+            let is_linked = styled.style.is_linked();
+            let is_listed = styled.lies_over_surface() || is_linked;
+            *draw = [styled.layer, index_count, u32::from(is_listed), u32::from(is_linked)];
         }
         Self {
             layers: table.layers,
@@ -150,6 +152,7 @@ impl DetectPipeline {
         device: &wgpu::Device,
         object: &wgpu::Buffer,
         chunk: &ChunkBuffers,
+        whole: &ObjectBuffers,
         view: &ViewBuffers,
     ) -> DetectDraw {
         let bind = |label, layout, buffers: &[(u32, &wgpu::Buffer)]| {
@@ -168,10 +171,10 @@ impl DetectPipeline {
         };
         let draw = [(0, object), (1, uniform), (2, edges), (6, &chunk.run_cones)];
         let mut lists = vec![
-            (1, &view.runs),
+            (1, &whole.runs),
             (2, &view.counts),
             (3, &view.live),
-            (4, &view.tally),
+            (4, &whole.tallies),
             (5, &view.draws),
         ];
         if faces.is_some() {
@@ -190,9 +193,17 @@ impl DetectPipeline {
 
     /// Forgets the last view's counts, and with `is_stale` what the classes gave;
     /// before [`Self::record`], outside of a pass.
-    pub(crate) fn clear(encoder: &mut wgpu::CommandEncoder, view: &ViewBuffers, is_stale: bool) {
-        let bytes = if is_stale { size_of::<Tally>() as u64 } else { Tally::VIEW_BYTES };
-        encoder.clear_buffer(&view.tally, 0, Some(bytes));
+    pub(crate) fn clear(
+        encoder: &mut wgpu::CommandEncoder,
+        tallies: &wgpu::Buffer,
+        chunk_count: usize,
+        is_stale: bool,
+    ) {
+        let whole = size_of::<Tally>() as u64;
+        let bytes = if is_stale { whole } else { Tally::VIEW_BYTES };
+        for chunk in 0..chunk_count as u64 {
+            encoder.clear_buffer(tallies, chunk * whole, Some(bytes));
+        }
     }
 
     /// Records the detection of one chunk; `@group(0)` must be the frame and

@@ -29,6 +29,7 @@ pub mod fill;
 pub mod frame;
 pub mod gpu;
 pub mod gpu_time;
+pub mod graph;
 pub mod look;
 pub mod mesh_buffers;
 pub mod object;

@@ -17,6 +17,7 @@ use edgemesh::oracle::stroke_quad::Placement;
 use edgemesh::oracle::stroke_segment::{LineKind, Parameterization};
 
 use crate::brush::Brush;
+pub use crate::graph::path_style::PathStyle;
 
 /// Layers that one object can have: one a class. WGSL twin: the constant of this
 /// name.
@@ -54,6 +55,9 @@ pub struct StrokeStyle {
     /// The distances from the eye, in units of the scene, where strokes begin to
     /// fade and where nothing is left of them.
     pub fade: Option<[f32; 2]>,
+    /// How edges are linked into strokes; `None` draws each edge by itself, as the
+    /// paper does. Where compute shaders detect; thin lines and fins are never linked.
+    pub path: Option<PathStyle>,
 }
 
 impl Default for StrokeStyle {
@@ -67,7 +71,15 @@ impl Default for StrokeStyle {
             parameterization: Parameterization::default(),
             brush: None,
             fade: None,
+            path: None,
         }
+    }
+}
+
+impl StrokeStyle {
+    /// Whether edges are linked into strokes.
+    pub(crate) const fn is_linked(&self) -> bool {
+        self.path.is_some() && !matches!(self.kind, LineKind::Thin | LineKind::Fin)
     }
 }
 
@@ -141,7 +153,10 @@ impl Look {
             table.ridge_steps = threshold_steps(ridge);
             table.valley_steps = threshold_steps(valley);
         }
-        table.keeps_hidden = u32::from(self.layers.iter().any(|layer| layer.hidden.is_some()));
+        // Chains would break where their own solid hides a part of them.
+        let needs_hidden = self.layers.iter().any(|layer| layer.hidden.is_some())
+            || self.draws().iter().any(|draw| draw.style.is_linked());
+        table.keeps_hidden = u32::from(needs_hidden);
         table
     }
 

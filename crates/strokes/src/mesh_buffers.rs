@@ -10,6 +10,7 @@
 //! | cones around 32 faces | 1 a face | indexed |
 //! | edge vertices | 320, 160 or 192 an edge | replicated, at 16 bits, face normals |
 //! | cones around 64 edges | 0.5 an edge | all |
+//! | links | 12 an edge | all, where strokes are to be linked |
 //! | positions and triangles of the fill | 12 a vertex, 12 a face | replicated, or in chunks |
 //!
 //! In the indexed layout the fill and the strokes share positions and triangles.
@@ -32,10 +33,12 @@ use wgpu::util::DeviceExt as _;
 
 use crate::chunk::{Chunk, ChunkLimits, chunks};
 use crate::frame::uniform_buffer;
+use crate::graph::buffers::LinkNode;
+use crate::graph::link_table::LinkTable;
 use crate::view_buffers::{MAX_EXPANDED_BYTES, RunState};
 
 /// Edges that one invocation looks at. WGSL twin: the constant of this name in
-/// `shaders/detect_edges.wgsl`.
+/// `shaders/common/view_runs.wgsl`.
 pub const EDGES_PER_RUN: u32 = 64;
 
 /// Faces whose facing bits are one word.
@@ -45,6 +48,10 @@ pub(crate) const FACES_PER_WORD: usize = 32;
 /// have room for all. What finds none is drawn straight from the list.
 const EDGES_PER_EXPANDED: usize = 16;
 const MIN_EXPANDED: usize = 1 << 14;
+
+/// Of this many edges one can be linked into strokes; of small meshes all.
+const EDGES_PER_NODE: usize = 8;
+const MIN_NODES: usize = 1 << 16;
 
 /// How edges lie in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -74,6 +81,14 @@ pub struct ChunkUniform {
     pub run_count: u32,
     /// Strokes that there is room for between expansion and drawing.
     pub capacity: u32,
+    /// The chunk's first run among those of the mesh.
+    pub first_run: u32,
+    /// The chunk's number.
+    pub chunk_index: u32,
+    /// Edges that can be linked into strokes.
+    pub node_capacity: u32,
+    /// Unused.
+    pub padding: u32,
 }
 
 /// The mesh does not fit the device.
@@ -114,6 +129,8 @@ pub(crate) struct ChunkBuffers {
     pub(crate) uniform: wgpu::Buffer,
     pub(crate) source: EdgeSource,
     pub(crate) run_cones: wgpu::Buffer,
+    /// Which edge follows which, where strokes can be linked.
+    pub(crate) links: Option<wgpu::Buffer>,
 }
 
 /// Triangles to fill.
@@ -135,7 +152,7 @@ pub struct MeshBuffers {
 }
 
 impl MeshBuffers {
-    /// Uploads `mesh`.
+    /// Uploads `mesh`, to draw each edge by itself.
     ///
     /// # Errors
     /// [`MeshTooLarge`], before anything is uploaded: where the adapter cannot
@@ -145,10 +162,32 @@ impl MeshBuffers {
         mesh: &EdgeMesh,
         layout: Layout,
     ) -> Result<Self, MeshTooLarge> {
-        let limits = chunk_limits(device, layout)?;
+        Self::upload(device, mesh, layout, None)
+    }
+
+    /// Uploads `mesh`, to draw it in linked strokes too: 12 bytes an edge more.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_links(
+        device: &wgpu::Device,
+        mesh: &EdgeMesh,
+        layout: Layout,
+    ) -> Result<Self, MeshTooLarge> {
+        Self::upload(device, mesh, layout, Some(LinkTable::of(mesh)))
+    }
+
+    fn upload(
+        device: &wgpu::Device,
+        mesh: &EdgeMesh,
+        layout: Layout,
+        links: Option<LinkTable>,
+    ) -> Result<Self, MeshTooLarge> {
+        let limits = chunk_limits(device, layout, mesh.records.len())?;
         let words = edge_words(mesh);
         let parts = chunks(mesh, &words, &limits);
-        let upload = Upload { device, byte_count: std::cell::Cell::new(0) };
+        let byte_count = std::cell::Cell::new(0);
+        let upload = Upload { device, edge_count: mesh.records.len(), byte_count };
         let quantization = Quantization::of(&mesh.bounds);
         let replicated = match layout {
             Layout::Indexed => Vec::new(),
@@ -157,7 +196,7 @@ impl MeshBuffers {
             Layout::FaceNormals => bytemuck::pod_collect_to_vec(&fins(mesh)),
         };
         let words_per_edge = replicated.len() / mesh.records.len().max(1);
-        let chunk_buffers = |part: &Chunk| {
+        let chunk_buffers = |(index, part): (usize, &Chunk)| {
             let words = |edges: &Range<usize>| {
                 &replicated[edges.start * words_per_edge..edges.end * words_per_edge]
             };
@@ -175,9 +214,9 @@ impl MeshBuffers {
                 Layout::Replicated16 => run_cones(part, &rounded_planes(part, &quantization)),
                 _ => run_cones(part, &part.planes),
             };
-            upload.chunk(part, source, &cones)
+            upload.chunk(index, part, source, &cones, links.as_ref())
         };
-        let chunks: Vec<ChunkBuffers> = parts.iter().map(chunk_buffers).collect();
+        let chunks: Vec<ChunkBuffers> = parts.iter().enumerate().map(chunk_buffers).collect();
         let fill = match &chunks[..] {
             [ChunkBuffers { source: EdgeSource::Indexed { positions, triangles, .. }, .. }] => {
                 vec![FillBuffers {
@@ -198,6 +237,12 @@ impl MeshBuffers {
         self.byte_count
     }
 
+    /// Whether its edges can be linked into strokes.
+    #[must_use]
+    pub fn has_links(&self) -> bool {
+        self.chunks.iter().all(|chunk| chunk.links.is_some())
+    }
+
     /// How many chunks the mesh is in.
     #[must_use]
     pub const fn chunk_count(&self) -> usize {
@@ -206,7 +251,11 @@ impl MeshBuffers {
 }
 
 /// What the device can bind of a mesh at once.
-fn chunk_limits(device: &wgpu::Device, layout: Layout) -> Result<ChunkLimits, MeshTooLarge> {
+fn chunk_limits(
+    device: &wgpu::Device,
+    layout: Layout,
+    edge_count: usize,
+) -> Result<ChunkLimits, MeshTooLarge> {
     let limits = device.limits();
     let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
     let bytes_per_edge = match layout {
@@ -221,7 +270,8 @@ fn chunk_limits(device: &wgpu::Device, layout: Layout) -> Result<ChunkLimits, Me
     let needs = [
         ("edges", run * bytes_per_edge),
         ("face planes", 2 * run * size_of::<FacePlane>()),
-        ("run states", size_of::<RunState>()),
+        // All of them are one buffer.
+        ("run states", edge_count.div_ceil(run).max(1) * size_of::<RunState>()),
     ];
     for (what, need) in needs {
         if need > bytes {
@@ -233,8 +283,19 @@ fn chunk_limits(device: &wgpu::Device, layout: Layout) -> Result<ChunkLimits, Me
     Ok(ChunkLimits { edges, faces: bytes / size_of::<FacePlane>(), vertices: bytes / 12 })
 }
 
+/// Edges of a chunk that can be linked into strokes: of small meshes all, and its share
+/// of what one binding can hold of the whole mesh.
+fn node_capacity(device: &wgpu::Device, edge_count: usize, of_mesh: usize) -> u32 {
+    let limit = device.limits().max_storage_buffer_binding_size / size_of::<LinkNode>() as u64;
+    let most = u128::from(limit) * edge_count as u128 / of_mesh.max(1) as u128;
+    let most = usize::try_from(most).unwrap_or(usize::MAX);
+    to_u32(edge_count.min(MIN_NODES.max(edge_count / EDGES_PER_NODE)).min(most))
+}
+
 struct Upload<'a> {
     device: &'a wgpu::Device,
+    /// Of the whole mesh.
+    edge_count: usize,
     byte_count: std::cell::Cell<u64>,
 }
 
@@ -266,7 +327,14 @@ impl Upload<'_> {
         }
     }
 
-    fn chunk(&self, part: &Chunk, source: EdgeSource, cones: &[NormalCone]) -> ChunkBuffers {
+    fn chunk(
+        &self,
+        index: usize,
+        part: &Chunk,
+        source: EdgeSource,
+        cones: &[NormalCone],
+        links: Option<&LinkTable>,
+    ) -> ChunkBuffers {
         let edge_count = part.records.len();
         let most = MAX_EXPANDED_BYTES.min(self.device.limits().max_storage_buffer_binding_size);
         let most = most / u64::from(crate::expand::BYTES_PER_STROKE);
@@ -278,12 +346,18 @@ impl Upload<'_> {
             capacity: to_u32(
                 edge_count.min(MIN_EXPANDED.max(edge_count / EDGES_PER_EXPANDED)).min(most),
             ),
+            first_run: to_u32(part.edges.start) / EDGES_PER_RUN,
+            chunk_index: to_u32(index),
+            node_capacity: node_capacity(self.device, edge_count, self.edge_count),
+            padding: 0,
         };
         ChunkBuffers {
             size,
             uniform: uniform_buffer(self.device, "chunk", &size),
             source,
             run_cones: self.items("run cones", cones, BufferUsages::STORAGE),
+            links: links
+                .map(|links| self.items("links", &links.chunk(&part.edges), BufferUsages::STORAGE)),
         }
     }
 

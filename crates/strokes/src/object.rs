@@ -3,18 +3,21 @@
 use std::sync::Arc;
 
 use edgemesh::camera::View;
+use edgemesh::index::to_u32;
 use edgemesh::oracle::stroke_segment::LineKind;
 use glam::{DMat4, Vec2};
 
 use crate::detect::DetectDraw;
 use crate::frame::{ObjectUniform, bind_buffers, uniform_buffer};
 use crate::gpu::Gpu;
-use crate::look::Visibility;
-use crate::mesh_buffers::{ChunkBuffers, EdgeSource, MeshBuffers};
+use crate::graph::buffers::{Element, GraphBuffers, GraphHeader, GraphUniform, LinkNode};
+use crate::graph::link::LinkDraw;
+use crate::look::{MAX_DRAWS, Visibility};
+use crate::mesh_buffers::{ChunkBuffers, ChunkUniform, EdgeSource, MeshBuffers};
 use crate::readback::{ReadbackError, read_buffer};
 use crate::renderer::{DetectionPath, PreparedDraw, PreparedLook, Renderer};
 use crate::stroke_layouts::StrokeLayouts;
-use crate::view_buffers::{Tally, ViewBuffers};
+use crate::view_buffers::{ObjectBuffers, Tally, ViewBuffers};
 
 /// An object of a scene.
 #[derive(Debug)]
@@ -25,11 +28,34 @@ pub struct Object {
     pub(crate) look: Arc<PreparedLook>,
     pub(crate) fill_group: wgpu::BindGroup,
     pub(crate) parts: Vec<ObjectPart>,
+    pub(crate) whole: ObjectBuffers,
+    /// Where strokes are linked.
+    pub(crate) graph: Option<ObjectGraph>,
     /// Whether what no view changes is still to be worked out.
     pub(crate) is_stale: bool,
     /// False where the transform flattens the object to nothing.
     pub(crate) is_placed: bool,
     uniform: wgpu::Buffer,
+}
+
+/// The stroke graph as a view made it, for tests and inspection.
+#[derive(Debug)]
+pub struct GraphReadback {
+    /// How much of everything there is.
+    pub header: GraphHeader,
+    /// The edges that are linked, layer by layer.
+    pub nodes: Vec<LinkNode>,
+    /// The elements of all chains, one chain after another.
+    pub elements: Vec<Element>,
+}
+
+/// The stroke graph of an object.
+#[derive(Debug)]
+pub(crate) struct ObjectGraph {
+    pub(crate) buffers: GraphBuffers,
+    /// `@group(1)` of its passes.
+    pub(crate) uniform: wgpu::BindGroup,
+    pub(crate) link: LinkDraw,
 }
 
 /// What one chunk of the object needs.
@@ -64,21 +90,29 @@ impl Object {
         let device = &gpu.device;
         let empty: ObjectUniform = bytemuck::Zeroable::zeroed();
         let uniform = uniform_buffer(device, "object", &empty);
-        let expanded = |draw: &PreparedDraw| (!draw.lies_over_surface).then_some(draw.kind);
+        let expanded =
+            |draw: &PreparedDraw| (!draw.lies_over_surface && !draw.is_linked).then_some(draw.kind);
         let expanded: Vec<Option<LineKind>> = look.draws.iter().map(expanded).collect();
+        let sizes: Vec<ChunkUniform> = mesh.chunks.iter().map(|chunk| chunk.size).collect();
+        let whole = ObjectBuffers::new(device, &sizes);
         let part = |chunk: &ChunkBuffers| {
-            let lists = (renderer.options.path == DetectionPath::Compute)
-                .then(|| lists(device, renderer, &uniform, chunk, look.layer_count, &expanded));
+            let lists = (renderer.options.path == DetectionPath::Compute).then(|| {
+                let (layers, object) = (look.layer_count, (&uniform, &whole));
+                lists(device, renderer, object, chunk, layers, &expanded)
+            });
             ObjectPart {
                 edges: edges_group(device, renderer, &uniform, chunk),
                 planes: planes_group(device, &renderer.layouts, chunk),
                 lists,
             }
         };
+        let parts: Vec<ObjectPart> = mesh.chunks.iter().map(part).collect();
         Self {
             world_from_object: DMat4::IDENTITY,
+            graph: graph(device, renderer, (&uniform, &whole), &mesh, &parts, &look),
             fill_group: renderer.fill.draw(device, &uniform),
-            parts: mesh.chunks.iter().map(part).collect(),
+            parts,
+            whole,
             mesh,
             look,
             is_stale: true,
@@ -112,13 +146,12 @@ impl Object {
     /// # Errors
     /// Where the device is lost.
     pub fn read_tally(&self, gpu: &Gpu) -> Result<Tally, ReadbackError> {
-        let mut sum = Tally::default();
-        for lists in self.parts.iter().filter_map(|part| part.lists.as_ref()) {
-            for tally in read_buffer::<Tally>(gpu, &lists.view.tally, 1)? {
-                sum = sum.plus(&tally);
-            }
-        }
-        Ok(sum)
+        let tallies: Vec<Tally> = self.read_tallies(gpu)?;
+        Ok(tallies.iter().fold(Tally::default(), |sum, tally| sum.plus(tally)))
+    }
+
+    fn read_tallies(&self, gpu: &Gpu) -> Result<Vec<Tally>, ReadbackError> {
+        read_buffer(gpu, &self.whole.tallies, self.parts.len())
     }
 
     /// The live list of one chunk in the last view: each entry is the index of a
@@ -129,9 +162,22 @@ impl Object {
     pub fn read_live(&self, gpu: &Gpu, chunk: usize) -> Result<Vec<u32>, ReadbackError> {
         let lists = self.parts.get(chunk).and_then(|part| part.lists.as_ref());
         let Some(lists) = lists else { return Ok(Vec::new()) };
-        let tallies: Vec<Tally> = read_buffer(gpu, &lists.view.tally, 1)?;
-        let count = tallies.first().map_or(0, |tally| tally.stroke_count);
+        let count = self.read_tallies(gpu)?.get(chunk).map_or(0, |tally| tally.stroke_count);
         read_buffer(gpu, &lists.view.live, count as usize)
+    }
+
+    /// The chains of the last view: the edges in order, and for each the first of its
+    /// chain and how many that has; nothing where no strokes are linked.
+    ///
+    /// # Errors
+    /// Where the device is lost.
+    pub fn read_chains(&self, gpu: &Gpu) -> Result<Option<GraphReadback>, ReadbackError> {
+        let Some(ObjectGraph { buffers, .. }) = &self.graph else { return Ok(None) };
+        let header: Vec<GraphHeader> = read_buffer(gpu, &buffers.header, 1)?;
+        let count = header[0].node_count as usize;
+        let nodes = read_buffer(gpu, &buffers.nodes, count)?;
+        let elements = read_buffer(gpu, &buffers.elements, count)?;
+        Ok(Some(GraphReadback { header: header[0], nodes, elements }))
     }
 
     /// The facing bits of one chunk in the last view, 32 faces a word; of the
@@ -147,10 +193,48 @@ impl Object {
     }
 }
 
+/// The graph of an object whose look links strokes.
+fn graph(
+    device: &wgpu::Device,
+    renderer: &Renderer,
+    (object, whole): (&wgpu::Buffer, &ObjectBuffers),
+    mesh: &MeshBuffers,
+    parts: &[ObjectPart],
+    look: &PreparedLook,
+) -> Option<ObjectGraph> {
+    let pipeline = renderer.link.as_ref()?;
+    if !look.draws.iter().any(|draw| draw.is_linked) {
+        return None;
+    }
+    let sizes: Vec<ChunkUniform> = mesh.chunks.iter().map(|chunk| chunk.size).collect();
+    let buffers = GraphBuffers::new(device, &sizes);
+    let views = parts.iter().filter_map(|part| part.lists.as_ref().map(|lists| &lists.view));
+    let chunks: Vec<_> = mesh.chunks.iter().zip(views).collect();
+    let link = pipeline.draw(device, object, whole, &chunks, &buffers)?;
+    let mut draws = [[0; 4]; MAX_DRAWS];
+    for (words, draw) in draws.iter_mut().zip(&look.draws) {
+        *words = [draw.layer, u32::from(draw.is_linked), 0, 0];
+    }
+    let uniform = GraphUniform {
+        layer_count: look.layer_count,
+        chunk_count: to_u32(sizes.len()),
+        draw_count: to_u32(look.draws.len()),
+        node_capacity: buffers.size.nodes,
+        path_capacity: 0,
+        point_capacity: 0,
+        draws_contours: u32::from(look.draws_contours),
+        padding: 0,
+        draws,
+    };
+    let uniform = uniform_buffer(device, "graph", &uniform);
+    let uniform = bind_buffers(device, "graph", pipeline.graph_layout(), &[(0, &uniform)]);
+    Some(ObjectGraph { buffers, uniform, link })
+}
+
 fn lists(
     device: &wgpu::Device,
     renderer: &Renderer,
-    uniform: &wgpu::Buffer,
+    (uniform, whole): (&wgpu::Buffer, &ObjectBuffers),
     chunk: &ChunkBuffers,
     layer_count: u32,
     expanded: &[Option<LineKind>],
@@ -163,7 +247,7 @@ fn lists(
         Some(bind_buffers(device, "expand strokes", &layouts.expand, &buffers))
     });
     PartLists {
-        detect: renderer.detect.draw(device, uniform, chunk, &view),
+        detect: renderer.detect.draw(device, uniform, chunk, whole, &view),
         expand: expand.collect(),
         listed: bind_buffers(device, "listed strokes", &layouts.listed, &read),
         view,

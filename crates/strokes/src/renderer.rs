@@ -6,6 +6,7 @@ use std::collections::hash_map::Entry;
 use std::sync::Arc;
 
 use edgemesh::camera::View;
+use edgemesh::oracle::feature::EdgeClass;
 use edgemesh::oracle::stroke_segment::LineKind;
 use wgpu::util::DeviceExt as _;
 
@@ -15,6 +16,7 @@ use crate::fill::{FillKind, FillPipeline};
 use crate::frame::{Frame, FrameUniform, frame_layout};
 use crate::gpu::Gpu;
 use crate::gpu_time::GpuTimer;
+use crate::graph::link::LinkPipeline;
 use crate::look::{Look, Visibility};
 use crate::mesh_buffers::{Layout, MeshBuffers};
 use crate::object::{Object, ObjectPart};
@@ -26,7 +28,7 @@ use crate::targets::{TargetFormats, Targets};
 use crate::view_buffers::{DrawArguments, REST_OFFSET};
 
 /// The passes of a frame, in order, as [`GpuTimer`] numbers them.
-pub const PASS_NAMES: [&str; 4] = ["detect", "expand", "fill", "strokes"];
+pub const PASS_NAMES: [&str; 5] = ["detect", "link", "expand", "fill", "strokes"];
 
 /// Where feature edges are detected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -58,6 +60,8 @@ pub struct Renderer {
     pub(crate) layouts: StrokeLayouts,
     pub(crate) detect: DetectPipeline,
     pub(crate) fill: FillPipeline,
+    /// Once a look links strokes.
+    pub(crate) link: Option<LinkPipeline>,
     frame: Frame,
     expand: HashMap<LineKind, Arc<ExpandPipeline>>,
     strokes: HashMap<StrokeVariant, wgpu::RenderPipeline>,
@@ -68,6 +72,8 @@ pub struct Renderer {
 #[derive(Debug)]
 pub struct PreparedLook {
     pub(crate) layer_count: u32,
+    /// Whether contours are in a layer as such.
+    pub(crate) draws_contours: bool,
     pub(crate) draws: Vec<PreparedDraw>,
     detect_pass: wgpu::BindGroup,
     fill_pass: wgpu::BindGroup,
@@ -77,9 +83,11 @@ pub struct PreparedLook {
 /// One draw of strokes.
 #[derive(Debug)]
 pub(crate) struct PreparedDraw {
+    pub(crate) layer: u32,
     pub(crate) kind: LineKind,
     pub(crate) visibility: Visibility,
     pub(crate) lies_over_surface: bool,
+    pub(crate) is_linked: bool,
     style: wgpu::BindGroup,
     vertices: DrawVertices,
 }
@@ -110,6 +118,7 @@ impl Renderer {
             layouts: StrokeLayouts::new(device, &frame, options.layout, &options.formats),
             detect: DetectPipeline::new(device, &frame, options.layout)?,
             fill: FillPipeline::new(device, &frame, &options.formats)?,
+            link: None,
             frame: Frame::new(device, &frame, &bytemuck::Zeroable::zeroed()),
             options,
             expand: HashMap::new(),
@@ -135,6 +144,11 @@ impl Renderer {
         let has_stencil = self.options.formats.has_stencil();
         assert!(look.silhouette.is_none() || has_stencil, "a silhouette needs a stencil");
         let table = look.class_table();
+        let is_linked = look.draws().iter().any(|draw| draw.style.is_linked());
+        if is_linked && self.options.path == DetectionPath::Compute && self.link.is_none() {
+            let frame = frame_layout(&gpu.device);
+            self.link = Some(LinkPipeline::new(&gpu.device, &frame, self.options.layout)?);
+        }
         let mut draws = Vec::new();
         for (index, draw) in look.draws().iter_mut().enumerate() {
             if self.options.layout == Layout::FaceNormals {
@@ -148,7 +162,7 @@ impl Renderer {
             let vertices = match (path, layout) {
                 (DetectionPath::Compute, _) => {
                     let listed = pipeline(VertexSource::Listed)?;
-                    let expanded = if lies_over_surface {
+                    let expanded = if lies_over_surface || draw.style.is_linked() {
                         None
                     } else {
                         let drawn = pipeline(VertexSource::Expanded)?;
@@ -164,10 +178,20 @@ impl Renderer {
                 }
             };
             let visibility = draw.visibility;
-            draws.push(PreparedDraw { kind, visibility, lies_over_surface, style, vertices });
+            let is_linked = draw.style.is_linked() && path == DetectionPath::Compute;
+            draws.push(PreparedDraw {
+                layer: draw.layer,
+                kind,
+                visibility,
+                lies_over_surface,
+                is_linked,
+                style,
+                vertices,
+            });
         }
         let fill_kind = if look.fill_color.is_some() { FillKind::Whole } else { FillKind::Clear };
         Ok(Arc::new(PreparedLook {
+            draws_contours: table.drawn & 1 << EdgeClass::Contour as u32 != 0,
             layer_count: edgemesh::index::to_u32(look.layers.len()).max(1),
             draws,
             detect_pass: self.detect.pass(&gpu.device, look),
@@ -179,7 +203,7 @@ impl Renderer {
     /// Prepares an object; its mesh must be in the renderer's layout.
     ///
     /// # Panics
-    /// Where the mesh is in another layout.
+    /// Where the mesh is in another layout, or has no links and the look needs them.
     #[must_use]
     pub fn object(
         &mut self,
@@ -188,6 +212,8 @@ impl Renderer {
         look: &Arc<PreparedLook>,
     ) -> Object {
         assert_eq!(mesh.layout, self.options.layout, "a mesh in the renderer's layout");
+        let is_linked = look.draws.iter().any(|draw| draw.is_linked);
+        assert!(!is_linked || mesh.has_links(), "a mesh with links for strokes that are linked");
         for draw in &look.draws {
             for chunk in &mesh.chunks {
                 for key in IndexKey::of(draw) {
@@ -253,6 +279,7 @@ impl Renderer {
         }
         let placed: Vec<&Object> = objects.iter().filter(|object| object.is_placed).collect();
         self.encode_detect(&mut encoder, &placed, timer);
+        self.encode_link(&mut encoder, &placed, timer);
         self.encode_expand(&mut encoder, &placed, timer);
         let asks_for_fill =
             |object: &&Object| object.look.draws.iter().any(|draw| draw.lies_over_surface);
@@ -280,9 +307,8 @@ impl Renderer {
         timer: Option<&GpuTimer>,
     ) {
         for object in objects {
-            for lists in object.parts.iter().filter_map(|part| part.lists.as_ref()) {
-                DetectPipeline::clear(encoder, &lists.view, object.is_stale);
-            }
+            let tallies = &object.whole.tallies;
+            DetectPipeline::clear(encoder, tallies, object.parts.len(), object.is_stale);
         }
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some(PASS_NAMES[0]),
@@ -297,6 +323,28 @@ impl Renderer {
         }
     }
 
+    fn encode_link(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        objects: &[&Object],
+        timer: Option<&GpuTimer>,
+    ) {
+        let graphs = || objects.iter().filter_map(|object| object.graph.as_ref());
+        for graph in graphs() {
+            LinkPipeline::clear(encoder, &graph.buffers);
+        }
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some(PASS_NAMES[1]),
+            timestamp_writes: timer.map(|timer| timer.compute(1)),
+        });
+        pass.set_bind_group(0, &self.frame.bind_group, &[]);
+        let Some(link) = &self.link else { return };
+        for graph in graphs() {
+            pass.set_bind_group(1, &graph.uniform, &[]);
+            link.record(&mut pass, &graph.buffers, &graph.link);
+        }
+    }
+
     fn encode_expand(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -304,8 +352,8 @@ impl Renderer {
         timer: Option<&GpuTimer>,
     ) {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-            label: Some(PASS_NAMES[1]),
-            timestamp_writes: timer.map(|timer| timer.compute(1)),
+            label: Some(PASS_NAMES[2]),
+            timestamp_writes: timer.map(|timer| timer.compute(2)),
         });
         pass.set_bind_group(0, &self.frame.bind_group, &[]);
         for object in objects {
@@ -385,10 +433,10 @@ impl FrameEncoder<'_> {
         let background = wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a });
         let color = self.targets.color_attachment(background, false);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(PASS_NAMES[2]),
+            label: Some(PASS_NAMES[3]),
             color_attachments: &[Some(color)],
             depth_stencil_attachment: Some(self.targets.cleared_depth()),
-            timestamp_writes: timer.map(|timer| timer.render(2)),
+            timestamp_writes: timer.map(|timer| timer.render(3)),
             ..Default::default()
         });
         let first_batch = batches.clears.first().copied().unwrap_or(self.objects.len());
@@ -422,10 +470,10 @@ impl FrameEncoder<'_> {
             let is_last = batch + 1 == ranges.len();
             let color = self.targets.color_attachment(wgpu::LoadOp::Load, is_last);
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some(PASS_NAMES[3]),
+                label: Some(PASS_NAMES[4]),
                 color_attachments: &[Some(color)],
                 depth_stencil_attachment: Some(self.targets.read_depth()),
-                timestamp_writes: timer.filter(|_| is_first).map(|timer| timer.render(3)),
+                timestamp_writes: timer.filter(|_| is_first).map(|timer| timer.render(4)),
                 ..Default::default()
             });
             if is_first {

@@ -1,12 +1,13 @@
-//! What a view makes of one chunk of one object, written by the GPU alone.
+//! What a view makes of one object and of each of its chunks, written by the GPU
+//! alone. The run states and tallies of all chunks are one buffer each.
 //!
 //! | buffer | bytes |
 //! |---|---|
 //! | facing | 1 bit a face |
-//! | run states | 32 for 64 edges |
+//! | run states | 40 for 64 edges |
 //! | counts | 4 for 64 edges and layer |
 //! | live edges | 4 an edge |
-//! | tally | 32 |
+//! | tally | 64 |
 //! | arguments of the draws | 1024 |
 //! | vertices | 200 a stroke that there is room for (of 16 edges one), each draw |
 
@@ -16,13 +17,13 @@ use edgemesh::oracle::stroke_segment::LineKind;
 use wgpu::BufferUsages;
 
 use crate::expand::BYTES_PER_VERTEX;
-use crate::look::MAX_DRAWS;
+use crate::look::{MAX_DRAWS, MAX_LAYERS};
 use crate::mesh_buffers::{ChunkUniform, FACES_PER_WORD};
 
 /// Expanded strokes take at most this much for a draw of a chunk.
 pub(crate) const MAX_EXPANDED_BYTES: u64 = 1 << 26;
 
-/// The edges of a run, one bit each. WGSL twin: `shaders/detect_edges.wgsl`.
+/// The edges of a run, one bit each. WGSL twin: `shaders/common/view_runs.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct RunState {
@@ -32,6 +33,8 @@ pub struct RunState {
     pub solid: [u32; 2],
     /// Drawn in this view.
     pub live: [u32; 2],
+    /// Contours of this view.
+    pub contour: [u32; 2],
     /// 1 where the winding of two faces clashes.
     pub has_clash: u32,
     /// Unused.
@@ -81,7 +84,7 @@ pub(crate) const GROUPS_OFFSET: u64 = std::mem::offset_of!(DrawArguments, groups
 /// Bytes from the start of [`DrawArguments`] to the rest.
 pub(crate) const REST_OFFSET: u64 = std::mem::offset_of!(DrawArguments, vertex_count) as u64;
 
-/// The counts of a view. WGSL twin: `shaders/detect_edges.wgsl`.
+/// The counts of a view. WGSL twin: `shaders/common/view_runs.wgsl`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Tally {
@@ -101,6 +104,9 @@ pub struct Tally {
     pub material: u32,
     /// Edges between two smoothing groups.
     pub smoothing: u32,
+    /// Where the edges of each layer begin in the live list; the last is their
+    /// number.
+    pub layer_first: [u32; MAX_LAYERS + 1],
 }
 
 impl Tally {
@@ -121,9 +127,9 @@ impl Tally {
         }
     }
 
-    /// Both together.
+    /// The counts of classes and of strokes of both together.
     #[must_use]
-    pub const fn plus(&self, other: &Self) -> Self {
+    pub fn plus(&self, other: &Self) -> Self {
         Self {
             contour: self.contour + other.contour,
             stroke_count: self.stroke_count + other.stroke_count,
@@ -133,6 +139,36 @@ impl Tally {
             marked: self.marked + other.marked,
             material: self.material + other.material,
             smoothing: self.smoothing + other.smoothing,
+            layer_first: std::array::from_fn(|at| self.layer_first[at] + other.layer_first[at]),
+        }
+    }
+}
+
+/// What one view makes of a whole object.
+#[derive(Debug)]
+pub(crate) struct ObjectBuffers {
+    pub(crate) runs: wgpu::Buffer,
+    /// One a chunk.
+    pub(crate) tallies: wgpu::Buffer,
+}
+
+impl ObjectBuffers {
+    pub(crate) fn new(device: &wgpu::Device, chunks: &[ChunkUniform]) -> Self {
+        let buffer = |label: &str, size: usize, usage: BufferUsages| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: size as u64,
+                usage: BufferUsages::STORAGE | usage,
+                mapped_at_creation: false,
+            })
+        };
+        let runs: u32 = chunks.iter().map(|chunk| chunk.run_count).sum();
+        let read_back = BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
+        // A binding must not be empty.
+        let runs = size_of::<RunState>() * runs.max(1) as usize;
+        Self {
+            runs: buffer("run states", runs, BufferUsages::empty()),
+            tallies: buffer("tallies", size_of::<Tally>() * chunks.len(), read_back),
         }
     }
 }
@@ -141,10 +177,8 @@ impl Tally {
 #[derive(Debug)]
 pub(crate) struct ViewBuffers {
     pub(crate) facing: wgpu::Buffer,
-    pub(crate) runs: wgpu::Buffer,
     pub(crate) counts: wgpu::Buffer,
     pub(crate) live: wgpu::Buffer,
-    pub(crate) tally: wgpu::Buffer,
     /// The arguments of the draws, in order.
     pub(crate) draws: wgpu::Buffer,
     /// Expanded vertices, one buffer a draw; none where no stroke is expanded.
@@ -169,7 +203,6 @@ impl ViewBuffers {
         };
         let runs = u64::from(chunk.run_count);
         let faces = (chunk.face_count as usize).div_ceil(FACES_PER_WORD) as u64;
-        let read_back = BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
         let draws = (size_of::<DrawArguments>() * MAX_DRAWS) as u64;
         let vertices = |kind: &LineKind| {
             let bytes =
@@ -178,10 +211,8 @@ impl ViewBuffers {
         };
         Self {
             facing: buffer("facing", 4 * faces, BufferUsages::COPY_SRC),
-            runs: buffer("run states", size_of::<RunState>() as u64 * runs, BufferUsages::empty()),
             counts: buffer("counts", 4 * runs * u64::from(layer_count), BufferUsages::empty()),
             live: buffer("live edges", 4 * u64::from(chunk.edge_count), BufferUsages::COPY_SRC),
-            tally: buffer("tally", size_of::<Tally>() as u64, read_back),
             draws: buffer("draws", draws, BufferUsages::INDIRECT | BufferUsages::COPY_SRC),
             vertices: expanded.iter().map(|kind| kind.as_ref().map(vertices)).collect(),
         }

@@ -20,10 +20,10 @@ use testkit::locate::{left_out, shared};
 use crate::own_models::own_models;
 
 /// Views of each model; of all together more than a thousand.
-const VIEWS: u32 = 125;
+pub(crate) const VIEWS: u32 = 125;
 
 /// Evenly around the mesh, no two views from one side, some from close by.
-fn eye(mesh: &EdgeMesh, view: u32) -> DVec3 {
+pub(crate) fn eye(mesh: &EdgeMesh, view: u32) -> DVec3 {
     let part = (f64::from(view) + 0.5) / f64::from(VIEWS);
     let height = 1.0 - 2.0 * part;
     // The golden angle.
@@ -47,7 +47,8 @@ fn check(name: &str, mesh: &EdgeMesh) -> u32 {
         for (table, layers) in [(apart, 2), (ClassTable::all_in_one(), 1)] {
             let table = ClassTable { keeps_hidden: 1, ..table };
             let lines = classify_lines(mesh, &words, eye, &table, true);
-            let linking = LayerLinks { mesh, faces: &faces, links: &links, lines: &lines };
+            let (faces, links, lines) = (&faces, &links, &lines);
+            let linking = LayerLinks { mesh, faces, links, lines, draws_contours: true };
             let mut count = vec![0_u32; mesh.records.len()];
             for layer in 0..layers {
                 for chain in linking.chains(layer) {
@@ -65,7 +66,7 @@ fn check(name: &str, mesh: &EdgeMesh) -> u32 {
     linked
 }
 
-fn check_chain(linking: &LayerLinks, chain: &LayerChain) {
+pub(crate) fn check_chain(linking: &LayerLinks, chain: &LayerChain) {
     let LayerLinks { mesh, faces, lines, .. } = *linking;
     let is_contour =
         |element: &Element| lines[element.edge as usize].bits.contains(LineBits::CONTOUR);

@@ -18,6 +18,11 @@ use edgemesh::record::{EdgeFlags, EdgeRecord, EdgeVertex, EdgeVertex16};
 use strokes::detect::DetectUniform;
 use strokes::fill::FillUniform;
 use strokes::frame::{FrameUniform, ObjectUniform};
+use strokes::graph::buffers::{
+    ARC_PER_PX, BACKWARD, CUT_END, CUT_START, Chain, ChainState, Element, GraphHeader,
+    GraphUniform, ITEMS_PER_SUM, LinkNode, NO_NODE, ON_LOOP, UNSEEN,
+};
+use strokes::graph::link_table::{REVERSED, SURFACE_CUT, SURFACE_END};
 use strokes::look::{MAX_DRAWS, MAX_LAYERS};
 use strokes::mesh_buffers::{ChunkUniform, EDGES_PER_RUN};
 use strokes::shader::ShaderSource;
@@ -45,6 +50,7 @@ macro_rules! layout {
 fn rust_layouts() -> BTreeMap<String, Layout> {
     let mut layouts = scene_layouts();
     layouts.extend(view_layouts());
+    layouts.extend(graph_layouts());
     layouts
 }
 
@@ -63,7 +69,16 @@ fn scene_layouts() -> BTreeMap<String, Layout> {
             center,
             step
         }),
-        layout!(ChunkUniform { face_count, edge_count, run_count, capacity }),
+        layout!(ChunkUniform {
+            face_count,
+            edge_count,
+            run_count,
+            capacity,
+            first_run,
+            chunk_index,
+            node_capacity,
+            padding
+        }),
         layout!(FacePlane { normal, point }),
         layout!(NormalCone { center, radius, axis, cosine }),
         layout!(EdgeRecord { v0, v1, face_a, face_b, flags }),
@@ -100,7 +115,7 @@ fn view_layouts() -> BTreeMap<String, Layout> {
             padding,
             draws
         }),
-        layout!(RunState { marked, solid, live, has_clash, padding }),
+        layout!(RunState { marked, solid, live, contour, has_clash, padding }),
         layout!(Tally {
             contour,
             stroke_count,
@@ -109,7 +124,8 @@ fn view_layouts() -> BTreeMap<String, Layout> {
             boundary,
             marked,
             material,
-            smoothing
+            smoothing,
+            layer_first
         }),
         layout!(DrawArguments {
             index_count,
@@ -128,6 +144,39 @@ fn view_layouts() -> BTreeMap<String, Layout> {
             expanded,
             padding
         }),
+    ])
+}
+
+/// What the stroke graph is made of.
+fn graph_layouts() -> BTreeMap<String, Layout> {
+    BTreeMap::from([
+        layout!(GraphUniform {
+            layer_count,
+            chunk_count,
+            draw_count,
+            node_capacity,
+            path_capacity,
+            point_capacity,
+            draws_contours,
+            padding,
+            draws
+        }),
+        layout!(GraphHeader {
+            node_count,
+            path_count,
+            point_count,
+            stroke_count,
+            chain_count,
+            total_px,
+            padding,
+            layer_first,
+            draw_first,
+            changed
+        }),
+        layout!(LinkNode { s0, s1, z0, z1, edge, next }),
+        layout!(ChainState { jump, anchor, distance, reach }),
+        layout!(Chain { first, count }),
+        layout!(Element { node, first, count, arc }),
     ])
 }
 
@@ -181,8 +230,22 @@ fn structs_in_buffers_are_laid_out_alike_and_found_on_both_sides() {
 }
 
 /// Constants of one side only: how the shader works inside.
-const OF_SHADERS: [&str; 6] =
-    ["BEHIND", "SCAN_WIDTH", "EXPAND_WIDTH", "WORDS_PER_EDGE", "START_PX", "OWN_REACH"];
+const OF_SHADERS: [&str; 14] = [
+    "BEHIND",
+    "SCAN_WIDTH",
+    "EXPAND_WIDTH",
+    "WORDS_PER_EDGE",
+    "START_PX",
+    "OWN_REACH",
+    "GROUP",
+    "NODE_GROUPS",
+    "NODE_SUM_GROUPS",
+    "PATH_GROUPS",
+    "PATH_SUM_GROUPS",
+    "POINT_GROUPS",
+    "POINT_SUM_GROUPS",
+    "CHUNK_GROUPS",
+];
 
 /// The constants that both sides should have, as the shaders have them.
 fn constants_of_shaders() -> BTreeMap<String, u64> {
@@ -247,6 +310,17 @@ fn constants_are_equal_and_found_on_both_sides() {
         ("OBJECT_SPACE", Parameterization::ObjectSpace as u64),
         ("SCREEN_SPACE", Parameterization::ScreenSpace as u64),
         ("EDGE_INDEX_MASK", u64::from(!LineBits::all().bits() | LineBits::DRAWN.bits())),
+        ("ITEMS_PER_SUM", ITEMS_PER_SUM.into()),
+        ("BACKWARD", BACKWARD.into()),
+        ("NO_NODE", NO_NODE.into()),
+        ("CUT_START", CUT_START.into()),
+        ("CUT_END", CUT_END.into()),
+        ("UNSEEN", UNSEEN.into()),
+        ("ON_LOOP", ON_LOOP.into()),
+        ("ARC_PER_PX", float(ARC_PER_PX)),
+        ("SURFACE_END", SURFACE_END.into()),
+        ("SURFACE_CUT", SURFACE_CUT.into()),
+        ("REVERSED", REVERSED.into()),
     ]);
     let facing = [ConeFacing::Mixed, ConeFacing::AllFace, ConeFacing::AllAway];
     expected.extend(["MIXED", "ALL_FACE", "ALL_AWAY"].into_iter().zip(facing.map(|f| f as u64)));

@@ -10,6 +10,8 @@ mod expectations;
 #[cfg(feature = "gpu")]
 mod gpu_device;
 #[cfg(feature = "gpu")]
+mod gpu_graph;
+#[cfg(feature = "gpu")]
 mod gpu_layouts;
 #[cfg(feature = "gpu")]
 mod gpu_render;

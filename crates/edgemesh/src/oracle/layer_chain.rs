@@ -91,6 +91,8 @@ pub struct LayerLinks<'a> {
     pub links: &'a StaticLinks,
     /// What the view makes of every record, those that their own solid hides kept.
     pub lines: &'a [Line],
+    /// Whether contours are in a layer as such; else an edge is what else it is.
+    pub draws_contours: bool,
 }
 
 impl LayerLinks<'_> {
@@ -137,7 +139,7 @@ impl LayerLinks<'_> {
     }
 
     fn is_contour(&self, edge: u32) -> bool {
-        self.lines[edge as usize].bits.contains(LineBits::CONTOUR)
+        self.draws_contours && self.lines[edge as usize].bits.contains(LineBits::CONTOUR)
     }
 
     fn following(&self, edge: u32) -> Option<u32> {
@@ -188,7 +190,7 @@ mod tests {
             let mesh = mesh.clone();
             move |class: EdgeClass| {
                 let (mesh, faces, links, lines) = (&mesh, &faces, &links, &lines);
-                LayerLinks { mesh, faces, links, lines }.chains(class as u32)
+                LayerLinks { mesh, faces, links, lines, draws_contours: true }.chains(class as u32)
             }
         };
         (mesh, of)

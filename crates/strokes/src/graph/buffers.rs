@@ -1,0 +1,226 @@
+//! The stroke graph of one object in one view, written by the GPU alone.
+//!
+//! | buffer | bytes |
+//! |---|---|
+//! | nodes, elements | 32 and 16 an edge that can be linked (of 8 edges one) |
+//! | states of linking, twice | 16 each |
+//! | nodes before, chains | 4 and 8 |
+//! | sums | 8 for 16 items |
+
+use bytemuck::{Pod, Zeroable};
+use wgpu::BufferUsages;
+use wgpu::util::DeviceExt as _;
+
+use crate::look::{MAX_DRAWS, MAX_LAYERS};
+use crate::mesh_buffers::ChunkUniform;
+
+/// Items that one invocation sums up before a scan. WGSL twin: the constant of this
+/// name.
+pub const ITEMS_PER_SUM: u32 = 16;
+
+/// In [`LinkNode::edge`]: the chain runs from its `v1` to its `v0`. WGSL twin: the
+/// constant of this name.
+pub const BACKWARD: u32 = 1 << 30;
+
+/// No node follows. WGSL twin: the constant of this name.
+pub const NO_NODE: u32 = (1 << 29) - 1;
+
+/// In [`LinkNode::next`]: clipped where it begins. WGSL twin: as above.
+pub const CUT_START: u32 = 1 << 31;
+
+/// In [`LinkNode::next`]: clipped where it ends. WGSL twin: as above.
+pub const CUT_END: u32 = 1 << 30;
+
+/// In [`LinkNode::next`]: clipped as a whole. WGSL twin: as above.
+pub const UNSEEN: u32 = 1 << 29;
+
+/// In [`Element::count`]: the last element is followed by the first. WGSL twin: as
+/// above.
+pub const ON_LOOP: u32 = 1 << 31;
+
+/// Steps of arc length a pixel. WGSL twin: the constant of this name.
+pub const ARC_PER_PX: f32 = 1024.0;
+
+/// Which draws are linked, and how much there is room for. WGSL twin:
+/// `shaders/common/stroke_graph.wgsl`, as of all structs here.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct GraphUniform {
+    /// Layers of the look.
+    pub layer_count: u32,
+    /// Chunks of the mesh.
+    pub chunk_count: u32,
+    /// Draws of the look.
+    pub draw_count: u32,
+    /// Nodes that there is room for.
+    pub node_capacity: u32,
+    /// Elements of all draws that there is room for.
+    pub path_capacity: u32,
+    /// Points of all paths that there is room for.
+    pub point_capacity: u32,
+    /// 1 where contours are in a layer as such, else 0.
+    pub draws_contours: u32,
+    /// Unused.
+    pub padding: u32,
+    /// Layer of each draw, and 1 where its strokes are linked.
+    pub draws: [[u32; 4]; MAX_DRAWS],
+}
+
+/// How much of everything there is in a view.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct GraphHeader {
+    /// Edges that are linked.
+    pub node_count: u32,
+    /// Elements of all linked draws together.
+    pub path_count: u32,
+    /// Points along them.
+    pub point_count: u32,
+    /// Strokes along them.
+    pub stroke_count: u32,
+    /// Chains of all layers.
+    pub chain_count: u32,
+    /// Arc length of all chains, in pixels.
+    pub total_px: f32,
+    /// Unused.
+    pub padding: [u32; 2],
+    /// Where the nodes of each layer begin; the last is their number.
+    pub layer_first: [u32; MAX_LAYERS + 1],
+    /// Where the elements of each draw begin among all, and their number.
+    pub draw_first: [u32; 20],
+    /// 1 for each round of linking that changed anything.
+    pub changed: [u32; 16],
+}
+
+/// One drawn edge, in the direction of its chain.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct LinkNode {
+    /// Where it begins, in pixels from the middle of the picture, y up.
+    pub s0: [f32; 2],
+    /// Where it ends.
+    pub s1: [f32; 2],
+    /// Depth where it begins.
+    pub z0: f32,
+    /// Depth where it ends.
+    pub z1: f32,
+    /// The edge's index in the mesh, with the line bits of contours and of what its own
+    /// solid hides, and [`BACKWARD`].
+    pub edge: u32,
+    /// The node that follows, or [`NO_NODE`], with [`CUT_START`] and the others.
+    pub next: u32,
+}
+
+/// What a node knows of its chain after some rounds of linking.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct ChainState {
+    /// The node so many steps further on.
+    pub jump: u32,
+    /// The last node of an open chain, or the smallest so far with [`ON_LOOP`].
+    pub anchor: u32,
+    /// Steps to the anchor.
+    pub distance: u32,
+    /// Steps to `jump`.
+    pub reach: u32,
+}
+
+/// A chain, at its anchor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Chain {
+    /// Its first element.
+    pub first: u32,
+    /// How many it has.
+    pub count: u32,
+}
+
+/// An element of a chain, in the order of the chain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Element {
+    /// Its node.
+    pub node: u32,
+    /// The first element of its chain.
+    pub first: u32,
+    /// How many elements its chain has, with [`ON_LOOP`] where the last is followed
+    /// by the first.
+    pub count: u32,
+    /// Arc length up to here in [`ARC_PER_PX`] of a pixel, from anywhere.
+    pub arc: u32,
+}
+
+/// Words of the arguments before those of the chunks. WGSL twin: `CHUNK_GROUPS`.
+pub(crate) const CHUNK_GROUPS: usize = 18;
+
+/// What there is room for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct GraphSize {
+    pub(crate) nodes: u32,
+}
+
+impl GraphSize {
+    pub(crate) fn new(chunks: &[ChunkUniform]) -> Self {
+        Self { nodes: chunks.iter().map(|chunk| chunk.node_capacity).sum::<u32>().max(1) }
+    }
+
+    /// Rounds that link the longest chain there can be: each looks four times as far.
+    pub(crate) fn rounds(&self) -> usize {
+        let doublings = self.nodes.next_power_of_two().trailing_zeros();
+        doublings.div_ceil(2).max(1) as usize
+    }
+}
+
+/// The buffers.
+#[derive(Debug)]
+pub(crate) struct GraphBuffers {
+    pub(crate) size: GraphSize,
+    pub(crate) header: wgpu::Buffer,
+    pub(crate) bases: wgpu::Buffer,
+    pub(crate) arguments: wgpu::Buffer,
+    pub(crate) nodes: wgpu::Buffer,
+    pub(crate) elements: wgpu::Buffer,
+    pub(crate) previous: wgpu::Buffer,
+    pub(crate) sums: wgpu::Buffer,
+    pub(crate) states: [wgpu::Buffer; 2],
+    pub(crate) chains: wgpu::Buffer,
+}
+
+impl GraphBuffers {
+    pub(crate) fn new(device: &wgpu::Device, chunks: &[ChunkUniform]) -> Self {
+        let size = GraphSize::new(chunks);
+        let buffer = |label: &str, count: u32, bytes: usize, usage: BufferUsages| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: u64::from(count) * bytes as u64,
+                usage: BufferUsages::STORAGE | usage,
+                mapped_at_creation: false,
+            })
+        };
+        let read_back = BufferUsages::COPY_SRC;
+        let none = BufferUsages::empty();
+        let nodes = size.nodes;
+        let state = || buffer("chain states", nodes, size_of::<ChainState>(), none);
+        // Of each chunk what it may have, and room for where its layers begin.
+        let mut bases: Vec<u32> = chunks.iter().map(|chunk| chunk.node_capacity).collect();
+        bases.resize(9 * chunks.len().max(1), 0);
+        let chunk_count = edgemesh::index::to_u32(chunks.len());
+        let arguments = edgemesh::index::to_u32(CHUNK_GROUPS) + 3 * chunk_count;
+        Self {
+            header: buffer("graph header", 1, size_of::<GraphHeader>(), read_back),
+            bases: device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("bases"),
+                contents: bytemuck::cast_slice(&bases),
+                usage: BufferUsages::STORAGE,
+            }),
+            arguments: buffer("graph arguments", arguments, 4, BufferUsages::INDIRECT),
+            nodes: buffer("link nodes", nodes, size_of::<LinkNode>(), read_back),
+            elements: buffer("elements", nodes, size_of::<Element>(), read_back),
+            previous: buffer("previous nodes", nodes, 4, BufferUsages::COPY_DST),
+            sums: buffer("sums", nodes.div_ceil(ITEMS_PER_SUM), 8, none),
+            states: [state(), state()],
+            chains: buffer("chains", nodes, size_of::<Chain>(), none),
+            size,
+        }
+    }
+}

@@ -1,0 +1,239 @@
+//! Linking: every drawn edge becomes a node with a successor, and the nodes become
+//! chains (`shaders/graph/link_*.wgsl`).
+//!
+//! No readback: the dispatches are as large as the view needs them, by arguments that
+//! the first of them writes; rounds are as many as the longest chain could need, and
+//! cost next to nothing once nothing changes.
+
+use crate::detect::compute_pipeline;
+use crate::frame::{bind_buffers, storage_entry, uniform_buffer, uniform_entry};
+use crate::graph::buffers::{CHUNK_GROUPS, GraphBuffers};
+use crate::mesh_buffers::{ChunkBuffers, EdgeSource, Layout};
+use crate::shader::{ShaderError, ShaderSource};
+use crate::view_buffers::{ObjectBuffers, ViewBuffers};
+use wgpu::ShaderStages;
+
+/// More rounds than any mesh needs: 4 to this power is the number of all indices.
+const MAX_ROUNDS: u32 = 16;
+
+/// Bytes of the arguments where those of a kind of dispatch begin; in words the
+/// constants of these names in `shaders/common/stroke_graph.wgsl`.
+const NODE_GROUPS: u64 = 0;
+const NODE_SUM_GROUPS: u64 = 4 * 3;
+
+/// The compute pipelines of one layout.
+#[derive(Debug)]
+pub(crate) struct LinkPipeline {
+    layouts: Layouts,
+    bases: wgpu::ComputePipeline,
+    elements: wgpu::ComputePipeline,
+    resolve: wgpu::ComputePipeline,
+    jump: wgpu::ComputePipeline,
+    /// After the rounds: pipeline, and how large its dispatch is.
+    chains: Vec<(wgpu::ComputePipeline, Groups)>,
+    rounds: Vec<wgpu::BindGroup>,
+}
+
+/// How large a dispatch is.
+#[derive(Debug, Clone, Copy)]
+enum Groups {
+    One,
+    By(u64),
+}
+
+#[derive(Debug)]
+struct Layouts {
+    graph: wgpu::BindGroupLayout,
+    bases: wgpu::BindGroupLayout,
+    edges: wgpu::BindGroupLayout,
+    elements: wgpu::BindGroupLayout,
+    chains: wgpu::BindGroupLayout,
+}
+
+/// What linking needs of one object.
+#[derive(Debug)]
+pub(crate) struct LinkDraw {
+    bases: wgpu::BindGroup,
+    /// Edges and lists, one a chunk.
+    chunks: Vec<[wgpu::BindGroup; 2]>,
+    /// Reading one state and writing the other, and the other way round.
+    chains: [wgpu::BindGroup; 2],
+    rounds: usize,
+}
+
+impl LinkPipeline {
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        frame: &wgpu::BindGroupLayout,
+        layout: Layout,
+    ) -> Result<Self, ShaderError> {
+        let layouts = Layouts::new(device, layout);
+        let pipeline = |module: &wgpu::ShaderModule, entry: &str, groups: [_; 4]| {
+            compute_pipeline(device, module, entry, &groups, &[])
+        };
+        let module = ShaderSource::embedded("graph/link_bases.wgsl")?.module(device, "link bases");
+        let groups = [Some(frame), Some(&layouts.graph), None, Some(&layouts.bases)];
+        let bases = pipeline(&module, "link_bases", groups);
+        let source = ShaderSource::embedded_for("graph/link_elements.wgsl", layout)?;
+        let module = source.module(device, "link elements");
+        let edges = Some(&layouts.edges);
+        let groups = [Some(frame), Some(&layouts.graph), edges, Some(&layouts.elements)];
+        let elements = pipeline(&module, "link_elements", groups);
+        let module = ShaderSource::embedded("graph/link_chains.wgsl")?.module(device, "chains");
+        let groups = [Some(frame), Some(&layouts.graph), None, Some(&layouts.chains)];
+        let chain = |entry: &str| pipeline(&module, entry, groups);
+        let (nodes, sums) = (Groups::By(NODE_GROUPS), Groups::By(NODE_SUM_GROUPS));
+        let steps = [
+            ("sum_chains", sums),
+            ("scan_chains", Groups::One),
+            ("place_chains", sums),
+            ("place_elements", nodes),
+            ("sum_arcs", sums),
+            ("scan_arcs", Groups::One),
+            ("write_arcs", sums),
+        ];
+        let round = |number: u32| {
+            let uniform = uniform_buffer(device, "round", &[number, 0, 0, 0]);
+            bind_buffers(device, "round", &layouts.graph, &[(0, &uniform)])
+        };
+        Ok(Self {
+            bases,
+            elements,
+            resolve: chain("resolve_links"),
+            jump: chain("jump_chains"),
+            chains: steps.map(|(entry, groups)| (chain(entry), groups)).into(),
+            rounds: (0..MAX_ROUNDS).map(round).collect(),
+            layouts,
+        })
+    }
+
+    /// The layout of `@group(1)`: the graph's uniform.
+    pub(crate) const fn graph_layout(&self) -> &wgpu::BindGroupLayout {
+        &self.layouts.graph
+    }
+
+    /// What an object needs; nothing where a chunk has no links.
+    pub(crate) fn draw(
+        &self,
+        device: &wgpu::Device,
+        object: &wgpu::Buffer,
+        whole: &ObjectBuffers,
+        chunks: &[(&ChunkBuffers, &ViewBuffers)],
+        graph: &GraphBuffers,
+    ) -> Option<LinkDraw> {
+        let bases =
+            [(0, &graph.header), (1, &whole.tallies), (2, &graph.bases), (3, &graph.arguments)];
+        let chunk = |(chunk, view): &(&ChunkBuffers, &ViewBuffers)| {
+            let mut edges = vec![(0, object), (1, &chunk.uniform)];
+            match &chunk.source {
+                EdgeSource::Indexed { records, positions, .. } => {
+                    edges.extend([(2, records), (3, positions)]);
+                }
+                EdgeSource::Replicated { vertices } => edges.push((2, vertices)),
+            }
+            let lists = [
+                (0, &view.live),
+                (1, &whole.runs),
+                (2, chunk.links.as_ref()?),
+                (3, &whole.tallies),
+                (4, &graph.bases),
+                (5, &graph.nodes),
+            ];
+            Some([
+                bind_buffers(device, "link edges", &self.layouts.edges, &edges),
+                bind_buffers(device, "link elements", &self.layouts.elements, &lists),
+            ])
+        };
+        let chains = |[from, to]: [usize; 2]| {
+            let buffers = [
+                (0, &graph.header),
+                (1, &graph.nodes),
+                (2, &graph.elements),
+                (3, &graph.previous),
+                (4, &graph.sums),
+                (5, &graph.states[from]),
+                (6, &graph.states[to]),
+                (7, &graph.chains),
+            ];
+            bind_buffers(device, "chains", &self.layouts.chains, &buffers)
+        };
+        Some(LinkDraw {
+            bases: bind_buffers(device, "link bases", &self.layouts.bases, &bases),
+            chunks: chunks.iter().map(chunk).collect::<Option<_>>()?,
+            chains: [[0, 1], [1, 0]].map(chains),
+            rounds: graph.size.rounds(),
+        })
+    }
+
+    /// Forgets the last view; before [`Self::record`], outside of a pass.
+    pub(crate) fn clear(encoder: &mut wgpu::CommandEncoder, graph: &GraphBuffers) {
+        encoder.clear_buffer(&graph.previous, 0, None);
+    }
+
+    /// Records the linking of one object; `@group(0)` must be the frame, `@group(1)`
+    /// the graph's uniform.
+    pub(crate) fn record(
+        &self,
+        pass: &mut wgpu::ComputePass,
+        graph: &GraphBuffers,
+        draw: &LinkDraw,
+    ) {
+        pass.set_pipeline(&self.bases);
+        pass.set_bind_group(3, &draw.bases, &[]);
+        pass.dispatch_workgroups(1, 1, 1);
+        pass.set_pipeline(&self.elements);
+        for (chunk, [edges, lists]) in (0_u64..).zip(&draw.chunks) {
+            pass.set_bind_group(2, edges, &[]);
+            pass.set_bind_group(3, lists, &[]);
+            let at = 4 * (CHUNK_GROUPS as u64 + 3 * chunk);
+            pass.dispatch_workgroups_indirect(&graph.arguments, at);
+        }
+        pass.set_bind_group(1, &self.rounds[0], &[]);
+        pass.set_bind_group(3, &draw.chains[0], &[]);
+        pass.set_pipeline(&self.resolve);
+        pass.dispatch_workgroups_indirect(&graph.arguments, NODE_GROUPS);
+        pass.set_pipeline(&self.jump);
+        for (round, number) in self.rounds[..draw.rounds].iter().enumerate() {
+            pass.set_bind_group(1, number, &[]);
+            pass.set_bind_group(3, &draw.chains[round % 2], &[]);
+            pass.dispatch_workgroups_indirect(&graph.arguments, NODE_GROUPS);
+        }
+        pass.set_bind_group(3, &draw.chains[draw.rounds % 2], &[]);
+        for (pipeline, groups) in &self.chains {
+            pass.set_pipeline(pipeline);
+            match groups {
+                Groups::One => pass.dispatch_workgroups(1, 1, 1),
+                Groups::By(offset) => {
+                    pass.dispatch_workgroups_indirect(&graph.arguments, *offset);
+                }
+            }
+        }
+    }
+}
+
+impl Layouts {
+    fn new(device: &wgpu::Device, layout: Layout) -> Self {
+        let compute = ShaderStages::COMPUTE;
+        let uniform = |binding| uniform_entry(binding, compute);
+        let read = |binding| storage_entry(binding, compute, true);
+        let write = |binding| storage_entry(binding, compute, false);
+        let make = |label: &str, entries: &[wgpu::BindGroupLayoutEntry]| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(label),
+                entries,
+            })
+        };
+        let mut edges = vec![uniform(0), uniform(1), read(2)];
+        if layout == Layout::Indexed {
+            edges.push(read(3));
+        }
+        let elements = [read(0), read(1), read(2), write(3), read(4), write(5)];
+        Self {
+            graph: make("graph", &[uniform(0)]),
+            bases: make("link bases", &[0, 1, 2, 3].map(write)),
+            edges: make("link edges", &edges),
+            elements: make("link elements", &elements),
+            chains: make("chains", &[0, 1, 2, 3, 4, 5, 6, 7].map(write)),
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! The stroke graph: the edges that a view draws, linked into chains on the GPU in
+//! every frame, and the strokes along them.
+//!
+//! The paper draws every edge by itself, and says what that costs: gaps between the
+//! caps of creases (Figure 5), textures that break at every edge (Figure 8). Its
+//! vertex programs saw nothing but their own edge; here compute shaders link them.
+//!
+//! ```text
+//!   live edges --link_elements--> nodes, each with its successor
+//!        nodes --link_chains----> chains: elements in order, with arc lengths
+//! ```
+
+pub mod buffers;
+pub(crate) mod link;
+pub mod link_table;
+pub mod path_style;

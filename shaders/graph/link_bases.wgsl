@@ -1,0 +1,56 @@
+// Where the nodes of each layer of each chunk begin, and with it how much the passes
+// that follow have to do. One invocation: layers and chunks are few.
+#import <common/view_runs.wgsl>
+#import <common/stroke_graph.wgsl>
+
+@group(1) @binding(0) var<uniform> graph: GraphUniform;
+@group(3) @binding(0) var<storage, read_write> header: GraphHeader;
+@group(3) @binding(1) var<storage, read_write> tallies: array<Tally>;
+// Nodes that each chunk may have; then, of each chunk, where its layers begin.
+@group(3) @binding(2) var<storage, read_write> bases: array<u32>;
+@group(3) @binding(3) var<storage, read_write> arguments: array<u32>;
+
+@compute @workgroup_size(1)
+fn link_bases() {
+    var nodes = 0u;
+    for (var layer = 0u; layer <= MAX_LAYERS; layer++) {
+        header.layer_first[layer] = nodes;
+        if layer == MAX_LAYERS {
+            break;
+        }
+        for (var chunk = 0u; chunk < graph.chunk_count; chunk++) {
+            let most = bases[chunk];
+            let first = min(tallies[chunk].layer_first[layer], most);
+            let end = min(tallies[chunk].layer_first[layer + 1u], most);
+            bases[graph.chunk_count + 8u * chunk + layer] = nodes;
+            nodes += end - first;
+        }
+    }
+    for (var chunk = 0u; chunk < graph.chunk_count; chunk++) {
+        let count = min(tallies[chunk].layer_first[MAX_LAYERS], bases[chunk]);
+        set_groups(CHUNK_GROUPS + 3u * chunk, count, GROUP);
+    }
+    var paths = 0u;
+    for (var draw = 0u; draw <= MAX_DRAWS; draw++) {
+        header.draw_first[draw] = paths;
+        if draw < graph.draw_count && graph.draws[draw].y != 0u {
+            let layer = graph.draws[draw].x;
+            paths += header.layer_first[layer + 1u] - header.layer_first[layer];
+        }
+    }
+    header.node_count = nodes;
+    header.path_count = paths;
+    for (var round = 0u; round < 16u; round++) {
+        atomicStore(&header.changed[round], 0u);
+    }
+    set_groups(NODE_GROUPS, nodes, GROUP);
+    set_groups(NODE_SUM_GROUPS, nodes, GROUP * ITEMS_PER_SUM);
+    set_groups(PATH_GROUPS, paths, GROUP);
+    set_groups(PATH_SUM_GROUPS, paths, GROUP * ITEMS_PER_SUM);
+}
+
+fn set_groups(at: u32, count: u32, per_group: u32) {
+    arguments[at] = (count + per_group - 1u) / per_group;
+    arguments[at + 1u] = 1u;
+    arguments[at + 2u] = 1u;
+}

@@ -1,0 +1,232 @@
+//! The chains that the GPU links against those of the CPU: the same edges in the same
+//! order, in every layout, in chunks, and mirrored.
+
+use std::sync::Arc;
+
+use edgemesh::build::{BuildOptions, build_edge_mesh};
+use edgemesh::camera::Camera;
+use edgemesh::edge_mesh::EdgeMesh;
+use edgemesh::face_edges::FaceEdges;
+use edgemesh::oracle::feature::{EdgeClass, Line, LineBits, NO_LAYER};
+use edgemesh::oracle::layer_chain::{LayerChain, LayerLinks, StaticLinks};
+use edgemesh::read::read_model;
+use glam::{DMat4, DVec3};
+use strokes::gpu::Gpu;
+use strokes::graph::buffers::{BACKWARD, CUT_END, CUT_START, NO_NODE, ON_LOOP, UNSEEN};
+use strokes::look::{Layer, Look, PathStyle, StrokeStyle};
+use strokes::mesh_buffers::{Layout, MeshBuffers};
+use strokes::object::{GraphReadback, Object};
+use strokes::renderer::{DetectionPath, Renderer, RendererOptions};
+use strokes::targets::{TargetFormats, Targets};
+use testkit::locate::{left_out, shared};
+
+use crate::gpu_device::{gpu, gpu_with_limits};
+use crate::gpu_render::own_model;
+use crate::layer_chains::{VIEWS, check_chain, eye};
+use crate::own_models::own_models;
+
+/// Linked strokes, contours apart from everything else.
+fn linked_look() -> Look {
+    let style = StrokeStyle { path: Some(PathStyle::default()), ..StrokeStyle::default() };
+    let layer = |classes| Layer { classes, visible: Some(style.clone()), hidden: None };
+    let others = EdgeClass::ALL.into_iter().filter(|class| *class != EdgeClass::Contour);
+    Look {
+        fill_color: Some([1.0; 4]),
+        layers: vec![layer(vec![EdgeClass::Contour]), layer(others.collect())],
+        ..Look::default()
+    }
+}
+
+/// A mesh in a layout, ready to be looked at.
+struct Linker<'a> {
+    gpu: &'a Gpu,
+    mesh: &'a EdgeMesh,
+    renderer: Renderer,
+    targets: Targets,
+    objects: [Object; 1],
+    faces: FaceEdges,
+    links: StaticLinks,
+}
+
+impl<'a> Linker<'a> {
+    fn new(gpu: &'a Gpu, mesh: &'a EdgeMesh, look: &Look, layout: Layout) -> Self {
+        let formats = TargetFormats::new(1);
+        let options = RendererOptions { layout, path: DetectionPath::Compute, formats };
+        let mut renderer = Renderer::new(gpu, options).unwrap();
+        let look = renderer.prepare(gpu, look).unwrap();
+        let buffers = Arc::new(MeshBuffers::with_links(&gpu.device, mesh, layout).unwrap());
+        let objects = [renderer.object(gpu, &buffers, &look)];
+        let targets = Targets::new(&gpu.device, [16, 16], formats);
+        let (faces, links) = (FaceEdges::of(mesh), StaticLinks::of(mesh));
+        Self { gpu, mesh, renderer, targets, objects, faces, links }
+    }
+
+    fn graph(&mut self, camera: &Camera) -> GraphReadback {
+        let view = camera.view(&self.mesh.bounds, 1.0);
+        self.renderer.render(self.gpu, &self.targets, &view, [0.0; 4], &mut self.objects, None);
+        self.objects[0].read_chains(self.gpu).unwrap().unwrap()
+    }
+
+    /// Checks the graph of a view against the CPU's; says how many contours it has.
+    fn check(&mut self, name: &str, camera: &Camera) -> usize {
+        let graph = self.graph(camera);
+        let drawn = self.objects[0].read_tally(self.gpu).unwrap().stroke_count;
+        assert_eq!(graph.header.node_count, drawn, "{name}: every drawn edge is a node");
+        let lines = lines_of(self.mesh, &graph);
+        let (mesh, faces, links, lines) = (self.mesh, &self.faces, &self.links, &lines);
+        let linking = LayerLinks { mesh, faces, links, lines, draws_contours: true };
+        let want: Vec<LayerChain> = (0..2).flat_map(|layer| linking.chains(layer)).collect();
+        let found = chains_of(&graph);
+        for (chain, wanted) in found.iter().zip(&want) {
+            let edges: Vec<(u32, bool)> =
+                wanted.elements.iter().map(|element| (element.edge, element.is_reversed)).collect();
+            assert_eq!((&chain.edges, chain.is_closed), (&edges, wanted.is_closed), "{name}");
+            check_chain(&linking, wanted);
+        }
+        assert_eq!(found.len(), want.len(), "{name}");
+        assert_eq!(found.len(), graph.header.chain_count as usize, "{name}");
+        check_geometry(name, &graph);
+        lines.iter().filter(|line| line.bits.contains(LineBits::CONTOUR)).count()
+    }
+}
+
+/// What the nodes say of every record.
+fn lines_of(mesh: &EdgeMesh, graph: &GraphReadback) -> Vec<Line> {
+    let mut lines = vec![Line { bits: LineBits::empty(), layer: NO_LAYER }; mesh.records.len()];
+    for (at, node) in (0_u32..).zip(&graph.nodes) {
+        let layer = graph.header.layer_first.iter().rposition(|first| *first <= at).unwrap();
+        let is_backward = node.edge & BACKWARD != 0;
+        let mut bits = LineBits::DRAWN;
+        bits.set(LineBits::CONTOUR, node.edge & LineBits::CONTOUR.bits() != 0);
+        bits.set(LineBits::A_FACES, !is_backward);
+        let edge = (node.edge & NO_NODE) as usize;
+        assert!(lines[edge].bits.is_empty(), "edge {edge} is one node");
+        lines[edge] = Line { bits, layer: u32::try_from(layer).unwrap() };
+    }
+    lines
+}
+
+struct FoundChain {
+    edges: Vec<(u32, bool)>,
+    is_closed: bool,
+}
+
+/// The chains as the elements have them.
+fn chains_of(graph: &GraphReadback) -> Vec<FoundChain> {
+    let mut chains: Vec<FoundChain> = Vec::new();
+    for (at, element) in (0_u32..).zip(&graph.elements) {
+        if element.first == at {
+            let is_closed = element.count & ON_LOOP != 0;
+            chains.push(FoundChain { edges: Vec::new(), is_closed });
+        }
+        let node = &graph.nodes[element.node as usize];
+        let chain = chains.last_mut().unwrap();
+        chain.edges.push((node.edge & NO_NODE, node.edge & BACKWARD != 0));
+        assert!(chain.edges.len() <= (element.count & !ON_LOOP) as usize, "as long as it says");
+    }
+    chains
+}
+
+/// Each element ends where the next begins, to the bit, and arc lengths add up.
+fn check_geometry(name: &str, graph: &GraphReadback) {
+    for (at, pair) in graph.elements.windows(2).enumerate() {
+        let [node, next] = [0, 1].map(|of| &graph.nodes[pair[of].node as usize]);
+        let length = f64::from(node.s1[0] - node.s0[0]).hypot(f64::from(node.s1[1] - node.s0[1]));
+        let arc = f64::from(pair[1].arc.wrapping_sub(pair[0].arc)) / 1024.0;
+        assert!((arc - length).abs() <= 1e-3 + 1e-6 * length, "{name}: {arc} of {length} px");
+        if pair[1].first == u32::try_from(at + 1).unwrap() {
+            continue;
+        }
+        let is_clipped = node.next & (CUT_END | UNSEEN) != 0 || next.next & CUT_START != 0;
+        assert!(is_clipped || node.s1 == next.s0, "{name}: a gap at element {at}");
+        assert_eq!(node.next & NO_NODE, pair[1].node, "{name}: linked as placed");
+    }
+}
+
+fn camera_of(mesh: &EdgeMesh, view: u32) -> Camera {
+    Camera { eye: eye(mesh, view), ..Camera::default_view(&mesh.bounds) }
+}
+
+#[test]
+fn chains_of_the_projects_models_are_the_cpus() {
+    for (name, mesh) in own_models() {
+        let mut linker = Linker::new(gpu(), &mesh, &linked_look(), Layout::Indexed);
+        for view in (0..VIEWS).step_by(5) {
+            linker.check(&name, &camera_of(&mesh, view));
+        }
+    }
+}
+
+/// Over a thousand views of real models, some of them awkward.
+#[test]
+fn chains_of_real_models_are_the_cpus() {
+    let names = [
+        "models/cow.obj",
+        "models/fandisk.obj",
+        "models/rocker-arm.obj",
+        "models/spot.obj",
+        "models/stanford-bunny.obj",
+        "models/suzanne.obj",
+        "models/teapot.obj",
+        "corpus/obj/meshoptimizer/pirate.obj",
+        "corpus/obj/assimp/WusonOBJ.obj",
+    ];
+    let Some(folder) = shared() else { return left_out("chains of real models", names.len()) };
+    let mut contours = 0;
+    for name in names {
+        let (model, mut report) = read_model(&folder.join(name)).unwrap();
+        let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut report);
+        let mut linker = Linker::new(gpu(), &mesh, &linked_look(), Layout::Indexed);
+        for view in 0..VIEWS {
+            contours += linker.check(name, &camera_of(&mesh, view));
+        }
+    }
+    assert!(contours > 1_000_000, "{contours} contours");
+}
+
+/// The other layouts, and bindings that take a few hundred replicated edges each.
+#[test]
+fn chains_are_the_same_in_every_layout_and_across_chunks() {
+    let small = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 17);
+    let mut chunks = 0;
+    for (name, mesh) in own_models() {
+        for view in [3, 40, 77, 101] {
+            let camera = camera_of(&mesh, view);
+            for layout in [Layout::Replicated, Layout::Replicated16] {
+                Linker::new(gpu(), &mesh, &linked_look(), layout).check(&name, &camera);
+            }
+            let mut linker = Linker::new(&small, &mesh, &linked_look(), Layout::Replicated);
+            linker.check(&name, &camera);
+            chunks += linker.objects[0].mesh().chunk_count();
+        }
+    }
+    assert!(chunks > 100, "{chunks} chunks");
+}
+
+/// A mirror keeps the front faces, and with them the chains.
+#[test]
+fn mirrored_objects_have_the_same_chains() {
+    let mesh = own_model("torus_knot");
+    let camera = camera_of(&mesh, 17);
+    let mut linker = Linker::new(gpu(), &mesh, &linked_look(), Layout::Indexed);
+    let straight = linker.graph(&camera);
+    let center = DMat4::from_translation(mesh.bounds.center());
+    let mirror = DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0));
+    linker.objects[0].world_from_object = center * mirror * center.inverse();
+    let mut seen = camera;
+    seen.eye.x = 2.0 * mesh.bounds.center().x - camera.eye.x;
+    let mirrored = linker.graph(&seen);
+    assert_eq!(straight.elements.len(), mirrored.elements.len());
+    linker.check("mirrored", &seen);
+}
+
+#[test]
+fn the_same_view_gives_the_same_bytes() {
+    let mesh = own_model("torus_knot");
+    let camera = camera_of(&mesh, 9);
+    let mut linker = Linker::new(gpu(), &mesh, &linked_look(), Layout::Indexed);
+    let first = linker.graph(&camera);
+    linker.graph(&camera_of(&mesh, 60));
+    let again = linker.graph(&camera);
+    assert_eq!((first.nodes, first.elements), (again.nodes, again.elements));
+}
