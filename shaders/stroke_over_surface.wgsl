@@ -14,9 +14,7 @@
 //                x start                          | '.
 //     inside     x a fragment         the stroke  |   '.  the surface
 #import <common/stroke_ink.wgsl>
-
-// Rust twin: NO_OBJECT in crates/strokes/src/silhouette.rs.
-const NO_OBJECT: u32 = 255u;
+#import <common/silhouette.wgsl>
 
 // Whether what is hidden is drawn, and what is visible is not.
 override IS_HIDDEN: bool = false;

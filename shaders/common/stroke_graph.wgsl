@@ -30,12 +30,14 @@ struct GraphHeader {
     point_count: u32,
     stroke_count: u32,
     chain_count: u32,
-    // Arc length of all paths, in pixels.
+    // Arc length of all chains, in pixels.
     total_px: f32,
-    padding: vec2u,
+    // Points that there is room for.
+    point_capacity: u32,
+    padding: u32,
     // Where the nodes of each layer begin; the last is their number.
     layer_first: array<u32, 8>,
-    // Where the elements of each draw begin among all, and its points.
+    // Where the elements of each draw begin among all, and their number.
     draw_first: array<u32, 20>,
     // 1 where a round of linking changed anything.
     changed: array<atomic<u32>, 16>,
@@ -85,13 +87,20 @@ struct Chain {
 
 // The elements of all chains, one chain after another.
 struct Element {
-    node: u32,
-    // Of its chain.
+    // As in the node.
+    s0: vec2f,
+    s1: vec2f,
+    z0: f32,
+    z1: f32,
+    edge: u32,
+    next: u32,
+    // The first element of its chain.
     first: u32,
     // Elements of its chain, and ON_LOOP where the last is followed by the first.
     count: u32,
     // Arc length up to here, in ARC_PER_PX of a pixel, from anywhere.
     arc: u32,
+    node: u32,
 }
 
 // Arc lengths are whole numbers, so that sums are the same in any order, and those
@@ -105,5 +114,83 @@ const PATH_GROUPS: u32 = 6u;
 const PATH_SUM_GROUPS: u32 = 9u;
 const POINT_GROUPS: u32 = 12u;
 const POINT_SUM_GROUPS: u32 = 15u;
-// Then those of each chunk.
-const CHUNK_GROUPS: u32 = 18u;
+// Five words for each draw of ribbons.
+const RIBBON_DRAWS: u32 = 18u;
+// Then the workgroups of each chunk.
+const CHUNK_GROUPS: u32 = 98u;
+
+// The beginning of an element in a draw's path.
+struct Joint {
+    // Cosine of the turn there, measured over some pixels.
+    cosine: f32,
+    kind: u32,
+    // Points of the element, and the first among all.
+    point_count: u32,
+    first_point: u32,
+}
+
+// Kinds of joints.
+const BREAK: u32 = 1u;
+const CORNER: u32 = 2u;
+const SPLIT: u32 = 4u;
+
+// A point of a path; with the one that follows it, a segment.
+struct PathPoint {
+    // Pixels from the middle of the picture, y up; a contour's front is on the left.
+    position: vec2f,
+    depth: f32,
+    // Arc length from the beginning of its chain, in pixels.
+    arc: f32,
+    // The element it is on, among those of all draws.
+    path: u32,
+    flags: u32,
+    // What of its segment is drawn, as fractions from and to; the other way round for
+    // nothing.
+    cut: vec2f,
+    stroke: u32,
+    padding: u32,
+}
+
+// Flags of points: no segment comes before it, none after it; it keeps its place;
+// strokes are cut there; nothing hides it; it is on a contour; it is the place where
+// a loop was cut.
+const POINT_STARTS: u32 = 1u;
+const POINT_ENDS: u32 = 2u;
+const POINT_SPLITS: u32 = 4u;
+const POINT_IS_VISIBLE: u32 = 8u;
+const POINT_ON_CONTOUR: u32 = 16u;
+const POINT_ON_SEAM: u32 = 32u;
+const DRAW_SHIFT: u32 = 8u;
+
+// A stroke: from the first segment to the last one, and from arc length to arc length.
+struct Stroke {
+    first: u32,
+    last: u32,
+    start_arc: f32,
+    end_arc: f32,
+}
+
+// A segment of a stroke, ready to be drawn.
+struct Ribbon {
+    a: vec2f,
+    b: vec2f,
+    u: vec2f,
+    // Half of the width at both ends, in pixels.
+    half_width: vec2f,
+    // Unit vectors of the turns at both ends, halved: along and across the segment.
+    join0: vec2f,
+    join1: vec2f,
+    // At both ends, as fractions.
+    opacity: u32,
+    // How it begins and how it ends, four bits each; two bits for its side; IS_INSIDE.
+    ends: u32,
+}
+
+// How a segment begins and ends.
+const ENDS_ROUND: u32 = 0u;
+const ENDS_FLAT: u32 = 1u;
+const ENDS_POINTED: u32 = 2u;
+const JOINS_ROUND: u32 = 3u;
+const JOINS_MITRED: u32 = 4u;
+const NOT_DRAWN: u32 = 15u;
+const IS_INSIDE: u32 = 1024u;

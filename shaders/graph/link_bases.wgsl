@@ -40,6 +40,7 @@ fn link_bases() {
     }
     header.node_count = nodes;
     header.path_count = paths;
+    header.point_capacity = graph.point_capacity;
     for (var round = 0u; round < 16u; round++) {
         atomicStore(&header.changed[round], 0u);
     }

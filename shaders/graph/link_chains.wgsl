@@ -165,13 +165,16 @@ fn place_elements(@builtin(global_invocation_id) id: vec3u) {
     if on_loop != 0u {
         rank = select(chain.count - known.distance, 0u, known.distance == 0u);
     }
-    elements[chain.first + rank] = Element(node, chain.first, chain.count | on_loop, 0u);
+    let linked = nodes[node];
+    elements[chain.first + rank] = Element(
+        linked.s0, linked.s1, linked.z0, linked.z1, linked.edge, linked.next,
+        chain.first, chain.count | on_loop, 0u, node,
+    );
 }
 
+// What is clipped as a whole has no length.
 fn arc_length(element: u32) -> u32 {
-    let node = nodes[elements[element].node];
-    // A part of a chain beyond the near plane has no length.
-    return u32(round(distance(node.s0, node.s1) * ARC_PER_PX));
+    return u32(round(distance(elements[element].s0, elements[element].s1) * ARC_PER_PX));
 }
 
 @compute @workgroup_size(GROUP)

@@ -113,13 +113,14 @@ pub struct Look {
 
 /// Which strokes of a layer a draw draws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[repr(u32)]
 pub enum Visibility {
     /// What nothing hides.
-    Visible,
+    Visible = 0,
     /// What something hides.
-    Hidden,
+    Hidden = 1,
     /// Visible, and not over the object itself.
-    Silhouette,
+    Silhouette = 2,
 }
 
 /// One draw of strokes.

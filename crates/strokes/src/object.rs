@@ -10,8 +10,11 @@ use glam::{DMat4, Vec2};
 use crate::detect::DetectDraw;
 use crate::frame::{ObjectUniform, bind_buffers, uniform_buffer};
 use crate::gpu::Gpu;
-use crate::graph::buffers::{Element, GraphBuffers, GraphHeader, GraphUniform, LinkNode};
+use crate::graph::buffers::{
+    Element, GraphBuffers, GraphHeader, GraphUniform, LinkNode, PathPoint, Ribbon, Stroke,
+};
 use crate::graph::link::LinkDraw;
+use crate::graph::path::PathDraw;
 use crate::look::{MAX_DRAWS, Visibility};
 use crate::mesh_buffers::{ChunkBuffers, ChunkUniform, EdgeSource, MeshBuffers};
 use crate::readback::{ReadbackError, read_buffer};
@@ -47,6 +50,12 @@ pub struct GraphReadback {
     pub nodes: Vec<LinkNode>,
     /// The elements of all chains, one chain after another.
     pub elements: Vec<Element>,
+    /// The points of all paths, draw by draw.
+    pub points: Vec<PathPoint>,
+    /// The strokes along them.
+    pub strokes: Vec<Stroke>,
+    /// Their segments, one a point.
+    pub ribbons: Vec<Ribbon>,
 }
 
 /// The stroke graph of an object.
@@ -56,6 +65,9 @@ pub(crate) struct ObjectGraph {
     /// `@group(1)` of its passes.
     pub(crate) uniform: wgpu::BindGroup,
     pub(crate) link: LinkDraw,
+    pub(crate) path: PathDraw,
+    /// `@group(3)` of its ribbons.
+    pub(crate) ribbons: wgpu::BindGroup,
 }
 
 /// What one chunk of the object needs.
@@ -177,7 +189,10 @@ impl Object {
         let count = header[0].node_count as usize;
         let nodes = read_buffer(gpu, &buffers.nodes, count)?;
         let elements = read_buffer(gpu, &buffers.elements, count)?;
-        Ok(Some(GraphReadback { header: header[0], nodes, elements }))
+        let points = read_buffer(gpu, &buffers.points, header[0].point_count as usize)?;
+        let ribbons = read_buffer(gpu, &buffers.ribbons, header[0].point_count as usize)?;
+        let strokes = read_buffer(gpu, &buffers.strokes, header[0].stroke_count as usize)?;
+        Ok(Some(GraphReadback { header: header[0], nodes, elements, points, strokes, ribbons }))
     }
 
     /// The facing bits of one chunk in the last view, 32 faces a word; of the
@@ -202,15 +217,19 @@ fn graph(
     parts: &[ObjectPart],
     look: &PreparedLook,
 ) -> Option<ObjectGraph> {
-    let pipeline = renderer.link.as_ref()?;
+    let pipelines = renderer.graph.as_ref()?;
     if !look.draws.iter().any(|draw| draw.is_linked) {
         return None;
     }
     let sizes: Vec<ChunkUniform> = mesh.chunks.iter().map(|chunk| chunk.size).collect();
-    let buffers = GraphBuffers::new(device, &sizes);
+    let of_layer = |layer: u32| {
+        look.draws.iter().filter(|draw| draw.is_linked && draw.layer == layer).count()
+    };
+    let most = (0..look.layer_count).map(of_layer).max().unwrap_or(1);
+    let buffers = GraphBuffers::new(device, &sizes, to_u32(most));
     let views = parts.iter().filter_map(|part| part.lists.as_ref().map(|lists| &lists.view));
     let chunks: Vec<_> = mesh.chunks.iter().zip(views).collect();
-    let link = pipeline.draw(device, object, whole, &chunks, &buffers)?;
+    let link = pipelines.link.draw(device, object, whole, &chunks, &buffers)?;
     let mut draws = [[0; 4]; MAX_DRAWS];
     for (words, draw) in draws.iter_mut().zip(&look.draws) {
         *words = [draw.layer, u32::from(draw.is_linked), 0, 0];
@@ -220,15 +239,17 @@ fn graph(
         chunk_count: to_u32(sizes.len()),
         draw_count: to_u32(look.draws.len()),
         node_capacity: buffers.size.nodes,
-        path_capacity: 0,
-        point_capacity: 0,
+        path_capacity: buffers.size.paths,
+        point_capacity: buffers.size.points,
         draws_contours: u32::from(look.draws_contours),
         padding: 0,
         draws,
     };
     let uniform = uniform_buffer(device, "graph", &uniform);
-    let uniform = bind_buffers(device, "graph", pipeline.graph_layout(), &[(0, &uniform)]);
-    Some(ObjectGraph { buffers, uniform, link })
+    let uniform = bind_buffers(device, "graph", pipelines.link.graph_layout(), &[(0, &uniform)]);
+    let path = pipelines.path.draw(device, object, &buffers);
+    let ribbons = pipelines.coverage.draw(device, &buffers.ribbons);
+    Some(ObjectGraph { buffers, uniform, link, path, ribbons })
 }
 
 fn lists(

@@ -16,6 +16,9 @@ use crate::fill::{FillKind, FillPipeline};
 use crate::frame::{Frame, FrameUniform, frame_layout};
 use crate::gpu::Gpu;
 use crate::gpu_time::GpuTimer;
+use crate::graph::GraphPipelines;
+use crate::graph::buffers::RIBBON_DRAWS;
+use crate::graph::coverage::CHANNELS;
 use crate::graph::link::LinkPipeline;
 use crate::look::{Look, Visibility};
 use crate::mesh_buffers::{Layout, MeshBuffers};
@@ -28,7 +31,8 @@ use crate::targets::{TargetFormats, Targets};
 use crate::view_buffers::{DrawArguments, REST_OFFSET};
 
 /// The passes of a frame, in order, as [`GpuTimer`] numbers them.
-pub const PASS_NAMES: [&str; 5] = ["detect", "link", "expand", "fill", "strokes"];
+pub const PASS_NAMES: [&str; 7] =
+    ["detect", "link", "expand", "fill", "paths", "coverage", "strokes"];
 
 /// Where feature edges are detected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -61,7 +65,7 @@ pub struct Renderer {
     pub(crate) detect: DetectPipeline,
     pub(crate) fill: FillPipeline,
     /// Once a look links strokes.
-    pub(crate) link: Option<LinkPipeline>,
+    pub(crate) graph: Option<GraphPipelines>,
     frame: Frame,
     expand: HashMap<LineKind, Arc<ExpandPipeline>>,
     strokes: HashMap<StrokeVariant, wgpu::RenderPipeline>,
@@ -78,6 +82,8 @@ pub struct PreparedLook {
     detect_pass: wgpu::BindGroup,
     fill_pass: wgpu::BindGroup,
     fill_kind: FillKind,
+    /// The styles of linked strokes, where there are such.
+    path_pass: Option<wgpu::BindGroup>,
 }
 
 /// One draw of strokes.
@@ -88,6 +94,9 @@ pub(crate) struct PreparedDraw {
     pub(crate) visibility: Visibility,
     pub(crate) lies_over_surface: bool,
     pub(crate) is_linked: bool,
+    /// Premultiplied.
+    color: [f32; 4],
+    is_textured: bool,
     style: wgpu::BindGroup,
     vertices: DrawVertices,
 }
@@ -101,6 +110,14 @@ enum DrawVertices {
     },
     All(wgpu::RenderPipeline),
     Attributes(wgpu::RenderPipeline),
+}
+
+impl PreparedLook {
+    /// Whether any strokes are linked: the mesh must have links then.
+    #[must_use]
+    pub fn is_linked(&self) -> bool {
+        self.draws.iter().any(|draw| draw.is_linked)
+    }
 }
 
 impl Renderer {
@@ -118,7 +135,7 @@ impl Renderer {
             layouts: StrokeLayouts::new(device, &frame, options.layout, &options.formats),
             detect: DetectPipeline::new(device, &frame, options.layout)?,
             fill: FillPipeline::new(device, &frame, &options.formats)?,
-            link: None,
+            graph: None,
             frame: Frame::new(device, &frame, &bytemuck::Zeroable::zeroed()),
             options,
             expand: HashMap::new(),
@@ -145,9 +162,10 @@ impl Renderer {
         assert!(look.silhouette.is_none() || has_stencil, "a silhouette needs a stencil");
         let table = look.class_table();
         let is_linked = look.draws().iter().any(|draw| draw.style.is_linked());
-        if is_linked && self.options.path == DetectionPath::Compute && self.link.is_none() {
-            let frame = frame_layout(&gpu.device);
-            self.link = Some(LinkPipeline::new(&gpu.device, &frame, self.options.layout)?);
+        if is_linked && self.options.path == DetectionPath::Compute && self.graph.is_none() {
+            let RendererOptions { layout, formats, .. } = &self.options;
+            let made = GraphPipelines::new(&gpu.device, &self.layouts, *layout, formats)?;
+            self.graph = Some(made);
         }
         let mut draws = Vec::new();
         for (index, draw) in look.draws().iter_mut().enumerate() {
@@ -185,6 +203,8 @@ impl Renderer {
                 visibility,
                 lies_over_surface,
                 is_linked,
+                color: draw.style.color,
+                is_textured: draw.style.brush.is_some(),
                 style,
                 vertices,
             });
@@ -197,6 +217,7 @@ impl Renderer {
             detect_pass: self.detect.pass(&gpu.device, look),
             fill_pass: self.fill.pass(&gpu.device, look.fill_color.unwrap_or_default()),
             fill_kind,
+            path_pass: self.graph.as_ref().map(|graph| graph.path.pass(&gpu.device, look)),
         }))
     }
 
@@ -212,8 +233,7 @@ impl Renderer {
         look: &Arc<PreparedLook>,
     ) -> Object {
         assert_eq!(mesh.layout, self.options.layout, "a mesh in the renderer's layout");
-        let is_linked = look.draws.iter().any(|draw| draw.is_linked);
-        assert!(!is_linked || mesh.has_links(), "a mesh with links for strokes that are linked");
+        assert!(!look.is_linked() || mesh.has_links(), "a mesh with links for strokes that are linked");
         for draw in &look.draws {
             for chunk in &mesh.chunks {
                 for key in IndexKey::of(draw) {
@@ -225,7 +245,11 @@ impl Renderer {
                 }
             }
         }
-        Object::new(gpu, self, mesh.clone(), look.clone())
+        let object = Object::new(gpu, self, mesh.clone(), look.clone());
+        if let Some(graph) = &object.graph {
+            self.make_indices(&gpu.device, IndexKey::Quads, graph.buffers.size.points);
+        }
+        object
     }
 
     fn stroke(
@@ -281,16 +305,22 @@ impl Renderer {
         self.encode_detect(&mut encoder, &placed, timer);
         self.encode_link(&mut encoder, &placed, timer);
         self.encode_expand(&mut encoder, &placed, timer);
-        let asks_for_fill =
-            |object: &&Object| object.look.draws.iter().any(|draw| draw.lies_over_surface);
+        let asks_for_fill = |object: &&Object| {
+            object.look.draws.iter().any(|draw| draw.lies_over_surface || draw.is_linked)
+        };
         let frame_fill = placed
             .iter()
             .any(asks_for_fill)
             .then(|| self.frame.with_fill(&gpu.device, &self.layouts.frame_fill, targets));
-        let frame = FrameEncoder { renderer: self, targets, objects: &placed, frame_fill };
+        let steps = DrawStep::plan(&placed);
+        let frame = FrameEncoder { renderer: self, targets, objects: &placed, frame_fill, steps };
         let values = frame.stencil_values();
         frame.encode_fill(&mut encoder, background, &values, timer);
-        frame.encode_strokes(&mut encoder, &values, timer);
+        frame.encode_paths(&mut encoder, timer);
+        let coverage = targets.coverage(&gpu.device, frame.batches().count());
+        frame.encode_coverage(&mut encoder, &coverage, timer);
+        let laid = frame.composite_groups(&gpu.device, &coverage);
+        frame.encode_strokes(&mut encoder, &values, &laid, timer);
         if let Some(timer) = timer {
             timer.resolve(&mut encoder);
         }
@@ -338,10 +368,10 @@ impl Renderer {
             timestamp_writes: timer.map(|timer| timer.compute(1)),
         });
         pass.set_bind_group(0, &self.frame.bind_group, &[]);
-        let Some(link) = &self.link else { return };
+        let Some(pipelines) = &self.graph else { return };
         for graph in graphs() {
             pass.set_bind_group(1, &graph.uniform, &[]);
-            link.record(&mut pass, &graph.buffers, &graph.link);
+            pipelines.link.record(&mut pass, &graph.buffers, &graph.link);
         }
     }
 
@@ -386,6 +416,62 @@ struct FrameEncoder<'a> {
     objects: &'a [&'a Object],
     /// The frame with what was filled, where a draw asks for it.
     frame_fill: Option<wgpu::BindGroup>,
+    steps: Vec<DrawStep>,
+}
+
+/// What is drawn at once, in the order of a frame.
+enum DrawStep {
+    /// The strokes of an object and one of its draws, edge by edge.
+    Edges { object: usize, draw: usize },
+    /// Linked strokes: up to four draws, each of all objects with that look.
+    Linked(Vec<LinkedDraw>),
+}
+
+struct LinkedDraw {
+    objects: Vec<usize>,
+    draw: usize,
+}
+
+impl DrawStep {
+    /// All but silhouettes that are drawn edge by edge, which need the stencil.
+    fn plan(objects: &[&Object]) -> Vec<Self> {
+        let mut steps: Vec<Self> = Vec::new();
+        for visibility in [Visibility::Hidden, Visibility::Visible, Visibility::Silhouette] {
+            for (object, placed) in objects.iter().enumerate() {
+                let draws = placed.look.draws.iter().enumerate();
+                for (draw, prepared) in draws.filter(|(_, draw)| draw.visibility == visibility) {
+                    if prepared.is_linked {
+                        Self::add_linked(&mut steps, objects, object, draw);
+                    } else if visibility != Visibility::Silhouette {
+                        steps.push(Self::Edges { object, draw });
+                    }
+                }
+            }
+        }
+        steps
+    }
+
+    /// Objects that look alike share a channel, so that a scene has as many as it has
+    /// looks.
+    fn add_linked(steps: &mut Vec<Self>, objects: &[&Object], object: usize, draw: usize) {
+        let is_same = |linked: &LinkedDraw| {
+            let look = &objects[linked.objects[0]].look;
+            linked.draw == draw && Arc::ptr_eq(look, &objects[object].look)
+        };
+        let linked = steps.iter_mut().filter_map(|step| match step {
+            Self::Linked(draws) => Some(draws),
+            Self::Edges { .. } => None,
+        });
+        if let Some(same) = linked.flatten().find(|linked| is_same(linked)) {
+            same.objects.push(object);
+            return;
+        }
+        let new = LinkedDraw { objects: vec![object], draw };
+        match steps.last_mut() {
+            Some(Self::Linked(draws)) if draws.len() < CHANNELS => draws.push(new),
+            _ => steps.push(Self::Linked(vec![new])),
+        }
+    }
 }
 
 /// The stencil values of the objects, cut where the stencil must be cleared.
@@ -455,10 +541,124 @@ impl FrameEncoder<'_> {
         FillPipeline::record(pass, &object.mesh);
     }
 
+    fn batches(&self) -> impl Iterator<Item = &[LinkedDraw]> {
+        self.steps.iter().filter_map(|step| match step {
+            DrawStep::Linked(draws) => Some(&draws[..]),
+            DrawStep::Edges { .. } => None,
+        })
+    }
+
+    /// From chains to ribbons, by the depth of the fill.
+    fn encode_paths(&self, encoder: &mut wgpu::CommandEncoder, timer: Option<&GpuTimer>) {
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some(PASS_NAMES[4]),
+            timestamp_writes: timer.map(|timer| timer.compute(4)),
+        });
+        let Some((frame, pipelines)) = self.frame_fill.as_ref().zip(self.renderer.graph.as_ref())
+        else {
+            return;
+        };
+        pass.set_bind_group(0, frame, &[]);
+        for object in self.objects {
+            if let Some((graph, styles)) = object.graph.as_ref().zip(object.look.path_pass.as_ref())
+            {
+                pass.set_bind_group(1, styles, &[]);
+                pipelines.path.record(&mut pass, &graph.buffers, &graph.path);
+            }
+        }
+    }
+
+    /// The coverage of linked strokes, one texture a batch.
+    fn encode_coverage(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        textures: &[wgpu::TextureView],
+        timer: Option<&GpuTimer>,
+    ) {
+        if textures.is_empty() {
+            // The timer expects every pass.
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some(PASS_NAMES[5]),
+                timestamp_writes: timer.map(|timer| timer.compute(5)),
+            });
+        }
+        let Some(pipelines) = &self.renderer.graph else { return };
+        for (batch, (draws, texture)) in self.batches().zip(textures).enumerate() {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some(PASS_NAMES[5]),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: texture,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                        store: wgpu::StoreOp::Store,
+                    },
+                })],
+                timestamp_writes: timer.filter(|_| batch == 0).map(|timer| timer.render(5)),
+                ..Default::default()
+            });
+            pass.set_bind_group(0, &self.renderer.frame.bind_group, &[]);
+            self.renderer.set_indices(&mut pass, IndexKey::Quads);
+            for (channel, linked) in draws.iter().enumerate() {
+                for object in linked.objects.iter().map(|&object| self.objects[object]) {
+                    let Some(graph) = &object.graph else { continue };
+                    let draw = &object.look.draws[linked.draw];
+                    pipelines.coverage.set_ribbons(&mut pass, channel, draw.is_textured);
+                    pass.set_bind_group(1, &draw.style, &[]);
+                    pass.set_bind_group(3, &graph.ribbons, &[]);
+                    let at = 4 * (RIBBON_DRAWS + 5 * linked.draw) as u64;
+                    pass.draw_indexed_indirect(&graph.buffers.arguments, at);
+                }
+            }
+        }
+    }
+
+    /// How each batch of coverage is laid over the picture.
+    fn composite_groups(
+        &self,
+        device: &wgpu::Device,
+        textures: &[wgpu::TextureView],
+    ) -> Vec<wgpu::BindGroup> {
+        let Some(pipelines) = &self.renderer.graph else { return Vec::new() };
+        let group = |(draws, texture): (&[LinkedDraw], &wgpu::TextureView)| {
+            let mut colors = [[0.0; 4]; CHANNELS];
+            for (color, linked) in colors.iter_mut().zip(draws) {
+                *color = self.objects[linked.objects[0]].look.draws[linked.draw].color;
+            }
+            pipelines.coverage.composite_group(device, colors, texture)
+        };
+        self.batches().zip(textures).map(group).collect()
+    }
+
+    /// What the steps say, in order.
+    fn draw_steps(&self, pass: &mut wgpu::RenderPass, laid: &[wgpu::BindGroup], values: &[u32]) {
+        let mut laid = laid.iter();
+        for step in &self.steps {
+            match step {
+                DrawStep::Edges { object, draw } => self.strokes(pass, self.objects[*object], *draw),
+                DrawStep::Linked(draws) => {
+                    let pipelines = self.renderer.graph.as_ref();
+                    if let Some((pipelines, group)) = pipelines.zip(laid.next()) {
+                        pipelines.coverage.record_composite(pass, group);
+                    }
+                    // What found no room to be linked.
+                    for linked in draws {
+                        for &object in &linked.objects {
+                            pass.set_stencil_reference(values[object]);
+                            self.strokes(pass, self.objects[object], linked.draw);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
     fn encode_strokes(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         batches: &StencilBatches,
+        laid: &[wgpu::BindGroup],
         timer: Option<&GpuTimer>,
     ) {
         let ranges = batches.ranges();
@@ -470,22 +670,23 @@ impl FrameEncoder<'_> {
             let is_last = batch + 1 == ranges.len();
             let color = self.targets.color_attachment(wgpu::LoadOp::Load, is_last);
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some(PASS_NAMES[4]),
+                label: Some(PASS_NAMES[6]),
                 color_attachments: &[Some(color)],
                 depth_stencil_attachment: Some(self.targets.read_depth()),
-                timestamp_writes: timer.filter(|_| is_first).map(|timer| timer.render(4)),
+                timestamp_writes: timer.filter(|_| is_first).map(|timer| timer.render(6)),
                 ..Default::default()
             });
             if is_first {
-                for visibility in [Visibility::Hidden, Visibility::Visible] {
-                    for object in self.objects {
-                        self.strokes(&mut pass, object, visibility);
-                    }
-                }
+                self.draw_steps(&mut pass, laid, &batches.values);
             }
             for index in range.clone().filter(|&index| batches.values[index] != NO_OBJECT) {
                 pass.set_stencil_reference(batches.values[index]);
-                self.strokes(&mut pass, self.objects[index], Visibility::Silhouette);
+                let object = self.objects[index];
+                for (draw, prepared) in object.look.draws.iter().enumerate() {
+                    if prepared.visibility == Visibility::Silhouette && !prepared.is_linked {
+                        self.strokes(&mut pass, object, draw);
+                    }
+                }
             }
         }
     }
@@ -509,9 +710,9 @@ impl FrameEncoder<'_> {
         }
     }
 
-    fn strokes(&self, pass: &mut wgpu::RenderPass, object: &Object, visibility: Visibility) {
-        let draws = object.look.draws.iter().enumerate();
-        for (index, draw) in draws.filter(|(_, draw)| draw.visibility == visibility) {
+    /// The strokes of a draw, edge by edge.
+    fn strokes(&self, pass: &mut wgpu::RenderPass, object: &Object, index: usize) {
+        if let Some(draw) = object.look.draws.get(index) {
             let frame = &self.renderer.frame.bind_group;
             let frame =
                 self.frame_fill.as_ref().filter(|_| draw.lies_over_surface).unwrap_or(frame);

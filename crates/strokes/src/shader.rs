@@ -13,6 +13,7 @@ use std::fmt;
 use thiserror::Error;
 
 use crate::mesh_buffers::Layout;
+use crate::targets::TargetFormats;
 
 macro_rules! embedded {
     ($path:literal) => {
@@ -31,12 +32,22 @@ pub const EMBEDDED: &[(&str, &str)] = &[
     embedded!("common/faces_replicated.wgsl"),
     embedded!("common/facing.wgsl"),
     embedded!("common/feature.wgsl"),
+    embedded!("common/fill_depth_of_pixels.wgsl"),
+    embedded!("common/fill_depth_of_samples.wgsl"),
+    embedded!("common/fill_object_of_none.wgsl"),
+    embedded!("common/fill_object_of_pixels.wgsl"),
+    embedded!("common/fill_object_of_samples.wgsl"),
     embedded!("common/frame.wgsl"),
     embedded!("common/mesh.wgsl"),
     embedded!("common/normal_cone.wgsl"),
     embedded!("common/object_limits.wgsl"),
+    embedded!("common/path.wgsl"),
+    embedded!("common/path_grid.wgsl"),
+    embedded!("common/path_style.wgsl"),
+    embedded!("common/path_visibility.wgsl"),
     embedded!("common/replicated_corner.wgsl"),
     embedded!("common/scan.wgsl"),
+    embedded!("common/silhouette.wgsl"),
     embedded!("common/spine.wgsl"),
     embedded!("common/stroke_cap.wgsl"),
     embedded!("common/stroke_classified.wgsl"),
@@ -51,9 +62,15 @@ pub const EMBEDDED: &[(&str, &str)] = &[
     embedded!("detect_faces.wgsl"),
     embedded!("expand_strokes.wgsl"),
     embedded!("fill.wgsl"),
+    embedded!("graph/composite.wgsl"),
     embedded!("graph/link_bases.wgsl"),
     embedded!("graph/link_chains.wgsl"),
     embedded!("graph/link_elements.wgsl"),
+    embedded!("graph/path_joints.wgsl"),
+    embedded!("graph/path_points.wgsl"),
+    embedded!("graph/path_ribbons.wgsl"),
+    embedded!("graph/path_strokes.wgsl"),
+    embedded!("graph/ribbon.wgsl"),
     embedded!("stroke_all.wgsl"),
     embedded!("stroke_expanded.wgsl"),
     embedded!("stroke_face_normals.wgsl"),
@@ -127,6 +144,25 @@ impl ShaderSource {
         Self::resolve(root, &|path| layout_text(path, layout))
     }
 
+    /// Joins an embedded shader that asks what was filled in pictures of `formats`.
+    ///
+    /// # Errors
+    /// As [`Self::embedded`].
+    pub fn embedded_over(root: &str, formats: &TargetFormats) -> Result<Self, ShaderError> {
+        let is_sampled = formats.samples > 1;
+        Self::resolve(root, &|path| {
+            let path = match (path, is_sampled) {
+                ("common/fill_depth.wgsl", true) => "common/fill_depth_of_samples.wgsl",
+                ("common/fill_object.wgsl", _) if !formats.has_stencil() => {
+                    "common/fill_object_of_none.wgsl"
+                }
+                ("common/fill_object.wgsl", true) => "common/fill_object_of_samples.wgsl",
+                _ => path,
+            };
+            embedded_text(path)
+        })
+    }
+
     fn append(
         &mut self,
         path: &str,
@@ -197,7 +233,10 @@ impl ShaderSource {
         );
         validator.validate(&module).map_err(|error| {
             let line = error.location(&self.text).map_or(1, |at| at.line_number as usize);
-            self.error_at(line, &error.into_inner())
+            let error = error.into_inner();
+            let causes = std::iter::successors(Some(&error as &dyn std::error::Error), |e| e.source());
+            let causes: Vec<String> = causes.map(ToString::to_string).collect();
+            self.error_at(line, &causes.join(": "))
         })?;
         Ok(module)
     }
@@ -218,7 +257,8 @@ impl ShaderSource {
 }
 
 /// The text of an embedded shader; `common/edge_source.wgsl` and
-/// `common/edge_faces.wgsl` are those of the indexed layout.
+/// `common/edge_faces.wgsl` are those of the indexed layout, `common/fill_depth.wgsl`
+/// and `common/fill_object.wgsl` those of pictures of one sample a pixel.
 #[must_use]
 pub fn embedded_text(path: &str) -> Option<String> {
     layout_text(path, Layout::Indexed)
@@ -235,6 +275,8 @@ fn layout_text(path: &str, layout: Layout) -> Option<String> {
         }
         ("common/edge_source.wgsl", Layout::Replicated16) => "common/edges_replicated_16.wgsl",
         ("common/edge_faces.wgsl", Layout::Indexed) => "common/faces_indexed.wgsl",
+        ("common/fill_depth.wgsl", _) => "common/fill_depth_of_pixels.wgsl",
+        ("common/fill_object.wgsl", _) => "common/fill_object_of_pixels.wgsl",
         ("common/edge_faces.wgsl", _) => "common/faces_replicated.wgsl",
         _ => path,
     };

@@ -12,7 +12,8 @@ use crate::targets::TargetFormats;
 /// The bind group layouts of strokes in one layout of edges.
 #[derive(Debug)]
 pub(crate) struct StrokeLayouts {
-    frame: wgpu::BindGroupLayout,
+    /// `@group(0)`.
+    pub(crate) frame: wgpu::BindGroupLayout,
     /// `@group(0)` of strokes that ask what was filled.
     pub(crate) frame_fill: wgpu::BindGroupLayout,
     /// `@group(1)`: the style.

@@ -4,8 +4,11 @@
 //! happens between those values, as in SVG and in drawing programs: half a pixel
 //! of black ink on white paper is the middle grey that one expects.
 
+use std::sync::{Mutex, PoisonError};
+
 use glam::Vec2;
 
+use crate::graph::coverage::COVERAGE_FORMAT;
 use crate::silhouette::NO_OBJECT;
 
 /// The format of pictures.
@@ -65,6 +68,8 @@ pub struct Targets {
     depth_texture: wgpu::TextureView,
     /// The stencil alone, to be read, where there is one.
     object_texture: Option<wgpu::TextureView>,
+    /// Coverage of linked strokes, as many as a frame has needed so far.
+    coverage: Mutex<Vec<wgpu::TextureView>>,
 }
 
 impl Targets {
@@ -105,7 +110,30 @@ impl Targets {
             depth_texture: alone(wgpu::TextureAspect::DepthOnly),
             object_texture: formats.has_stencil().then(|| alone(wgpu::TextureAspect::StencilOnly)),
             picture,
+            coverage: Mutex::default(),
         }
+    }
+
+    /// The first `count` textures for the coverage of linked strokes.
+    pub(crate) fn coverage(&self, device: &wgpu::Device, count: usize) -> Vec<wgpu::TextureView> {
+        let [width, height] = self.size;
+        // Views are pushed whole; a thread that panicked left none half made.
+        let mut views = self.coverage.lock().unwrap_or_else(PoisonError::into_inner);
+        while views.len() < count {
+            let texture = device.create_texture(&wgpu::TextureDescriptor {
+                label: Some("coverage"),
+                size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: COVERAGE_FORMAT,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+                    | wgpu::TextureUsages::TEXTURE_BINDING,
+                view_formats: &[],
+            });
+            views.push(texture.create_view(&wgpu::TextureViewDescriptor::default()));
+        }
+        views[..count].to_vec()
     }
 
     /// The formats.

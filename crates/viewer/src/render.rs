@@ -178,8 +178,10 @@ impl<'a> PictureRenderer<'a> {
             });
         }
         let looks = prepared;
+        let is_linked = looks.iter().any(|look| look.is_linked());
         let meshes = scene.models.iter().map(|model| {
-            let buffers = MeshBuffers::new(&gpu.device, &model.mesh, layout)
+            let upload = if is_linked { MeshBuffers::with_links } else { MeshBuffers::new };
+            let buffers = upload(&gpu.device, &model.mesh, layout)
                 .map_err(|error| Failure::fault(format!("{}: {error}", model.name)))?;
             Ok(Arc::new(buffers))
         });

@@ -18,6 +18,7 @@ use edgemesh::oracle::feature::EdgeClass;
 use edgemesh::oracle::stroke_quad::Placement;
 use edgemesh::oracle::stroke_segment::{LineKind, Parameterization};
 use strokes::brush::Brush;
+use strokes::graph::path_style::{BrushFit, End, Join, PathStyle};
 use strokes::look::{Layer, Look, StrokeStyle, Width};
 
 /// The techniques, by name, with what each shows.
@@ -43,7 +44,7 @@ pub const PASSES: [(&str, &str); 8] = [
 ];
 
 /// The variables of all passes of strokes.
-pub const STROKE_VARIABLES: [(&str, &str); 10] = [
+pub const STROKE_VARIABLES: [(&str, &str); 19] = [
     ("show", "true or false"),
     ("color", "the ink, #rrggbb or #rrggbbaa"),
     ("opacity", "0 to 1"),
@@ -52,8 +53,17 @@ pub const STROKE_VARIABLES: [(&str, &str); 10] = [
     ("parameterization", "how the brush lies along edges: object or screen"),
     ("placement", "auto (contours outside, others centred), centred, outside, inside"),
     ("kind", "quad, thin (one pixel), fin (along the surface normals)"),
-    ("ends", "caps, none, disks"),
+    ("ends", "caps, none, disks; of linked strokes round, flat, pointed"),
     ("fade", "distances where strokes begin to fade and are gone, as 3,8; or none"),
+    ("linked", "true or false: edges linked into strokes, or each by itself"),
+    ("join", "how the segments of linked strokes meet: round or mitred"),
+    ("corner", "degrees of turn at which linked strokes are cut, 0 to 180; none for never"),
+    ("cut-hidden", "true or false: whether linked strokes end where they are hidden"),
+    ("min-length", "pixels; shorter linked strokes fade"),
+    ("max-length", "pixels; longer linked strokes are cut; or none"),
+    ("fit", "how the brush lies along linked strokes: tiled or stretched"),
+    ("taper", "pixels over which linked strokes grow and shrink, as 20 or 10,40"),
+    ("overshoot", "pixels by which linked strokes go on beyond their ends"),
 ];
 
 /// The widest stroke: the guard band around the picture hides the cut ends of
@@ -68,11 +78,21 @@ struct Switched {
     /// The colour before opacity.
     color: [f32; 4],
     opacity: f32,
+    is_linked: bool,
+    /// How, where they are linked.
+    path: PathStyle,
 }
 
 impl Switched {
     fn new(is_shown: bool, style: StrokeStyle) -> Self {
-        Self { is_shown, style, color: [0.0, 0.0, 0.0, 1.0], opacity: 1.0 }
+        Self {
+            is_shown,
+            style,
+            color: [0.0, 0.0, 0.0, 1.0],
+            opacity: 1.0,
+            is_linked: false,
+            path: PathStyle::default(),
+        }
     }
 
     /// The style in the units of the scene, where it is shown.
@@ -86,6 +106,7 @@ impl Switched {
             style.width = Width::World(scaled(width));
         }
         style.fade = style.fade.map(|fade| fade.map(scaled));
+        style.path = self.is_linked.then(|| self.path.clone());
         self.is_shown.then_some(style)
     }
 }
@@ -312,6 +333,16 @@ enum StrokeSetting {
     Kind(LineKind),
     Ends(LineKind),
     Fade(Option<[f32; 2]>),
+    Linked(bool),
+    PathEnds(End),
+    Join(Join),
+    Corner(f32),
+    CutHidden(bool),
+    MinLength(f32),
+    MaxLength(f32),
+    Fit(BrushFit),
+    Taper([f32; 2]),
+    Overshoot(f32),
 }
 
 enum SettingError {
@@ -355,15 +386,50 @@ impl StrokeSetting {
                 value,
                 &[("quad", LineKind::Quad), ("thin", LineKind::Thin), ("fin", LineKind::Fin)],
             )?),
-            "ends" => Self::Ends(parse_word(
+            "ends" => parse_word(
                 value,
                 &[
-                    ("none", LineKind::Quad),
-                    ("caps", LineKind::QuadAndCaps),
-                    ("disks", LineKind::QuadAndDisks),
+                    ("none", Ends::OfEdges(LineKind::Quad)),
+                    ("caps", Ends::OfEdges(LineKind::QuadAndCaps)),
+                    ("disks", Ends::OfEdges(LineKind::QuadAndDisks)),
+                    ("round", Ends::OfPaths(End::Round)),
+                    ("flat", Ends::OfPaths(End::Flat)),
+                    ("pointed", Ends::OfPaths(End::Pointed)),
                 ],
-            )?),
+            )?
+            .into(),
             "fade" => Self::Fade(parse_fade(value)?),
+            _ => Self::parse_path(variable, value)?,
+        })
+    }
+
+    /// The variables of linked strokes.
+    fn parse_path(variable: &str, value: &str) -> Result<Self, SettingError> {
+        let truths = [("true", true), ("false", false)];
+        Ok(match variable {
+            "linked" => Self::Linked(parse_word(value, &truths)?),
+            "join" => Self::Join(parse_word(
+                value,
+                &[("round", Join::Round), ("mitred", Join::Mitred)],
+            )?),
+            "corner" if value == "none" => Self::Corner(180.0),
+            "corner" => Self::Corner(
+                parse_number(value, 0.0, 180.0)
+                    .ok_or("needs degrees from 0 to 180, or none".to_owned())?,
+            ),
+            "cut-hidden" => Self::CutHidden(parse_word(value, &truths)?),
+            "min-length" => Self::MinLength(parse_pixels(value)?),
+            "max-length" if value == "none" => Self::MaxLength(0.0),
+            "max-length" => Self::MaxLength(parse_pixels(value)?),
+            "fit" => Self::Fit(parse_word(
+                value,
+                &[("tiled", BrushFit::Tiled), ("stretched", BrushFit::Stretched)],
+            )?),
+            "taper" => {
+                let (start, end) = value.split_once(',').unwrap_or((value, value));
+                Self::Taper([parse_pixels(start)?, parse_pixels(end)?])
+            }
+            "overshoot" => Self::Overshoot(parse_pixels(value)?),
             _ => {
                 let names: Vec<&str> = STROKE_VARIABLES.iter().map(|(name, _)| *name).collect();
                 let what = format!("there is no such variable; there are: {}", names.join(", "));
@@ -390,6 +456,32 @@ impl StrokeSetting {
             }
             Self::Kind(kind) | Self::Ends(kind) => style.kind = *kind,
             Self::Fade(fade) => style.fade = *fade,
+            Self::Linked(is_linked) => to.is_linked = *is_linked,
+            Self::PathEnds(end) => to.path.end = *end,
+            Self::Join(join) => to.path.join = *join,
+            Self::Corner(degrees) => to.path.corner_rad = degrees.to_radians(),
+            Self::CutHidden(is_cut) => to.path.is_cut_where_hidden = *is_cut,
+            Self::MinLength(pixels) => to.path.min_length_px = *pixels,
+            Self::MaxLength(pixels) => to.path.max_length_px = *pixels,
+            Self::Fit(fit) => to.path.brush_fit = *fit,
+            Self::Taper(pixels) => to.path.taper_px = *pixels,
+            Self::Overshoot(pixels) => to.path.overshoot_px = *pixels,
+        }
+    }
+}
+
+/// One variable for the ends of edges and of linked strokes: no value is of both.
+#[derive(Debug, Clone, Copy)]
+enum Ends {
+    OfEdges(LineKind),
+    OfPaths(End),
+}
+
+impl From<Ends> for StrokeSetting {
+    fn from(ends: Ends) -> Self {
+        match ends {
+            Ends::OfEdges(kind) => Self::Ends(kind),
+            Ends::OfPaths(end) => Self::PathEnds(end),
         }
     }
 }
@@ -417,6 +509,11 @@ fn parse_word<T: Copy>(value: &str, words: &[(&str, T)]) -> Result<T, String> {
 
 fn parse_number(value: &str, least: f32, most: f32) -> Option<f32> {
     value.trim().parse().ok().filter(|number| (least..=most).contains(number))
+}
+
+fn parse_pixels(value: &str) -> Result<f32, String> {
+    let pixels = value.strip_suffix("px").unwrap_or(value);
+    parse_number(pixels, 0.0, 10_000.0).ok_or_else(|| "needs pixels from 0 to 10000".to_owned())
 }
 
 fn parse_width(value: &str) -> Result<Width, String> {
@@ -502,6 +599,12 @@ mod tests {
             "kind" => "fin",
             "ends" => "disks",
             "fade" => "1,2",
+            "linked" | "cut-hidden" => "true",
+            "join" => "mitred",
+            "corner" => "45",
+            "min-length" | "max-length" | "overshoot" => "10",
+            "fit" => "stretched",
+            "taper" => "10,20",
             other => panic!("{other} has no value here"),
         };
         for pass in ["strokes", "hidden", "silhouette", "contour", "hidden-valley", "smoothing"] {
@@ -563,7 +666,7 @@ mod tests {
             ("fill.color=white", "#rrggbb"),
             ("fill.colour=#ffffff", "color"),
             ("fill.color=#ffé0", "#rrggbb"),
-            ("contour.ends=round", "caps"),
+            ("contour.ends=square", "caps"),
             ("contour.fade=3,2", "distances"),
             ("contour.opacity=2", "0 to 1"),
             ("creases.ridge=200", "degrees"),

@@ -20,10 +20,13 @@ use strokes::fill::FillUniform;
 use strokes::frame::{FrameUniform, ObjectUniform};
 use strokes::graph::buffers::{
     ARC_PER_PX, BACKWARD, CUT_END, CUT_START, Chain, ChainState, Element, GraphHeader,
-    GraphUniform, ITEMS_PER_SUM, LinkNode, NO_NODE, ON_LOOP, UNSEEN,
+    GraphUniform, ITEMS_PER_SUM, Joint, LinkNode, PathPoint, Ribbon, Stroke, NO_NODE, ON_LOOP, UNSEEN,
 };
+use strokes::graph::coverage::CompositeUniform;
 use strokes::graph::link_table::{REVERSED, SURFACE_CUT, SURFACE_END};
-use strokes::look::{MAX_DRAWS, MAX_LAYERS};
+use strokes::graph::path::PathUniform;
+use strokes::graph::path_style::{End, Join, MITRE_LIMIT};
+use strokes::look::{MAX_DRAWS, MAX_LAYERS, Visibility};
 use strokes::mesh_buffers::{ChunkUniform, EDGES_PER_RUN};
 use strokes::shader::ShaderSource;
 use strokes::silhouette::NO_OBJECT;
@@ -168,6 +171,7 @@ fn graph_layouts() -> BTreeMap<String, Layout> {
             stroke_count,
             chain_count,
             total_px,
+            point_capacity,
             padding,
             layer_first,
             draw_first,
@@ -176,7 +180,32 @@ fn graph_layouts() -> BTreeMap<String, Layout> {
         layout!(LinkNode { s0, s1, z0, z1, edge, next }),
         layout!(ChainState { jump, anchor, distance, reach }),
         layout!(Chain { first, count }),
-        layout!(Element { node, first, count, arc }),
+        layout!(Element { s0, s1, z0, z1, edge, next, first, count, arc, node }),
+        layout!(Joint { cosine, kind, point_count, first_point }),
+        layout!(PathPoint { position, depth, arc, path, flags, cut, stroke, padding }),
+        layout!(Stroke { first, last, start_arc, end_arc }),
+        layout!(Ribbon { a, b, u, half_width, join0, join1, opacity, ends }),
+        layout!(PathUniform {
+            layer,
+            visibility,
+            placement,
+            is_world_width,
+            width,
+            step_px,
+            corner_cosine,
+            is_cut_where_hidden,
+            join,
+            end,
+            min_length_px,
+            max_length_px,
+            brush_aspect,
+            is_stretched,
+            fade,
+            taper_px,
+            overshoot_px,
+            padding
+        }),
+        layout!(CompositeUniform { colors }),
     ])
 }
 
@@ -230,7 +259,7 @@ fn structs_in_buffers_are_laid_out_alike_and_found_on_both_sides() {
 }
 
 /// Constants of one side only: how the shader works inside.
-const OF_SHADERS: [&str; 14] = [
+const OF_SHADERS: [&str; 31] = [
     "BEHIND",
     "SCAN_WIDTH",
     "EXPAND_WIDTH",
@@ -245,6 +274,23 @@ const OF_SHADERS: [&str; 14] = [
     "POINT_GROUPS",
     "POINT_SUM_GROUPS",
     "CHUNK_GROUPS",
+    "RIBBON_DRAWS",
+    "BREAK",
+    "CORNER",
+    "SPLIT",
+    "POINT_STARTS",
+    "POINT_ENDS",
+    "POINT_SPLITS",
+    "POINT_IS_VISIBLE",
+    "POINT_ON_CONTOUR",
+    "POINT_ON_SEAM",
+    "DRAW_SHIFT",
+    "NOT_DRAWN",
+    "IS_INSIDE",
+    "KEPT_COSINE",
+    "MOST_ELEMENTS",
+    "HALVINGS",
+    "INSIDE_PX",
 ];
 
 /// The constants that both sides should have, as the shaders have them.
@@ -318,6 +364,14 @@ fn constants_are_equal_and_found_on_both_sides() {
         ("UNSEEN", UNSEEN.into()),
         ("ON_LOOP", ON_LOOP.into()),
         ("ARC_PER_PX", float(ARC_PER_PX)),
+        ("MITRE_LIMIT", float(MITRE_LIMIT)),
+        ("ENDS_ROUND", End::Round as u64),
+        ("ENDS_FLAT", End::Flat as u64),
+        ("ENDS_POINTED", End::Pointed as u64),
+        ("JOINS_ROUND", 3 + Join::Round as u64),
+        ("JOINS_MITRED", 3 + Join::Mitred as u64),
+        ("HIDDEN_STROKES", Visibility::Hidden as u64),
+        ("SILHOUETTE_STROKES", Visibility::Silhouette as u64),
         ("SURFACE_END", SURFACE_END.into()),
         ("SURFACE_CUT", SURFACE_CUT.into()),
         ("REVERSED", REVERSED.into()),

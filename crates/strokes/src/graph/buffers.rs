@@ -2,10 +2,12 @@
 //!
 //! | buffer | bytes |
 //! |---|---|
-//! | nodes, elements | 32 and 16 an edge that can be linked (of 8 edges one) |
+//! | nodes, elements | 32 and 48 an edge that can be linked (of 8 edges one) |
 //! | states of linking, twice | 16 each |
 //! | nodes before, chains | 4 and 8 |
 //! | sums | 8 for 16 items |
+//! | joints | 16 an edge that can be linked |
+//! | points, strokes, ribbons | 40, 16 and 56 a point (two for each edge that can be linked, and 65,536) |
 
 use bytemuck::{Pod, Zeroable};
 use wgpu::BufferUsages;
@@ -82,8 +84,10 @@ pub struct GraphHeader {
     pub chain_count: u32,
     /// Arc length of all chains, in pixels.
     pub total_px: f32,
+    /// Points that there is room for.
+    pub point_capacity: u32,
     /// Unused.
-    pub padding: [u32; 2],
+    pub padding: u32,
     /// Where the nodes of each layer begin; the last is their number.
     pub layer_first: [u32; MAX_LAYERS + 1],
     /// Where the elements of each draw begin among all, and their number.
@@ -136,11 +140,21 @@ pub struct Chain {
 }
 
 /// An element of a chain, in the order of the chain.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Element {
-    /// Its node.
-    pub node: u32,
+    /// As in its node.
+    pub s0: [f32; 2],
+    /// As in its node.
+    pub s1: [f32; 2],
+    /// As in its node.
+    pub z0: f32,
+    /// As in its node.
+    pub z1: f32,
+    /// As in its node.
+    pub edge: u32,
+    /// As in its node.
+    pub next: u32,
     /// The first element of its chain.
     pub first: u32,
     /// How many elements its chain has, with [`ON_LOOP`] where the last is followed
@@ -148,20 +162,115 @@ pub struct Element {
     pub count: u32,
     /// Arc length up to here in [`ARC_PER_PX`] of a pixel, from anywhere.
     pub arc: u32,
+    /// Its node.
+    pub node: u32,
 }
 
+/// The beginning of an element in a draw's path.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Joint {
+    /// Cosine of the turn there, measured over some pixels.
+    pub cosine: f32,
+    /// Whether it is a break, a corner, a place to split at: one bit each.
+    pub kind: u32,
+    /// Points of the element.
+    pub point_count: u32,
+    /// The first of them.
+    pub first_point: u32,
+}
+
+/// A point of a path; with the one that follows it, a segment.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct PathPoint {
+    /// Pixels from the middle of the picture, y up.
+    pub position: [f32; 2],
+    /// Its depth.
+    pub depth: f32,
+    /// Arc length from the beginning of its chain, in pixels.
+    pub arc: f32,
+    /// The element it is on, among those of all draws.
+    pub path: u32,
+    /// See the shader; the draw is above the lowest eight bits.
+    pub flags: u32,
+    /// What of its segment is drawn, as fractions.
+    pub cut: [f32; 2],
+    /// The stroke that its segment is a part of.
+    pub stroke: u32,
+    /// Unused.
+    pub padding: u32,
+}
+
+/// A stroke.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Stroke {
+    /// The point where its first segment begins.
+    pub first: u32,
+    /// The point where its last segment begins.
+    pub last: u32,
+    /// Arc length of its chain where it begins, in pixels.
+    pub start_arc: f32,
+    /// Arc length of its chain where it ends, in pixels.
+    pub end_arc: f32,
+}
+
+/// A segment of a stroke, ready to be drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Ribbon {
+    /// Where it begins, in pixels from the middle of the picture, y up.
+    pub a: [f32; 2],
+    /// Where it ends.
+    pub b: [f32; 2],
+    /// Along the brush at both ends.
+    pub u: [f32; 2],
+    /// Half of its width at both ends, in pixels.
+    pub half_width: [f32; 2],
+    /// Unit vector of half of the turn where it begins, along and across the segment.
+    pub join0: [f32; 2],
+    /// The same where it ends.
+    pub join1: [f32; 2],
+    /// Its opacity at both ends, as fractions of 16 bits.
+    pub opacity: u32,
+    /// How it begins and ends, and on which side it lies.
+    pub ends: u32,
+}
+
+/// Words of the arguments before the draws of ribbons. WGSL twin: `RIBBON_DRAWS`.
+pub(crate) const RIBBON_DRAWS: usize = 18;
+
 /// Words of the arguments before those of the chunks. WGSL twin: `CHUNK_GROUPS`.
-pub(crate) const CHUNK_GROUPS: usize = 18;
+pub(crate) const CHUNK_GROUPS: usize = RIBBON_DRAWS + 5 * MAX_DRAWS;
+
+/// Points of the even grid along paths that there is room for, besides two for each
+/// element: a quarter of a million pixels of lines at four pixels a point. Where that
+/// is too little the points lie further apart.
+const GRID_POINTS: u32 = 1 << 16;
 
 /// What there is room for.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct GraphSize {
     pub(crate) nodes: u32,
+    /// Elements of all linked draws.
+    pub(crate) paths: u32,
+    pub(crate) points: u32,
 }
 
 impl GraphSize {
-    pub(crate) fn new(chunks: &[ChunkUniform]) -> Self {
-        Self { nodes: chunks.iter().map(|chunk| chunk.node_capacity).sum::<u32>().max(1) }
+    /// For draws of which at most `draws_a_layer` are of one layer.
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        chunks: &[ChunkUniform],
+        draws_a_layer: u32,
+    ) -> Self {
+        let nodes = chunks.iter().map(|chunk| chunk.node_capacity).sum::<u32>().max(1);
+        let limit = device.limits().max_storage_buffer_binding_size;
+        let most = u32::try_from(limit / size_of::<Ribbon>() as u64).unwrap_or(u32::MAX);
+        let paths = nodes.saturating_mul(draws_a_layer).min(most);
+        let points = paths.saturating_mul(2).saturating_add(GRID_POINTS).min(most);
+        Self { nodes, paths, points }
     }
 
     /// Rounds that link the longest chain there can be: each looks four times as far.
@@ -184,11 +293,19 @@ pub(crate) struct GraphBuffers {
     pub(crate) sums: wgpu::Buffer,
     pub(crate) states: [wgpu::Buffer; 2],
     pub(crate) chains: wgpu::Buffer,
+    pub(crate) joints: wgpu::Buffer,
+    pub(crate) points: wgpu::Buffer,
+    pub(crate) strokes: wgpu::Buffer,
+    pub(crate) ribbons: wgpu::Buffer,
 }
 
 impl GraphBuffers {
-    pub(crate) fn new(device: &wgpu::Device, chunks: &[ChunkUniform]) -> Self {
-        let size = GraphSize::new(chunks);
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        chunks: &[ChunkUniform],
+        draws_a_layer: u32,
+    ) -> Self {
+        let size = GraphSize::new(device, chunks, draws_a_layer);
         let buffer = |label: &str, count: u32, bytes: usize, usage: BufferUsages| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
@@ -217,9 +334,14 @@ impl GraphBuffers {
             nodes: buffer("link nodes", nodes, size_of::<LinkNode>(), read_back),
             elements: buffer("elements", nodes, size_of::<Element>(), read_back),
             previous: buffer("previous nodes", nodes, 4, BufferUsages::COPY_DST),
-            sums: buffer("sums", nodes.div_ceil(ITEMS_PER_SUM), 8, none),
+            sums: buffer("sums", size.points.max(nodes).div_ceil(ITEMS_PER_SUM), 8, none),
             states: [state(), state()],
             chains: buffer("chains", nodes, size_of::<Chain>(), none),
+            joints: buffer("joints", size.paths, size_of::<Joint>(), none),
+            points: buffer("path points", size.points, size_of::<PathPoint>(), read_back),
+            // A stroke has a segment at least.
+            strokes: buffer("graph strokes", size.points, size_of::<Stroke>(), read_back),
+            ribbons: buffer("ribbons", size.points, size_of::<Ribbon>(), read_back),
             size,
         }
     }

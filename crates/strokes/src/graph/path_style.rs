@@ -25,6 +25,20 @@ pub enum End {
     Pointed = 2,
 }
 
+/// Mitres that would reach further than so many half widths are round. WGSL twin: the
+/// constant of this name.
+pub const MITRE_LIMIT: f32 = 4.0;
+
+/// How the brush lies along a stroke.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum BrushFit {
+    /// Whole repeats of it, held where the stroke has its middle.
+    #[default]
+    Tiled,
+    /// Once, as long as the stroke.
+    Stretched,
+}
+
 /// How edges are linked into strokes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathStyle {
@@ -42,6 +56,12 @@ pub struct PathStyle {
     pub min_length_px: f32,
     /// Longer strokes are cut into equal parts; 0 for never.
     pub max_length_px: f32,
+    /// How the brush lies along them.
+    pub brush_fit: BrushFit,
+    /// Over how many pixels a stroke grows to its width, and shrinks again.
+    pub taper_px: [f32; 2],
+    /// How far a stroke goes on beyond both of its ends.
+    pub overshoot_px: f32,
 }
 
 impl Default for PathStyle {
@@ -54,6 +74,9 @@ impl Default for PathStyle {
             is_cut_where_hidden: true,
             min_length_px: 0.0,
             max_length_px: 0.0,
+            brush_fit: BrushFit::default(),
+            taper_px: [0.0; 2],
+            overshoot_px: 0.0,
         }
     }
 }

@@ -1,0 +1,262 @@
+//! From chains to ribbons: corners, evenly spaced points, what of them is visible,
+//! strokes, and the segments to draw (`shaders/graph/path_*.wgsl`).
+//!
+//! One run for all linked draws of an object, after the fill, whose depth says what is
+//! visible.
+
+use bytemuck::{Pod, Zeroable};
+use wgpu::ShaderStages;
+
+use crate::brush::Brush;
+use crate::detect::compute_pipeline;
+use crate::frame::{bind_buffers, storage_entry, uniform_buffer, uniform_entry};
+use crate::graph::buffers::GraphBuffers;
+use crate::graph::path_style::{BrushFit, PathStyle};
+use crate::look::{Look, MAX_DRAWS, StyledDraw, Width};
+use crate::shader::{ShaderError, ShaderSource};
+use crate::targets::TargetFormats;
+
+/// How the strokes of a linked draw look. WGSL twin: `shaders/common/path_style.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct PathUniform {
+    /// The layer.
+    pub layer: u32,
+    /// A [`Visibility`].
+    pub visibility: u32,
+    /// A [`edgemesh::oracle::stroke_quad::Placement`].
+    pub placement: u32,
+    /// 1 where the width is in units of the world.
+    pub is_world_width: u32,
+    /// The width.
+    pub width: f32,
+    /// Pixels between points along a path.
+    pub step_px: f32,
+    /// Strokes are cut where they turn more than this cosine says.
+    pub corner_cosine: f32,
+    /// 1 where strokes are cut where they are hidden.
+    pub is_cut_where_hidden: u32,
+    /// A [`crate::graph::path_style::Join`].
+    pub join: u32,
+    /// A [`crate::graph::path_style::End`].
+    pub end: u32,
+    /// Shorter strokes fade.
+    pub min_length_px: f32,
+    /// Longer ones are cut; 0 for never.
+    pub max_length_px: f32,
+    /// Length of the brush over its height.
+    pub brush_aspect: f32,
+    /// 1 where the brush is stretched to the stroke.
+    pub is_stretched: u32,
+    /// Distances where strokes begin to fade and where they are gone.
+    pub fade: [f32; 2],
+    /// Over how many pixels a stroke grows and shrinks.
+    pub taper_px: [f32; 2],
+    /// Pixels beyond both ends.
+    pub overshoot_px: f32,
+    /// Unused.
+    pub padding: f32,
+}
+
+/// The least distance between the points of a path: where segments are shorter than a
+/// few pixels, sampled lines show the mesh and not the shape.
+const LEAST_STEP_PX: f32 = 4.0;
+
+impl PathUniform {
+    fn new(draw: &StyledDraw, path: &PathStyle) -> Self {
+        let style = &draw.style;
+        let (width, is_world_width) = match style.width {
+            Width::Pixels(width) => (width, 0),
+            Width::World(width) => (width, 1),
+        };
+        let step_px = match style.width {
+            Width::Pixels(width) => LEAST_STEP_PX.max(0.25 * width),
+            Width::World(_) => LEAST_STEP_PX,
+        };
+        Self {
+            layer: draw.layer,
+            visibility: draw.visibility as u32,
+            placement: style.placement as u32,
+            is_world_width,
+            width,
+            step_px,
+            corner_cosine: path.corner_rad.min(std::f32::consts::PI).cos(),
+            is_cut_where_hidden: u32::from(path.is_cut_where_hidden),
+            join: path.join as u32,
+            end: path.end as u32,
+            min_length_px: path.min_length_px,
+            max_length_px: path.max_length_px,
+            brush_aspect: style.brush.as_ref().map_or(1.0, Brush::aspect),
+            is_stretched: u32::from(path.brush_fit == BrushFit::Stretched),
+            fade: style.fade.unwrap_or_default(),
+            taper_px: path.taper_px,
+            overshoot_px: path.overshoot_px,
+            padding: 0.0,
+        }
+    }
+
+    /// Those of all draws of a look; zero for those that are not linked.
+    #[must_use]
+    pub fn of(look: &Look) -> [Self; MAX_DRAWS] {
+        let mut uniforms = [Self::zeroed(); MAX_DRAWS];
+        for (uniform, draw) in uniforms.iter_mut().zip(&look.draws()) {
+            if let Some(path) = draw.style.path.as_ref().filter(|_| draw.style.is_linked()) {
+                *uniform = Self::new(draw, path);
+            }
+        }
+        uniforms
+    }
+}
+
+/// Bytes of the arguments where those of a kind of dispatch begin; in words the
+/// constants of these names in `shaders/common/stroke_graph.wgsl`.
+const PATH_GROUPS: u64 = 4 * 6;
+const PATH_SUM_GROUPS: u64 = 4 * 9;
+const POINT_GROUPS: u64 = 4 * 12;
+const POINT_SUM_GROUPS: u64 = 4 * 15;
+
+/// A step of the run.
+#[derive(Debug)]
+struct Step {
+    pipeline: wgpu::ComputePipeline,
+    /// Where the size of its dispatch is; `None` for one workgroup.
+    groups: Option<u64>,
+    /// Which buffers it works on.
+    buffers: Buffers,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Buffers {
+    Paths,
+    Sums,
+}
+
+/// The compute pipelines for one kind of target.
+#[derive(Debug)]
+pub(crate) struct PathPipeline {
+    pass: wgpu::BindGroupLayout,
+    object: wgpu::BindGroupLayout,
+    paths: wgpu::BindGroupLayout,
+    sums: wgpu::BindGroupLayout,
+    steps: Vec<Step>,
+}
+
+/// What they need of one object.
+#[derive(Debug)]
+pub(crate) struct PathDraw {
+    object: wgpu::BindGroup,
+    paths: wgpu::BindGroup,
+    sums: wgpu::BindGroup,
+}
+
+impl PathPipeline {
+    /// `frame_fill` is the layout of `@group(0)`.
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        frame_fill: &wgpu::BindGroupLayout,
+        formats: &TargetFormats,
+    ) -> Result<Self, ShaderError> {
+        let compute = ShaderStages::COMPUTE;
+        let make = |label: &str, entries: &[wgpu::BindGroupLayoutEntry]| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(label),
+                entries,
+            })
+        };
+        let write = |binding| storage_entry(binding, compute, false);
+        let pass = make("path style", &[uniform_entry(0, compute)]);
+        let object = make("path object", &[uniform_entry(0, compute)]);
+        let paths = make("paths", &[0, 2, 3, 4, 5, 6, 7].map(write));
+        let sums = make("path sums", &[0, 3, 4, 8].map(write));
+        let mut steps = Vec::new();
+        let files: [(&str, &[(&str, Option<u64>, Buffers)]); 4] = [
+            (
+                "graph/path_joints.wgsl",
+                &[
+                    ("measure_turns", Some(PATH_GROUPS), Buffers::Paths),
+                    ("find_corners", Some(PATH_GROUPS), Buffers::Paths),
+                    ("sum_points", Some(PATH_SUM_GROUPS), Buffers::Paths),
+                    ("scan_points", None, Buffers::Sums),
+                    ("write_points", Some(PATH_SUM_GROUPS), Buffers::Paths),
+                    ("finish_points", None, Buffers::Sums),
+                ],
+            ),
+            ("graph/path_points.wgsl", &[("place_points", Some(POINT_GROUPS), Buffers::Paths)]),
+            (
+                "graph/path_strokes.wgsl",
+                &[
+                    ("sum_strokes", Some(POINT_SUM_GROUPS), Buffers::Paths),
+                    ("scan_strokes", None, Buffers::Sums),
+                    ("write_strokes", Some(POINT_SUM_GROUPS), Buffers::Paths),
+                ],
+            ),
+            ("graph/path_ribbons.wgsl", &[("write_ribbons", Some(POINT_GROUPS), Buffers::Paths)]),
+        ];
+        for (file, entries) in files {
+            let module = ShaderSource::embedded_over(file, formats)?.module(device, file);
+            for &(entry, groups, buffers) in entries {
+                let last = match buffers {
+                    Buffers::Paths => &paths,
+                    Buffers::Sums => &sums,
+                };
+                let layouts = [Some(frame_fill), Some(&pass), Some(&object), Some(last)];
+                let pipeline = compute_pipeline(device, &module, entry, &layouts, &[]);
+                steps.push(Step { pipeline, groups, buffers });
+            }
+        }
+        Ok(Self { pass, object, paths, sums, steps })
+    }
+
+    /// `@group(1)` of a look.
+    pub(crate) fn pass(&self, device: &wgpu::Device, look: &Look) -> wgpu::BindGroup {
+        let uniform = uniform_buffer(device, "path style", &PathUniform::of(look));
+        bind_buffers(device, "path style", &self.pass, &[(0, &uniform)])
+    }
+
+    pub(crate) fn draw(
+        &self,
+        device: &wgpu::Device,
+        object: &wgpu::Buffer,
+        graph: &GraphBuffers,
+    ) -> PathDraw {
+        let paths = [
+            (0, &graph.header),
+            (2, &graph.elements),
+            (3, &graph.joints),
+            (4, &graph.sums),
+            (5, &graph.points),
+            (6, &graph.strokes),
+            (7, &graph.ribbons),
+        ];
+        let sums =
+            [(0, &graph.header), (3, &graph.joints), (4, &graph.sums), (8, &graph.arguments)];
+        PathDraw {
+            object: bind_buffers(device, "path object", &self.object, &[(0, object)]),
+            paths: bind_buffers(device, "paths", &self.paths, &paths),
+            sums: bind_buffers(device, "path sums", &self.sums, &sums),
+        }
+    }
+
+    /// Records the run for one object; `@group(0)` must be the frame with the fill,
+    /// `@group(1)` the look's styles.
+    pub(crate) fn record(
+        &self,
+        pass: &mut wgpu::ComputePass,
+        graph: &GraphBuffers,
+        draw: &PathDraw,
+    ) {
+        pass.set_bind_group(2, &draw.object, &[]);
+        for step in &self.steps {
+            pass.set_pipeline(&step.pipeline);
+            let buffers = match step.buffers {
+                Buffers::Paths => &draw.paths,
+                Buffers::Sums => &draw.sums,
+            };
+            pass.set_bind_group(3, buffers, &[]);
+            match step.groups {
+                Some(offset) => pass.dispatch_workgroups_indirect(&graph.arguments, offset),
+                None => pass.dispatch_workgroups(1, 1, 1),
+            }
+        }
+    }
+}

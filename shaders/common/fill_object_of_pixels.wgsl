@@ -1,0 +1,7 @@
+// The objects that were filled, in a picture of one sample a pixel.
+
+@group(0) @binding(3) var fill_object: texture_2d<u32>;
+
+fn filled_object(pixel: vec2i) -> u32 {
+    return textureLoad(fill_object, pixel, 0).x;
+}

@@ -1,0 +1,58 @@
+// The points that an element gives to its path.
+#import <common/path.wgsl>
+
+struct Grid {
+    // Whether it has a point where it begins, and one where it ends.
+    has_start: bool,
+    has_end: bool,
+    // The points of the grid on it: from the first to the one before `end`.
+    first: u32,
+    end: u32,
+    // Arc length of the whole chain, and how many steps it is cut into.
+    chain: f32,
+    steps: f32,
+}
+
+fn grid_of(element: u32, path: u32, draw: u32) -> Grid {
+    let here = elements[element];
+    let chain = f32(chain_arc(element));
+    let steps = max(1.0, round(chain / (step_of(draw) * ARC_PER_PX)));
+    let next = behind(element);
+    let count = here.count & ~ON_LOOP;
+    // Loops are cut at their first element.
+    let has_start = joints[path].kind != 0u || element == here.first;
+    let has_end = next == NONE || element + 1u == here.first + count;
+    let arc = here.arc - elements[here.first].arc;
+    let length_arc = u32(round(length_of(element) * ARC_PER_PX));
+    var begin = arc;
+    var until = arc + length_arc;
+    // No point so near to one that is kept that the two say nothing of a direction.
+    let clear = u32(0.5 * step_of(draw) * ARC_PER_PX);
+    if has_start {
+        begin += clear;
+    }
+    if has_end || joints[path + next - element].kind != 0u {
+        until -= min(clear, until);
+    }
+    var grid = Grid(has_start, has_end, 0u, 0u, chain, steps);
+    grid.first = max(first_step(begin, grid), 1u);
+    grid.end = max(first_step(until, grid), grid.first);
+    return grid;
+}
+
+fn arc_of_step(step: u32, grid: Grid) -> u32 {
+    return u32(f32(step) * grid.chain / grid.steps);
+}
+
+// The first step at an arc length or behind it.
+fn first_step(arc: u32, grid: Grid) -> u32 {
+    var step = u32(f32(arc) * grid.steps / max(grid.chain, 1.0));
+    // Rounded: at most one off.
+    if step > 0u && arc_of_step(step - 1u, grid) >= arc {
+        step -= 1u;
+    }
+    if arc_of_step(step, grid) < arc {
+        step += 1u;
+    }
+    return step;
+}

@@ -1,0 +1,43 @@
+// How the strokes of each linked draw look. Rust twin: PathUniform in
+// crates/strokes/src/graph/path.rs.
+#import <common/object_limits.wgsl>
+#import <common/frame.wgsl>
+
+struct PathUniform {
+    layer: u32,
+    // 0 what is visible, 1 what is hidden, 2 silhouettes.
+    visibility: u32,
+    placement: u32,
+    // 1 where the width is in units of the world, 0 in pixels.
+    is_world_width: u32,
+    width: f32,
+    // Pixels between points along a path, and half of what is averaged there.
+    step_px: f32,
+    // Strokes are cut where they turn more than this cosine says.
+    corner_cosine: f32,
+    is_cut_where_hidden: u32,
+    join: u32,
+    end: u32,
+    min_length_px: f32,
+    max_length_px: f32,
+    // Length of the brush over its height.
+    brush_aspect: f32,
+    // 1 where the brush is stretched to the stroke, 0 where it is tiled.
+    is_stretched: u32,
+    fade: vec2f,
+    // Over how many pixels a stroke grows to its width, and shrinks again.
+    taper_px: vec2f,
+    overshoot_px: f32,
+    padding: f32,
+}
+
+const HIDDEN_STROKES: u32 = 1u;
+const SILHOUETTE_STROKES: u32 = 2u;
+
+@group(1) @binding(0) var<uniform> paths: array<PathUniform, MAX_DRAWS>;
+
+// The distance from the eye along the line of sight.
+fn distance_of(depth: f32) -> f32 {
+    let clip = frame.projection;
+    return (clip.y - depth * clip.w) / (depth * clip.z - clip.x);
+}

@@ -1,0 +1,46 @@
+// Whether a place on a path is to be seen, by the depth of what was filled.
+//
+// Creases ask where they are: the fill is pushed back behind them. A contour asks
+// beside itself, off the surface that it bounds, as its fragments do where strokes are
+// not linked (stroke_over_surface.wgsl). Half of the samples of a pixel decide.
+#import <common/path.wgsl>
+#import <common/silhouette.wgsl>
+#import <common/fill_depth.wgsl>
+#import <common/fill_object.wgsl>
+
+// Rust twin: FOOT_PX in crates/edgemesh/src/oracle/stroke_vertex.rs.
+const FOOT_PX: f32 = 2.5;
+
+// As far inside an object is surely its own surface.
+const INSIDE_PX: f32 = 1.5;
+
+// `direction` is that of the path there, of unit length.
+fn is_visible(place: vec2f, depth: f32, direction: vec2f, on_contour: bool, draw: u32) -> bool {
+    // A contour's front is on its left, but in a mirror.
+    let outward = object.mirror * vec2f(direction.y, -direction.x);
+    let foot = place + select(vec2f(0.0), outward * FOOT_PX, on_contour);
+    if !is_in_picture(foot) {
+        // Beyond the picture nothing is known to hide it.
+        return true;
+    }
+    let filled = filled_depths(pixel_of(foot));
+    let in_front = vec4u(vec4f(depth) >= filled);
+    if in_front.x + in_front.y + in_front.z + in_front.w < 2u {
+        return false;
+    }
+    if paths[draw].visibility != SILHOUETTE_STROKES {
+        return true;
+    }
+    let own = filled_object(pixel_of(place - outward * INSIDE_PX));
+    return own != NO_OBJECT && own != filled_object(pixel_of(foot));
+}
+
+fn is_in_picture(place: vec2f) -> bool {
+    return all(abs(place) < 0.5 * frame.viewport_px);
+}
+
+// The pixel of a place in pixels from the middle of the picture, y up.
+fn pixel_of(place: vec2f) -> vec2i {
+    let at = vec2f(place.x, -place.y) + 0.5 * frame.viewport_px;
+    return clamp(vec2i(floor(at)), vec2i(0), vec2i(frame.viewport_px) - 1);
+}

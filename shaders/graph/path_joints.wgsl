@@ -1,0 +1,208 @@
+// Where paths turn, and how many points each element gives to them.
+//
+// Mesh contours zigzag from edge to edge, so a turn is measured over some pixels to
+// both sides and only the sharpest joint within them is a corner. Corners keep their
+// place; between them a path gets evenly spaced points, however small or large the
+// edges are.
+//
+//   edges    /\/\_/\/\/\|      measured over the step, one corner
+//                       |
+//   points   .  .  .  .  .     every 4 px, the corner exactly
+//                        .
+#import <common/path_grid.wgsl>
+#import <common/scan.wgsl>
+
+@group(3) @binding(8) var<storage, read_write> arguments: array<u32>;
+
+@compute @workgroup_size(GROUP)
+fn measure_turns(@builtin(global_invocation_id) id: vec3u) {
+    let path = id.x;
+    if path >= header.path_count {
+        return;
+    }
+    let draw = draw_of(path);
+    let element = element_of(path, draw);
+    let step_px = step_of(draw);
+    joints[path].cosine = turn_cosine(element, step_px);
+}
+
+fn turn_cosine(element: u32, reach_px: f32) -> f32 {
+    let here = elements[element].s0;
+    let back = here - place_before(element, reach_px);
+    let ahead = place_ahead(element, reach_px) - here;
+    let lengths = length(back) * length(ahead);
+    if lengths <= 0.0 {
+        return 1.0;
+    }
+    return dot(back, ahead) / lengths;
+}
+
+// The place so many pixels before an element begins, or where its path does.
+fn place_before(element: u32, reach_px: f32) -> vec2f {
+    var left = reach_px;
+    var at = element;
+    for (var count = 0u; count < MOST_ELEMENTS; count++) {
+        let other = before(at);
+        if other == NONE || other == element {
+            break;
+        }
+        at = other;
+        let length_px = length_of(at);
+        if length_px >= left {
+            return mix(elements[at].s1, elements[at].s0, left / length_px);
+        }
+        left -= length_px;
+    }
+    return elements[at].s0;
+}
+
+fn place_ahead(element: u32, reach_px: f32) -> vec2f {
+    var left = reach_px;
+    var at = element;
+    for (var count = 0u; count < MOST_ELEMENTS; count++) {
+        let length_px = length_of(at);
+        if length_px >= left {
+            return mix(elements[at].s0, elements[at].s1, left / length_px);
+        }
+        left -= length_px;
+        let other = behind(at);
+        if other == NONE || other == element {
+            break;
+        }
+        at = other;
+    }
+    return elements[at].s1;
+}
+
+@compute @workgroup_size(GROUP)
+fn find_corners(@builtin(global_invocation_id) id: vec3u) {
+    let path = id.x;
+    if path >= header.path_count {
+        return;
+    }
+    let draw = draw_of(path);
+    let element = element_of(path, draw);
+    var kind = 0u;
+    if before(element) == NONE {
+        kind = BREAK;
+    } else if is_corner(element, path, step_of(draw)) {
+        kind = CORNER;
+        if joints[path].cosine < paths[draw].corner_cosine {
+            kind |= SPLIT;
+        }
+    }
+    joints[path].kind = kind;
+}
+
+// Whether no joint within reach turns more; of two that turn alike the first.
+fn is_corner(element: u32, path: u32, reach_px: f32) -> bool {
+    let cosine = joints[path].cosine;
+    if cosine >= KEPT_COSINE {
+        return false;
+    }
+    var left = reach_px;
+    var at = element;
+    for (var count = 0u; count < MOST_ELEMENTS; count++) {
+        at = before(at);
+        if at == NONE || at == element {
+            break;
+        }
+        left -= length_of(at);
+        if left < 0.0 {
+            break;
+        }
+        if joints[path + at - element].cosine <= cosine {
+            return false;
+        }
+    }
+    left = reach_px;
+    at = element;
+    for (var count = 0u; count < MOST_ELEMENTS; count++) {
+        left -= length_of(at);
+        at = behind(at);
+        if left < 0.0 || at == NONE || at == element {
+            break;
+        }
+        if joints[path + at - element].cosine < cosine {
+            return false;
+        }
+    }
+    return true;
+}
+
+// The points of an element: one where it begins, as far as its place is kept; those
+// of the grid along the whole chain; one where it ends, where the path does.
+fn count_points(path: u32) -> u32 {
+    let draw = draw_of(path);
+    let element = element_of(path, draw);
+    if (elements[element].next & UNSEEN) != 0u {
+        return 0u;
+    }
+    let grid = grid_of(element, path, draw);
+    return u32(grid.has_start) + u32(grid.has_end) + grid.end - grid.first;
+}
+
+@compute @workgroup_size(GROUP)
+fn sum_points(@builtin(global_invocation_id) id: vec3u) {
+    let first = id.x * ITEMS_PER_SUM;
+    if first >= header.path_count {
+        return;
+    }
+    var sum = 0u;
+    for (var path = first; path < min(first + ITEMS_PER_SUM, header.path_count); path++) {
+        let count = count_points(path);
+        joints[path].point_count = count;
+        sum += count;
+    }
+    sums[id.x] = vec2u(sum, 0u);
+}
+
+@compute @workgroup_size(SCAN_WIDTH)
+fn scan_points(@builtin(local_invocation_index) lane: u32) {
+    let total = scan_sums(lane, (header.path_count + ITEMS_PER_SUM - 1u) / ITEMS_PER_SUM);
+    if lane == 0u {
+        header.point_count = min(total.x, header.point_capacity);
+    }
+}
+
+@compute @workgroup_size(GROUP)
+fn write_points(@builtin(global_invocation_id) id: vec3u) {
+    let first = id.x * ITEMS_PER_SUM;
+    if first >= header.path_count {
+        return;
+    }
+    var base = sums[id.x].x;
+    for (var path = first; path < min(first + ITEMS_PER_SUM, header.path_count); path++) {
+        joints[path].first_point = base;
+        base += joints[path].point_count;
+    }
+}
+
+// How much the passes over points have to do, and where the ribbons of each draw are.
+@compute @workgroup_size(MAX_DRAWS)
+fn finish_points(@builtin(local_invocation_index) draw: u32) {
+    if draw == 0u {
+        set_groups(POINT_GROUPS, header.point_count, GROUP);
+        set_groups(POINT_SUM_GROUPS, header.point_count, GROUP * ITEMS_PER_SUM);
+    }
+    let first = point_at(header.draw_first[draw]);
+    let at = RIBBON_DRAWS + 5u * draw;
+    arguments[at] = 6u * (point_at(header.draw_first[draw + 1u]) - first);
+    arguments[at + 1u] = 1u;
+    arguments[at + 2u] = 6u * first;
+    arguments[at + 3u] = 0u;
+    arguments[at + 4u] = 0u;
+}
+
+fn point_at(path: u32) -> u32 {
+    if path >= header.path_count {
+        return header.point_count;
+    }
+    return min(joints[path].first_point, header.point_count);
+}
+
+fn set_groups(at: u32, count: u32, per_group: u32) {
+    arguments[at] = (count + per_group - 1u) / per_group;
+    arguments[at + 1u] = 1u;
+    arguments[at + 2u] = 1u;
+}

@@ -1,0 +1,166 @@
+// The points of paths: evenly spaced, each the average of the path around it as far as
+// the next corner, so that the zigzag of a fine mesh becomes the line that it means.
+#import <common/path_grid.wgsl>
+#import <common/path_visibility.wgsl>
+
+@compute @workgroup_size(GROUP)
+fn place_points(@builtin(global_invocation_id) id: vec3u) {
+    if id.x >= header.point_count {
+        return;
+    }
+    points[id.x] = point_of(id.x);
+}
+
+fn point_of(index: u32) -> PathPoint {
+    let path = path_of_point(index);
+    let draw = draw_of(path);
+    let element = element_of(path, draw);
+    let here = elements[element];
+    let grid = grid_of(element, path, draw);
+    let rank = index - joints[path].first_point;
+    let is_start = grid.has_start && rank == 0u;
+    let step = grid.first + rank - u32(grid.has_start);
+    let is_end = !is_start && step >= grid.end;
+    let length_px = length_of(element);
+    let arc = here.arc - elements[here.first].arc;
+    var along_px = select(0.0, length_px, is_end);
+    if !is_start && !is_end {
+        along_px = (f32(arc_of_step(step, grid)) - f32(arc)) / ARC_PER_PX;
+    }
+    let t = clamp(along_px / max(length_px, 1e-6), 0.0, 1.0);
+
+    let reach_px = step_of(draw);
+    var back = walk_back(element, path, t, reach_px);
+    var ahead = walk_ahead(element, path, t, reach_px);
+    let direction = unit(ahead.place - back.place, here.s1 - here.s0);
+    let exact = vec3f(mix(here.s0, here.s1, t), mix(here.z0, here.z1, t));
+    let half_px = min(back.length_px, ahead.length_px);
+    var averaged = exact;
+    if half_px > 0.01 {
+        if back.length_px > half_px {
+            back = walk_back(element, path, t, half_px);
+        }
+        if ahead.length_px > half_px {
+            ahead = walk_ahead(element, path, t, half_px);
+        }
+        averaged = (back.sum + ahead.sum) / (back.length_px + ahead.length_px);
+    }
+    let on_contour = (here.edge & CONTOUR) != 0u;
+    // What its own solid hides, it hides from everywhere outside.
+    let is_seen = (here.edge & BEHIND_SOLID) == 0u
+        && is_visible(exact.xy, exact.z, direction, on_contour, draw);
+    return PathPoint(
+        averaged.xy,
+        averaged.z,
+        f32(arc) / ARC_PER_PX + along_px,
+        path,
+        flags_of(element, path, is_start, is_end)
+            | select(0u, POINT_IS_VISIBLE, is_seen)
+            | select(0u, POINT_ON_CONTOUR, on_contour)
+            | (draw << DRAW_SHIFT),
+        vec2f(0.0, 1.0),
+        0u,
+        0u,
+    );
+}
+
+// The element of a point: the last one whose points begin there or before.
+fn path_of_point(index: u32) -> u32 {
+    var low = 0u;
+    var high = header.path_count;
+    while high - low > 1u {
+        let middle = (low + high) / 2u;
+        if joints[middle].first_point <= index {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+fn flags_of(element: u32, path: u32, is_start: bool, is_end: bool) -> u32 {
+    let here = elements[element];
+    let kind = joints[path].kind;
+    let first_kind = joints[path + here.first - element].kind;
+    // A loop that is split where it was cut has no seam there.
+    let is_seam = (first_kind & (BREAK | SPLIT)) == 0u;
+    if is_start {
+        let at_first = element == here.first;
+        let starts = (kind & BREAK) != 0u || at_first;
+        return select(0u, POINT_STARTS, starts)
+            | select(0u, POINT_SPLITS, (kind & SPLIT) != 0u)
+            | select(0u, POINT_ON_SEAM, at_first && is_seam);
+    }
+    if is_end {
+        let is_broken = behind(element) == NONE;
+        return POINT_ENDS | select(0u, POINT_ON_SEAM, !is_broken && is_seam);
+    }
+    return 0u;
+}
+
+struct Walk {
+    // Places and depth times length, summed up along the way.
+    sum: vec3f,
+    length_px: f32,
+    // Where it ended.
+    place: vec2f,
+}
+
+fn walk_back(element: u32, path: u32, t: f32, reach_px: f32) -> Walk {
+    var at = element;
+    var part = t;
+    var walk = Walk();
+    for (var count = 0u; count < MOST_ELEMENTS; count++) {
+        let here = elements[at];
+        let length_px = part * length_of(at);
+        let taken_px = min(length_px, reach_px - walk.length_px);
+        let to = part * (1.0 - taken_px / max(length_px, 1e-6));
+        let middle = 0.5 * (part + to);
+        walk.sum += taken_px * vec3f(mix(here.s0, here.s1, middle), mix(here.z0, here.z1, middle));
+        walk.length_px += taken_px;
+        walk.place = mix(here.s0, here.s1, to);
+        if walk.length_px >= reach_px || joints[path + at - element].kind != 0u {
+            break;
+        }
+        let other = before(at);
+        if other == NONE || other == element {
+            break;
+        }
+        at = other;
+        part = 1.0;
+    }
+    return walk;
+}
+
+fn walk_ahead(element: u32, path: u32, t: f32, reach_px: f32) -> Walk {
+    var at = element;
+    var part = t;
+    var walk = Walk();
+    for (var count = 0u; count < MOST_ELEMENTS; count++) {
+        let here = elements[at];
+        let length_px = (1.0 - part) * length_of(at);
+        let taken_px = min(length_px, reach_px - walk.length_px);
+        let to = part + (1.0 - part) * taken_px / max(length_px, 1e-6);
+        let middle = 0.5 * (part + to);
+        walk.sum += taken_px * vec3f(mix(here.s0, here.s1, middle), mix(here.z0, here.z1, middle));
+        walk.length_px += taken_px;
+        walk.place = mix(here.s0, here.s1, to);
+        if walk.length_px >= reach_px {
+            break;
+        }
+        let other = behind(at);
+        if other == NONE || other == element || joints[path + other - element].kind != 0u {
+            break;
+        }
+        at = other;
+        part = 0.0;
+    }
+    return walk;
+}
+
+fn unit(vector: vec2f, otherwise: vec2f) -> vec2f {
+    let chosen = select(otherwise, vector, dot(vector, vector) > 1e-12);
+    let length_px = length(chosen);
+    return select(vec2f(1.0, 0.0), chosen / length_px, length_px > 0.0);
+}

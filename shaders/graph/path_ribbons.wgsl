@@ -1,0 +1,207 @@
+// Segments of strokes, ready to be drawn: with their width, their place along the
+// brush, and how they join their neighbours.
+//
+// A join belongs to both of its segments up to the line that halves its angle. They
+// overlap inside of the turn only, where the larger coverage counts.
+#import <common/path.wgsl>
+#import <common/stroke_quad.wgsl>
+
+@compute @workgroup_size(GROUP)
+fn write_ribbons(@builtin(global_invocation_id) id: vec3u) {
+    let index = id.x;
+    if index >= header.point_count {
+        return;
+    }
+    var ribbon = Ribbon();
+    ribbon.ends = NOT_DRAWN;
+    let here = points[index];
+    let is_segment = (here.flags & POINT_ENDS) == 0u && index + 1u < header.point_count;
+    if is_segment && here.cut.x < here.cut.y {
+        ribbon = ribbon_of(index);
+    }
+    ribbons[index] = ribbon;
+}
+
+// A stroke as a whole, with what lies beyond the seam of a loop.
+struct Extent {
+    start_arc: f32,
+    end_arc: f32,
+    first: u32,
+    last: u32,
+    // The segment before the first and the one behind the last, or NONE.
+    before_first: u32,
+    behind_last: u32,
+    is_closed: bool,
+}
+
+fn extent_of(stroke_index: u32) -> Extent {
+    let stroke = strokes[stroke_index];
+    var extent = Extent(
+        stroke.start_arc, stroke.end_arc, stroke.first, stroke.last, NONE, NONE, false,
+    );
+    let start = points[stroke.first];
+    let end = points[stroke.last + 1u];
+    let draw = start.flags >> DRAW_SHIFT;
+    let chain = elements[element_of(start.path, draw)];
+    let first_path = header.draw_first[draw] + chain.first - header.layer_first[paths[draw].layer];
+    let last_joint = joints[first_path + (chain.count & ~ON_LOOP) - 1u];
+    let first_segment = joints[first_path].first_point;
+    let last_segment = last_joint.first_point + last_joint.point_count - 2u;
+    let begins_on_seam = stroke.first == first_segment
+        && (start.flags & POINT_ON_SEAM) != 0u && stroke.start_arc == start.arc;
+    if begins_on_seam {
+        let partner = points[last_segment].stroke;
+        let chain_px = points[last_segment + 1u].arc;
+        let meets = strokes[partner].last == last_segment && strokes[partner].end_arc == chain_px;
+        if partner == stroke_index && meets {
+            extent.is_closed = true;
+        } else if meets {
+            extent.start_arc = strokes[partner].start_arc - chain_px;
+        }
+        extent.before_first = select(NONE, last_segment, meets);
+    }
+    let ends_on_seam = stroke.last == last_segment
+        && (end.flags & POINT_ON_SEAM) != 0u && stroke.end_arc == end.arc;
+    if ends_on_seam {
+        let partner = points[first_segment].stroke;
+        let meets = strokes[partner].first == first_segment
+            && strokes[partner].start_arc == points[first_segment].arc;
+        if meets && partner != stroke_index {
+            extent.end_arc = strokes[partner].end_arc + end.arc;
+        }
+        extent.behind_last = select(NONE, first_segment, meets);
+    }
+    return extent;
+}
+
+fn ribbon_of(index: u32) -> Ribbon {
+    let here = points[index];
+    let next = points[index + 1u];
+    let draw = here.flags >> DRAW_SHIFT;
+    let style = paths[draw];
+    let extent = extent_of(here.stroke);
+    var a = mix(here.position, next.position, here.cut.x);
+    var b = mix(here.position, next.position, here.cut.y);
+    let along = b - a;
+    let length_px = length(along);
+    var ribbon = Ribbon();
+    ribbon.ends = NOT_DRAWN;
+    if length_px < 1e-4 {
+        return ribbon;
+    }
+    let direction = along / length_px;
+    var arcs = vec2f(mix(here.arc, next.arc, here.cut.x), mix(here.arc, next.arc, here.cut.y));
+
+    // The directions of the segments before and behind, where the stroke has such.
+    var ends = vec2u(style.end);
+    var joins = array<vec2f, 2>(vec2f(1.0, 0.0), vec2f(1.0, 0.0));
+    var other = vec2u(
+        select(index - 1u, extent.before_first, index == extent.first),
+        select(index + 1u, extent.behind_last, index == extent.last),
+    );
+    for (var side = 0u; side < 2u; side++) {
+        let is_whole = select(here.cut.y == 1.0, here.cut.x == 0.0, side == 0u);
+        if !is_whole {
+            // Hidden from here on; the stroke itself may go on.
+            ends[side] = select(ENDS_FLAT, style.end, style.is_cut_where_hidden != 0u);
+        } else if other[side] != NONE {
+            let of_other = points[other[side] + 1u].position - points[other[side]].position;
+            let join = direction + of_other / max(length(of_other), 1e-6);
+            // A turn on the spot is an end of both.
+            if dot(join, join) > 1e-3 {
+                ends[side] = JOINS_ROUND + style.join;
+                let across = vec2f(-direction.y, direction.x);
+                joins[side] = normalize(vec2f(dot(join, direction), dot(join, across)));
+            } else {
+                ends[side] = ENDS_ROUND;
+            }
+        }
+    }
+
+    let widest_px = width_of(style, points[extent.first].depth);
+    var range = vec2f(extent.start_arc, extent.end_arc);
+    let begins = index == extent.first && extent.before_first == NONE;
+    let finishes = index == extent.last && extent.behind_last == NONE;
+    if begins {
+        a -= direction * style.overshoot_px;
+        arcs.x -= style.overshoot_px;
+    }
+    if finishes {
+        b += direction * style.overshoot_px;
+        arcs.y += style.overshoot_px;
+    }
+    if !extent.is_closed {
+        range += vec2f(-style.overshoot_px, style.overshoot_px);
+    }
+    let total_px = max(range.y - range.x, 1e-3);
+    var half_widths = vec2f(0.0);
+    var opacities = vec2f(0.0);
+    for (var side = 0u; side < 2u; side++) {
+        let depth = mix(here.depth, next.depth, select(here.cut.x, here.cut.y, side == 1u));
+        let taper = select(taper_of(style, arcs[side] - range.x, total_px), 1.0, extent.is_closed);
+        half_widths[side] = 0.5 * width_of(style, depth) * taper;
+        opacities[side] = opacity_of(style, depth) * fade_of_short(style, total_px);
+    }
+    ribbon.a = a;
+    ribbon.b = b;
+    ribbon.u = brush_of(style, arcs, range, widest_px);
+    ribbon.half_width = half_widths;
+    ribbon.opacity = pack2x16unorm(opacities);
+    ribbon.join0 = joins[0];
+    ribbon.join1 = joins[1];
+    ribbon.ends = ends.x | (ends.y << 4u) | (side_of(style, here.flags) << 8u);
+    return ribbon;
+}
+
+fn width_of(style: PathUniform, depth: f32) -> f32 {
+    if style.is_world_width == 0u {
+        return style.width;
+    }
+    let clip_w = dot(frame.projection.zw, vec2f(distance_of(depth), 1.0));
+    return style.width * frame.px_per_unit / clip_w;
+}
+
+fn taper_of(style: PathUniform, arc_px: f32, total_px: f32) -> f32 {
+    // Where both do not fit, both are shorter.
+    let fit = min(1.0, total_px / max(style.taper_px.x + style.taper_px.y, 1e-3));
+    let taper_px = max(style.taper_px * fit, vec2f(1e-3));
+    return clamp(min(arc_px / taper_px.x, (total_px - arc_px) / taper_px.y), 0.0, 1.0);
+}
+
+fn opacity_of(style: PathUniform, depth: f32) -> f32 {
+    if style.fade.x == style.fade.y {
+        return 1.0;
+    }
+    let faded = (distance_of(depth) - style.fade.x) / (style.fade.y - style.fade.x);
+    return 1.0 - clamp(faded, 0.0, 1.0);
+}
+
+fn fade_of_short(style: PathUniform, total_px: f32) -> f32 {
+    if style.min_length_px <= 0.0 {
+        return 1.0;
+    }
+    return clamp(2.0 * total_px / style.min_length_px - 1.0, 0.0, 1.0);
+}
+
+// Along the brush at both ends: stretched to the stroke; or whole repeats of it, held
+// where the stroke has its middle.
+fn brush_of(style: PathUniform, arcs: vec2f, range: vec2f, width_px: f32) -> vec2f {
+    let total_px = max(range.y - range.x, 1e-3);
+    if style.is_stretched != 0u {
+        return (arcs - range.x) / total_px;
+    }
+    let repeats = max(round(total_px / max(width_px * style.brush_aspect, 1e-3)), 1.0);
+    return (arcs - 0.5 * (range.x + range.y)) * repeats / total_px;
+}
+
+// 0 for centred, 1 for right of its direction, 2 for left; and where it is inside.
+fn side_of(style: PathUniform, flags: u32) -> u32 {
+    let on_contour = (flags & POINT_ON_CONTOUR) != 0u;
+    let is_outside = style.placement == OUTSIDE || (style.placement == AUTOMATIC && on_contour);
+    if !is_outside && style.placement != INSIDE {
+        return 0u;
+    }
+    // A contour's front is on its left, but in a mirror.
+    let side = select(2u, 1u, is_outside == (object.mirror > 0.0));
+    return side | select(IS_INSIDE >> 8u, 0u, is_outside);
+}

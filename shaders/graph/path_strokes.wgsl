@@ -1,0 +1,133 @@
+// Where along their paths strokes begin and end.
+//
+// A point is drawn where it and most of its neighbours are visible, or hidden for
+// strokes of what is hidden: one sample alone is a slip of the depth test. Where that
+// changes, the place between the two points is found by halving.
+#import <common/path_visibility.wgsl>
+#import <common/scan.wgsl>
+
+const HALVINGS: u32 = 4u;
+
+// Whether a point is drawn.
+fn is_drawn(index: u32) -> bool {
+    let flags = points[index].flags;
+    let draw = flags >> DRAW_SHIFT;
+    var seen = u32((flags & POINT_IS_VISIBLE) != 0u);
+    let has_both = (flags & (POINT_STARTS | POINT_ENDS)) == 0u;
+    if has_both {
+        seen += u32((points[index - 1u].flags & POINT_IS_VISIBLE) != 0u);
+        seen += u32((points[index + 1u].flags & POINT_IS_VISIBLE) != 0u);
+    }
+    let is_seen = seen >= select(1u, 2u, has_both);
+    return is_seen != (paths[draw].visibility == HIDDEN_STROKES);
+}
+
+struct Segment {
+    exists: bool,
+    // At both of its points.
+    is_drawn0: bool,
+    is_drawn1: bool,
+    // Whether strokes are cut where they are hidden.
+    is_cut: bool,
+    starts_stroke: bool,
+    ends_stroke: bool,
+}
+
+fn segment_at(index: u32) -> Segment {
+    var segment = Segment();
+    let flags = points[index].flags;
+    if (flags & POINT_ENDS) != 0u || index + 1u >= header.point_count {
+        return segment;
+    }
+    let next = points[index + 1u].flags;
+    segment.exists = true;
+    segment.is_drawn0 = is_drawn(index);
+    segment.is_drawn1 = is_drawn(index + 1u);
+    let is_cut = paths[flags >> DRAW_SHIFT].is_cut_where_hidden != 0u;
+    segment.is_cut = is_cut;
+    let is_touched = segment.is_drawn0 || segment.is_drawn1 || !is_cut;
+    segment.starts_stroke = is_touched && ((flags & (POINT_STARTS | POINT_SPLITS)) != 0u
+        || (is_cut && !segment.is_drawn0));
+    segment.ends_stroke = is_touched && ((next & (POINT_ENDS | POINT_SPLITS)) != 0u
+        || (is_cut && !segment.is_drawn1));
+    return segment;
+}
+
+// The arc length where a stroke begins or ends on a segment.
+fn arc_at(index: u32, t: f32) -> f32 {
+    return mix(points[index].arc, points[index + 1u].arc, t);
+}
+
+// Where on a segment what is drawn begins or ends.
+fn cut_of(index: u32, is_drawn0: bool) -> f32 {
+    let a = points[index];
+    let b = points[index + 1u];
+    let draw = a.flags >> DRAW_SHIFT;
+    let on_contour = (a.flags & POINT_ON_CONTOUR) != 0u;
+    let along = b.position - a.position;
+    let direction = along / max(length(along), 1e-6);
+    var low = 0.0;
+    var high = 1.0;
+    for (var halving = 0u; halving < HALVINGS; halving++) {
+        let t = 0.5 * (low + high);
+        let place = mix(a.position, b.position, t);
+        let is_seen = is_visible(place, mix(a.depth, b.depth, t), direction, on_contour, draw);
+        let is_like_start = (is_seen != (paths[draw].visibility == HIDDEN_STROKES)) == is_drawn0;
+        low = select(low, t, is_like_start);
+        high = select(t, high, is_like_start);
+    }
+    return 0.5 * (low + high);
+}
+
+@compute @workgroup_size(GROUP)
+fn sum_strokes(@builtin(global_invocation_id) id: vec3u) {
+    let first = id.x * ITEMS_PER_SUM;
+    if first >= header.point_count {
+        return;
+    }
+    var sum = 0u;
+    for (var index = first; index < min(first + ITEMS_PER_SUM, header.point_count); index++) {
+        let segment = segment_at(index);
+        sum += u32(segment.starts_stroke);
+        var cut = select(vec2f(1.0, 0.0), vec2f(0.0, 1.0), segment.is_drawn0 && segment.exists);
+        if segment.exists && segment.is_drawn0 != segment.is_drawn1 {
+            let at = cut_of(index, segment.is_drawn0);
+            cut = select(vec2f(at, 1.0), vec2f(0.0, at), segment.is_drawn0);
+        }
+        points[index].cut = cut;
+    }
+    sums[id.x] = vec2u(sum, 0u);
+}
+
+@compute @workgroup_size(SCAN_WIDTH)
+fn scan_strokes(@builtin(local_invocation_index) lane: u32) {
+    let total = scan_sums(lane, (header.point_count + ITEMS_PER_SUM - 1u) / ITEMS_PER_SUM);
+    if lane == 0u {
+        header.stroke_count = total.x;
+    }
+}
+
+@compute @workgroup_size(GROUP)
+fn write_strokes(@builtin(global_invocation_id) id: vec3u) {
+    let first = id.x * ITEMS_PER_SUM;
+    if first >= header.point_count {
+        return;
+    }
+    // One less than the strokes that began so far; wraps where none did.
+    var stroke = sums[id.x].x - 1u;
+    for (var index = first; index < min(first + ITEMS_PER_SUM, header.point_count); index++) {
+        let segment = segment_at(index);
+        if segment.starts_stroke {
+            stroke += 1u;
+            strokes[stroke].first = index;
+            let t = select(0.0, points[index].cut.x, segment.is_cut);
+            strokes[stroke].start_arc = arc_at(index, t);
+        }
+        if segment.ends_stroke {
+            strokes[stroke].last = index;
+            let t = select(1.0, points[index].cut.y, segment.is_cut);
+            strokes[stroke].end_arc = arc_at(index, t);
+        }
+        points[index].stroke = stroke;
+    }
+}
