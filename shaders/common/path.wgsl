@@ -15,6 +15,9 @@
 // Joints that turn more than this keep their place: 25 degrees.
 const KEPT_COSINE: f32 = 0.906;
 
+// Corners are told apart from folds of the mesh over so many steps.
+const FOLD_STEPS: f32 = 4.0;
+
 // So many elements at most are looked at to measure a turn or an average: where edges
 // are hundredths of a pixel, a part of the distance will do.
 const MOST_ELEMENTS: u32 = 96u;

@@ -20,7 +20,7 @@ fn grid_of(element: u32, path: u32, draw: u32) -> Grid {
     let next = behind(element);
     let count = here.count & ~ON_LOOP;
     // Loops are cut at their first element.
-    let has_start = joints[path].kind != 0u || element == here.first;
+    let has_start = (joints[path].kind & KEPT) != 0u || element == here.first;
     let has_end = next == NONE || element + 1u == here.first + count;
     let arc = here.arc - elements[here.first].arc;
     let length_arc = u32(round(length_of(element) * ARC_PER_PX));
@@ -31,7 +31,7 @@ fn grid_of(element: u32, path: u32, draw: u32) -> Grid {
     if has_start {
         begin += clear;
     }
-    if has_end || joints[path + next - element].kind != 0u {
+    if has_end || (joints[path + next - element].kind & KEPT) != 0u {
         until -= min(clear, until);
     }
     var grid = Grid(has_start, has_end, 0u, 0u, chain, steps);

@@ -14,25 +14,42 @@ const FOOT_PX: f32 = 2.5;
 // As far inside an object is surely its own surface.
 const INSIDE_PX: f32 = 1.5;
 
+// What hides a place so few pixels in front of it may be the surface that it is on.
+const GRAZED_PX: f32 = 12.0;
+
+const SEEN: u32 = 0u;
+const SEEN_ALMOST: u32 = 1u;
+const SEEN_NOT: u32 = 2u;
+
 // `direction` is that of the path there, of unit length.
-fn is_visible(place: vec2f, depth: f32, direction: vec2f, on_contour: bool, draw: u32) -> bool {
+fn visibility_at(
+    place: vec2f,
+    depth: f32,
+    direction: vec2f,
+    on_contour: bool,
+    draw: u32,
+) -> u32 {
     // A contour's front is on its left, but in a mirror.
     let outward = object.mirror * vec2f(direction.y, -direction.x);
     let foot = place + select(vec2f(0.0), outward * FOOT_PX, on_contour);
     if !is_in_picture(foot) {
         // Beyond the picture nothing is known to hide it.
-        return true;
+        return SEEN;
     }
     let filled = filled_depths(pixel_of(foot));
     let in_front = vec4u(vec4f(depth) >= filled);
     if in_front.x + in_front.y + in_front.z + in_front.w < 2u {
-        return false;
+        let nearest = distance_of(max(max(filled.x, filled.y), max(filled.z, filled.w)));
+        let here = distance_of(depth);
+        let px_per_unit = frame.px_per_unit / dot(frame.projection.zw, vec2f(here, 1.0));
+        return select(SEEN_NOT, SEEN_ALMOST, (here - nearest) * px_per_unit < GRAZED_PX);
     }
     if paths[draw].visibility != SILHOUETTE_STROKES {
-        return true;
+        return SEEN;
     }
     let own = filled_object(pixel_of(place - outward * INSIDE_PX));
-    return own != NO_OBJECT && own != filled_object(pixel_of(foot));
+    let is_around = own != NO_OBJECT && own != filled_object(pixel_of(foot));
+    return select(SEEN_NOT, SEEN, is_around);
 }
 
 fn is_in_picture(place: vec2f) -> bool {

@@ -133,14 +133,17 @@ struct Joint {
 const BREAK: u32 = 1u;
 const CORNER: u32 = 2u;
 const SPLIT: u32 = 4u;
+const FOLD: u32 = 8u;
+// Those that keep their place.
+const KEPT: u32 = BREAK | CORNER;
 
 // A point of a path; with the one that follows it, a segment.
 struct PathPoint {
     // Pixels from the middle of the picture, y up; a contour's front is on the left.
     position: vec2f,
     depth: f32,
-    // Arc length from the beginning of its chain, in pixels.
-    arc: f32,
+    // Arc length up to here along the points, in ARC_PER_PX of a pixel, from anywhere.
+    arc: u32,
     // The element it is on, among those of all draws.
     path: u32,
     flags: u32,
@@ -153,21 +156,22 @@ struct PathPoint {
 
 // Flags of points: no segment comes before it, none after it; it keeps its place;
 // strokes are cut there; nothing hides it; it is on a contour; it is the place where
-// a loop was cut.
+// a loop was cut; what hides it is no further in front than a line is wide.
 const POINT_STARTS: u32 = 1u;
 const POINT_ENDS: u32 = 2u;
 const POINT_SPLITS: u32 = 4u;
 const POINT_IS_VISIBLE: u32 = 8u;
 const POINT_ON_CONTOUR: u32 = 16u;
 const POINT_ON_SEAM: u32 = 32u;
+const POINT_IS_GRAZED: u32 = 64u;
 const DRAW_SHIFT: u32 = 8u;
 
 // A stroke: from the first segment to the last one, and from arc length to arc length.
 struct Stroke {
     first: u32,
     last: u32,
-    start_arc: f32,
-    end_arc: f32,
+    start_arc: u32,
+    end_arc: u32,
 }
 
 // A segment of a stroke, ready to be drawn.

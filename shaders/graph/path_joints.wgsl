@@ -3,7 +3,8 @@
 // Mesh contours zigzag from edge to edge, so a turn is measured over some pixels to
 // both sides and only the sharpest joint within them is a corner. Corners keep their
 // place; between them a path gets evenly spaced points, however small or large the
-// edges are.
+// edges are. Contours fold back on themselves too, for a few pixels: what is a turn
+// over one step and none over four is such a fold, and no corner.
 //
 //   edges    /\/\_/\/\/\|      measured over the step, one corner
 //                       |
@@ -23,7 +24,14 @@ fn measure_turns(@builtin(global_invocation_id) id: vec3u) {
     let draw = draw_of(path);
     let element = element_of(path, draw);
     let step_px = step_of(draw);
-    joints[path].cosine = turn_cosine(element, step_px);
+    let near = turn_cosine(element, step_px);
+    joints[path].kind = 0u;
+    joints[path].cosine = near;
+    if near < KEPT_COSINE {
+        let far = turn_cosine(element, FOLD_STEPS * step_px);
+        joints[path].cosine = max(near, far);
+        joints[path].kind = select(0u, FOLD, far >= KEPT_COSINE);
+    }
 }
 
 fn turn_cosine(element: u32, reach_px: f32) -> f32 {
@@ -82,11 +90,11 @@ fn find_corners(@builtin(global_invocation_id) id: vec3u) {
     }
     let draw = draw_of(path);
     let element = element_of(path, draw);
-    var kind = 0u;
+    var kind = joints[path].kind;
     if before(element) == NONE {
-        kind = BREAK;
+        kind |= BREAK;
     } else if is_corner(element, path, step_of(draw)) {
-        kind = CORNER;
+        kind |= CORNER;
         if joints[path].cosine < paths[draw].corner_cosine {
             kind |= SPLIT;
         }

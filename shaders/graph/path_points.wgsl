@@ -29,33 +29,37 @@ fn point_of(index: u32) -> PathPoint {
     }
     let t = clamp(along_px / max(length_px, 1e-6), 0.0, 1.0);
 
-    let reach_px = step_of(draw);
-    var back = walk_back(element, path, t, reach_px);
-    var ahead = walk_ahead(element, path, t, reach_px);
+    let step_px = step_of(draw);
+    let far_px = FOLD_STEPS * step_px;
+    var back = walk_back(element, path, t, far_px);
+    var ahead = walk_ahead(element, path, t, far_px);
     let direction = unit(ahead.place - back.place, here.s1 - here.s0);
     let exact = vec3f(mix(here.s0, here.s1, t), mix(here.z0, here.z1, t));
-    let half_px = min(back.length_px, ahead.length_px);
+    // Near folds more is averaged, so that a path does not go back and forth.
+    let fold_px = min(back.fold_px, ahead.fold_px);
+    let wanted_px = clamp(far_px + step_px - fold_px, step_px, far_px);
+    let half_px = min(wanted_px, min(back.length_px, ahead.length_px));
     var averaged = exact;
     if half_px > 0.01 {
-        if back.length_px > half_px {
-            back = walk_back(element, path, t, half_px);
-        }
-        if ahead.length_px > half_px {
-            ahead = walk_ahead(element, path, t, half_px);
-        }
+        back = walk_back(element, path, t, half_px);
+        ahead = walk_ahead(element, path, t, half_px);
         averaged = (back.sum + ahead.sum) / (back.length_px + ahead.length_px);
     }
     let on_contour = (here.edge & CONTOUR) != 0u;
-    // What its own solid hides, it hides from everywhere outside.
-    let is_seen = (here.edge & BEHIND_SOLID) == 0u
-        && is_visible(exact.xy, exact.z, direction, on_contour, draw);
+    // What its own solid hides, it hides from everywhere outside; a contour in a groove
+    // may be one of a few triangles.
+    var seen = select(SEEN_NOT, SEEN_ALMOST, on_contour);
+    if (here.edge & BEHIND_SOLID) == 0u {
+        seen = visibility_at(exact.xy, exact.z, direction, on_contour, draw);
+    }
     return PathPoint(
         averaged.xy,
         averaged.z,
-        f32(arc) / ARC_PER_PX + along_px,
+        0u,
         path,
         flags_of(element, path, is_start, is_end)
-            | select(0u, POINT_IS_VISIBLE, is_seen)
+            | select(0u, POINT_IS_VISIBLE, seen == SEEN)
+            | select(0u, POINT_IS_GRAZED, seen == SEEN_ALMOST)
             | select(0u, POINT_ON_CONTOUR, on_contour)
             | (draw << DRAW_SHIFT),
         vec2f(0.0, 1.0),
@@ -105,12 +109,14 @@ struct Walk {
     length_px: f32,
     // Where it ended.
     place: vec2f,
+    // How far the next fold is.
+    fold_px: f32,
 }
 
 fn walk_back(element: u32, path: u32, t: f32, reach_px: f32) -> Walk {
     var at = element;
     var part = t;
-    var walk = Walk();
+    var walk = Walk(vec3f(0.0), 0.0, vec2f(0.0), 1e9);
     for (var count = 0u; count < MOST_ELEMENTS; count++) {
         let here = elements[at];
         let length_px = part * length_of(at);
@@ -120,9 +126,14 @@ fn walk_back(element: u32, path: u32, t: f32, reach_px: f32) -> Walk {
         walk.sum += taken_px * vec3f(mix(here.s0, here.s1, middle), mix(here.z0, here.z1, middle));
         walk.length_px += taken_px;
         walk.place = mix(here.s0, here.s1, to);
-        if walk.length_px >= reach_px || joints[path + at - element].kind != 0u {
+        if walk.length_px >= reach_px {
             break;
         }
+        let kind = joints[path + at - element].kind;
+        if (kind & KEPT) != 0u {
+            break;
+        }
+        walk.fold_px = select(walk.fold_px, min(walk.fold_px, walk.length_px), (kind & FOLD) != 0u);
         let other = before(at);
         if other == NONE || other == element {
             break;
@@ -136,7 +147,7 @@ fn walk_back(element: u32, path: u32, t: f32, reach_px: f32) -> Walk {
 fn walk_ahead(element: u32, path: u32, t: f32, reach_px: f32) -> Walk {
     var at = element;
     var part = t;
-    var walk = Walk();
+    var walk = Walk(vec3f(0.0), 0.0, vec2f(0.0), 1e9);
     for (var count = 0u; count < MOST_ELEMENTS; count++) {
         let here = elements[at];
         let length_px = (1.0 - part) * length_of(at);
@@ -150,9 +161,14 @@ fn walk_ahead(element: u32, path: u32, t: f32, reach_px: f32) -> Walk {
             break;
         }
         let other = behind(at);
-        if other == NONE || other == element || joints[path + other - element].kind != 0u {
+        if other == NONE || other == element {
             break;
         }
+        let kind = joints[path + other - element].kind;
+        if (kind & KEPT) != 0u {
+            break;
+        }
+        walk.fold_px = select(walk.fold_px, min(walk.fold_px, walk.length_px), (kind & FOLD) != 0u);
         at = other;
         part = 0.0;
     }

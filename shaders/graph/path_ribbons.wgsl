@@ -24,8 +24,8 @@ fn write_ribbons(@builtin(global_invocation_id) id: vec3u) {
 
 // A stroke as a whole, with what lies beyond the seam of a loop.
 struct Extent {
-    start_arc: f32,
-    end_arc: f32,
+    start_arc: u32,
+    end_arc: u32,
     first: u32,
     last: u32,
     // The segment before the first and the one behind the last, or NONE.
@@ -51,12 +51,12 @@ fn extent_of(stroke_index: u32) -> Extent {
         && (start.flags & POINT_ON_SEAM) != 0u && stroke.start_arc == start.arc;
     if begins_on_seam {
         let partner = points[last_segment].stroke;
-        let chain_px = points[last_segment + 1u].arc;
-        let meets = strokes[partner].last == last_segment && strokes[partner].end_arc == chain_px;
+        let end_arc = points[last_segment + 1u].arc;
+        let meets = strokes[partner].last == last_segment && strokes[partner].end_arc == end_arc;
         if partner == stroke_index && meets {
             extent.is_closed = true;
         } else if meets {
-            extent.start_arc = strokes[partner].start_arc - chain_px;
+            extent.start_arc = start.arc - (end_arc - strokes[partner].start_arc);
         }
         extent.before_first = select(NONE, last_segment, meets);
     }
@@ -67,7 +67,7 @@ fn extent_of(stroke_index: u32) -> Extent {
         let meets = strokes[partner].first == first_segment
             && strokes[partner].start_arc == points[first_segment].arc;
         if meets && partner != stroke_index {
-            extent.end_arc = strokes[partner].end_arc + end.arc;
+            extent.end_arc = end.arc + strokes[partner].end_arc - points[first_segment].arc;
         }
         extent.behind_last = select(NONE, first_segment, meets);
     }
@@ -90,7 +90,10 @@ fn ribbon_of(index: u32) -> Ribbon {
         return ribbon;
     }
     let direction = along / length_px;
-    var arcs = vec2f(mix(here.arc, next.arc, here.cut.x), mix(here.arc, next.arc, here.cut.y));
+    // From where the stroke begins.
+    let from_start = px_of_arc(here.arc - extent.start_arc);
+    let whole_px = px_of_arc(next.arc - here.arc);
+    var arcs = from_start + here.cut * whole_px;
 
     // The directions of the segments before and behind, where the stroke has such.
     var ends = vec2u(style.end);
@@ -119,7 +122,7 @@ fn ribbon_of(index: u32) -> Ribbon {
     }
 
     let widest_px = width_of(style, points[extent.first].depth);
-    var range = vec2f(extent.start_arc, extent.end_arc);
+    var range = vec2f(0.0, px_of_arc(extent.end_arc - extent.start_arc));
     let begins = index == extent.first && extent.before_first == NONE;
     let finishes = index == extent.last && extent.behind_last == NONE;
     if begins {
@@ -138,7 +141,8 @@ fn ribbon_of(index: u32) -> Ribbon {
     var opacities = vec2f(0.0);
     for (var side = 0u; side < 2u; side++) {
         let depth = mix(here.depth, next.depth, select(here.cut.x, here.cut.y, side == 1u));
-        let taper = select(taper_of(style, arcs[side] - range.x, total_px), 1.0, extent.is_closed);
+        let is_ring = extent.is_closed && total_px > style.taper_px.x + style.taper_px.y;
+        let taper = select(taper_of(style, arcs[side] - range.x, total_px), 1.0, is_ring);
         half_widths[side] = 0.5 * width_of(style, depth) * taper;
         opacities[side] = opacity_of(style, depth) * fade_of_short(style, total_px);
     }
@@ -151,6 +155,11 @@ fn ribbon_of(index: u32) -> Ribbon {
     ribbon.join1 = joins[1];
     ribbon.ends = ends.x | (ends.y << 4u) | (side_of(style, here.flags) << 8u);
     return ribbon;
+}
+
+// Of a difference of arc lengths, which may be negative.
+fn px_of_arc(arc: u32) -> f32 {
+    return f32(bitcast<i32>(arc)) / ARC_PER_PX;
 }
 
 fn width_of(style: PathUniform, depth: f32) -> f32 {

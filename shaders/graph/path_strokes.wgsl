@@ -1,25 +1,69 @@
 // Where along their paths strokes begin and end.
 //
-// A point is drawn where it and most of its neighbours are visible, or hidden for
-// strokes of what is hidden: one sample alone is a slip of the depth test. Where that
+// A mesh contour runs now a little before, now a little behind the surface that it
+// means. So points that something so close hides count as visible where visible ones
+// are on both sides; and a visible point alone counts as hidden. Where what is drawn
 // changes, the place between the two points is found by halving.
 #import <common/path_visibility.wgsl>
 #import <common/scan.wgsl>
 
 const HALVINGS: u32 = 4u;
 
+// Points to both sides that are asked where one is grazed.
+const BRIDGE: u32 = 3u;
+
 // Whether a point is drawn.
 fn is_drawn(index: u32) -> bool {
+    let draw = points[index].flags >> DRAW_SHIFT;
+    return is_seen(index) != (paths[draw].visibility == HIDDEN_STROKES);
+}
+
+fn is_seen(index: u32) -> bool {
     let flags = points[index].flags;
-    let draw = flags >> DRAW_SHIFT;
-    var seen = u32((flags & POINT_IS_VISIBLE) != 0u);
-    let has_both = (flags & (POINT_STARTS | POINT_ENDS)) == 0u;
-    if has_both {
-        seen += u32((points[index - 1u].flags & POINT_IS_VISIBLE) != 0u);
-        seen += u32((points[index + 1u].flags & POINT_IS_VISIBLE) != 0u);
+    if (flags & POINT_IS_VISIBLE) != 0u {
+        let before = (flags & POINT_STARTS) == 0u && is_open(index - 1u);
+        let behind = (flags & POINT_ENDS) == 0u && is_open(index + 1u);
+        let is_whole = (flags & (POINT_STARTS | POINT_ENDS)) == (POINT_STARTS | POINT_ENDS);
+        return before || behind || is_whole;
     }
-    let is_seen = seen >= select(1u, 2u, has_both);
-    return is_seen != (paths[draw].visibility == HIDDEN_STROKES);
+    if (flags & POINT_IS_GRAZED) == 0u {
+        return false;
+    }
+    // Grazed points up to a visible one, on both sides.
+    var at = index;
+    var is_bridged = false;
+    for (var step = 0u; step < BRIDGE && !is_bridged; step++) {
+        if (points[at].flags & POINT_STARTS) != 0u {
+            return false;
+        }
+        at -= 1u;
+        is_bridged = (points[at].flags & POINT_IS_VISIBLE) != 0u;
+        if !is_bridged && (points[at].flags & POINT_IS_GRAZED) == 0u {
+            return false;
+        }
+    }
+    if !is_bridged {
+        return false;
+    }
+    at = index;
+    for (var step = 0u; step < BRIDGE; step++) {
+        if (points[at].flags & POINT_ENDS) != 0u {
+            return false;
+        }
+        at += 1u;
+        if (points[at].flags & POINT_IS_VISIBLE) != 0u {
+            return true;
+        }
+        if (points[at].flags & POINT_IS_GRAZED) == 0u {
+            return false;
+        }
+    }
+    return false;
+}
+
+// Whether a visible point beside it would not be alone.
+fn is_open(index: u32) -> bool {
+    return (points[index].flags & (POINT_IS_VISIBLE | POINT_IS_GRAZED)) != 0u;
 }
 
 struct Segment {
@@ -53,9 +97,14 @@ fn segment_at(index: u32) -> Segment {
     return segment;
 }
 
-// The arc length where a stroke begins or ends on a segment.
-fn arc_at(index: u32, t: f32) -> f32 {
-    return mix(points[index].arc, points[index + 1u].arc, t);
+// Arc length of a segment, in ARC_PER_PX of a pixel.
+fn segment_arc(index: u32) -> u32 {
+    let is_segment = (points[index].flags & POINT_ENDS) == 0u && index + 1u < header.point_count;
+    if !is_segment {
+        return 0u;
+    }
+    let length_px = distance(points[index].position, points[index + 1u].position);
+    return u32(round(length_px * ARC_PER_PX));
 }
 
 // Where on a segment what is drawn begins or ends.
@@ -71,8 +120,8 @@ fn cut_of(index: u32, is_drawn0: bool) -> f32 {
     for (var halving = 0u; halving < HALVINGS; halving++) {
         let t = 0.5 * (low + high);
         let place = mix(a.position, b.position, t);
-        let is_seen = is_visible(place, mix(a.depth, b.depth, t), direction, on_contour, draw);
-        let is_like_start = (is_seen != (paths[draw].visibility == HIDDEN_STROKES)) == is_drawn0;
+        let seen = visibility_at(place, mix(a.depth, b.depth, t), direction, on_contour, draw);
+        let is_like_start = ((seen == SEEN) != (paths[draw].visibility == HIDDEN_STROKES)) == is_drawn0;
         low = select(low, t, is_like_start);
         high = select(t, high, is_like_start);
     }
@@ -85,10 +134,10 @@ fn sum_strokes(@builtin(global_invocation_id) id: vec3u) {
     if first >= header.point_count {
         return;
     }
-    var sum = 0u;
+    var sum = vec2u(0u);
     for (var index = first; index < min(first + ITEMS_PER_SUM, header.point_count); index++) {
         let segment = segment_at(index);
-        sum += u32(segment.starts_stroke);
+        sum += vec2u(u32(segment.starts_stroke), segment_arc(index));
         var cut = select(vec2f(1.0, 0.0), vec2f(0.0, 1.0), segment.is_drawn0 && segment.exists);
         if segment.exists && segment.is_drawn0 != segment.is_drawn1 {
             let at = cut_of(index, segment.is_drawn0);
@@ -96,7 +145,7 @@ fn sum_strokes(@builtin(global_invocation_id) id: vec3u) {
         }
         points[index].cut = cut;
     }
-    sums[id.x] = vec2u(sum, 0u);
+    sums[id.x] = sum;
 }
 
 @compute @workgroup_size(SCAN_WIDTH)
@@ -115,19 +164,23 @@ fn write_strokes(@builtin(global_invocation_id) id: vec3u) {
     }
     // One less than the strokes that began so far; wraps where none did.
     var stroke = sums[id.x].x - 1u;
+    var arc = sums[id.x].y;
     for (var index = first; index < min(first + ITEMS_PER_SUM, header.point_count); index++) {
         let segment = segment_at(index);
+        let length_arc = segment_arc(index);
         if segment.starts_stroke {
             stroke += 1u;
             strokes[stroke].first = index;
             let t = select(0.0, points[index].cut.x, segment.is_cut);
-            strokes[stroke].start_arc = arc_at(index, t);
+            strokes[stroke].start_arc = arc + u32(t * f32(length_arc));
         }
         if segment.ends_stroke {
             strokes[stroke].last = index;
             let t = select(1.0, points[index].cut.y, segment.is_cut);
-            strokes[stroke].end_arc = arc_at(index, t);
+            strokes[stroke].end_arc = arc + u32(t * f32(length_arc));
         }
         points[index].stroke = stroke;
+        points[index].arc = arc;
+        arc += length_arc;
     }
 }

@@ -259,7 +259,7 @@ fn structs_in_buffers_are_laid_out_alike_and_found_on_both_sides() {
 }
 
 /// Constants of one side only: how the shader works inside.
-const OF_SHADERS: [&str; 31] = [
+const OF_SHADERS: [&str; 40] = [
     "BEHIND",
     "SCAN_WIDTH",
     "EXPAND_WIDTH",
@@ -290,6 +290,15 @@ const OF_SHADERS: [&str; 31] = [
     "KEPT_COSINE",
     "MOST_ELEMENTS",
     "HALVINGS",
+    "FOLD",
+    "KEPT",
+    "FOLD_STEPS",
+    "BRIDGE",
+    "GRAZED_PX",
+    "SEEN",
+    "SEEN_ALMOST",
+    "SEEN_NOT",
+    "POINT_IS_GRAZED",
     "INSIDE_PX",
 ];
 

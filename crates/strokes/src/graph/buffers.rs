@@ -188,8 +188,9 @@ pub struct PathPoint {
     pub position: [f32; 2],
     /// Its depth.
     pub depth: f32,
-    /// Arc length from the beginning of its chain, in pixels.
-    pub arc: f32,
+    /// Arc length up to here along the points, in [`ARC_PER_PX`] of a pixel, from
+    /// anywhere.
+    pub arc: u32,
     /// The element it is on, among those of all draws.
     pub path: u32,
     /// See the shader; the draw is above the lowest eight bits.
@@ -210,10 +211,10 @@ pub struct Stroke {
     pub first: u32,
     /// The point where its last segment begins.
     pub last: u32,
-    /// Arc length of its chain where it begins, in pixels.
-    pub start_arc: f32,
-    /// Arc length of its chain where it ends, in pixels.
-    pub end_arc: f32,
+    /// Arc length where it begins, as that of points.
+    pub start_arc: u32,
+    /// Arc length where it ends.
+    pub end_arc: u32,
 }
 
 /// A segment of a stroke, ready to be drawn.
