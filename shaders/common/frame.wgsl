@@ -13,6 +13,8 @@ struct FrameUniform {
 struct ObjectUniform {
     // Takes the object's positions to clip space; depth 1 near, 0 far.
     clip_from_object: mat4x4f,
+    // Takes it back.
+    object_from_clip: mat4x4f,
     // Takes its normals to clip space, as directions of a unit of the world.
     clip_from_normal: mat4x4f,
     // The eye in the object's space with w = 1, or the direction to the viewer

@@ -15,6 +15,9 @@
 // Joints that turn more than this keep their place: 25 degrees.
 const KEPT_COSINE: f32 = 0.906;
 
+// What turns more than this turns back: 120 degrees.
+const CUSP_COSINE: f32 = -0.5;
+
 // Corners are told apart from folds of the mesh over so many steps.
 const FOLD_STEPS: f32 = 4.0;
 
@@ -62,6 +65,11 @@ fn behind(element: u32) -> u32 {
     }
     let is_cut = (here.next & CUT_END) != 0u || (elements[other].next & CUT_START) != 0u;
     return select(other, NONE, is_cut);
+}
+
+// Where the line of a point is drawn.
+fn drawn_place(index: u32) -> vec2f {
+    return points[index].position + points[index].offset;
 }
 
 fn length_of(element: u32) -> f32 {

@@ -28,6 +28,16 @@ struct PathUniform {
     // Over how many pixels a stroke grows to its width, and shrinks again.
     taper_px: vec2f,
     overshoot_px: f32,
+    // How far lines leave their path, at a wavelength and at that of a trembling hand.
+    wobble_px: f32,
+    wobble_length_px: f32,
+    jitter_px: f32,
+    // Ink and gap in pixels; 0 and 0 for whole lines.
+    dash_px: vec2f,
+    // Along a stroke, evenly, what is left of its width and of its opacity.
+    width_curve: array<vec4f, 2>,
+    opacity_curve: array<vec4f, 2>,
+    seed: f32,
     padding: f32,
 }
 

@@ -141,6 +141,8 @@ const KEPT: u32 = BREAK | CORNER;
 struct PathPoint {
     // Pixels from the middle of the picture, y up; a contour's front is on the left.
     position: vec2f,
+    // How far beside it the line is drawn.
+    offset: vec2f,
     depth: f32,
     // Arc length up to here along the points, in ARC_PER_PX of a pixel, from anywhere.
     arc: u32,
@@ -184,10 +186,15 @@ struct Ribbon {
     // Unit vectors of the turns at both ends, halved: along and across the segment.
     join0: vec2f,
     join1: vec2f,
+    // Dashes so far at both ends, in periods.
+    dash: vec2f,
+    // Of a period, how much is ink; 1 for whole lines.
+    ink: f32,
     // At both ends, as fractions.
     opacity: u32,
     // How it begins and how it ends, four bits each; two bits for its side; IS_INSIDE.
     ends: u32,
+    padding: u32,
 }
 
 // How a segment begins and ends.

@@ -28,7 +28,11 @@ fn measure_turns(@builtin(global_invocation_id) id: vec3u) {
     joints[path].kind = 0u;
     joints[path].cosine = near;
     if near < KEPT_COSINE {
-        let far = turn_cosine(element, FOLD_STEPS * step_px);
+        var far = turn_cosine(element, FOLD_STEPS * step_px);
+        if far < KEPT_COSINE && near < CUSP_COSINE {
+            // What turns back on itself is a corner if it does not turn again soon.
+            far = turn_cosine(element, 2.0 * FOLD_STEPS * step_px);
+        }
         joints[path].cosine = max(near, far);
         joints[path].kind = select(0u, FOLD, far >= KEPT_COSINE);
     }

@@ -2,6 +2,7 @@
 // the next corner, so that the zigzag of a fine mesh becomes the line that it means.
 #import <common/path_grid.wgsl>
 #import <common/path_visibility.wgsl>
+#import <common/path_wobble.wgsl>
 
 @compute @workgroup_size(GROUP)
 fn place_points(@builtin(global_invocation_id) id: vec3u) {
@@ -52,8 +53,10 @@ fn point_of(index: u32) -> PathPoint {
     if (here.edge & BEHIND_SOLID) == 0u {
         seen = visibility_at(exact.xy, exact.z, direction, on_contour, draw);
     }
+    let across = vec2f(-direction.y, direction.x);
     return PathPoint(
         averaged.xy,
+        across * wobble_at(averaged.xy, averaged.z, draw),
         averaged.z,
         0u,
         path,

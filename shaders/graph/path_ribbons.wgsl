@@ -80,8 +80,8 @@ fn ribbon_of(index: u32) -> Ribbon {
     let draw = here.flags >> DRAW_SHIFT;
     let style = paths[draw];
     let extent = extent_of(here.stroke);
-    var a = mix(here.position, next.position, here.cut.x);
-    var b = mix(here.position, next.position, here.cut.y);
+    var a = mix(drawn_place(index), drawn_place(index + 1u), here.cut.x);
+    var b = mix(drawn_place(index), drawn_place(index + 1u), here.cut.y);
     let along = b - a;
     let length_px = length(along);
     var ribbon = Ribbon();
@@ -90,6 +90,7 @@ fn ribbon_of(index: u32) -> Ribbon {
         return ribbon;
     }
     let direction = along / length_px;
+    let part = part_of(style, extent, index);
     // From where the stroke begins.
     let from_start = px_of_arc(here.arc - extent.start_arc);
     let whole_px = px_of_arc(next.arc - here.arc);
@@ -102,13 +103,21 @@ fn ribbon_of(index: u32) -> Ribbon {
         select(index - 1u, extent.before_first, index == extent.first),
         select(index + 1u, extent.behind_last, index == extent.last),
     );
+    // Where one part of a long stroke ends another begins.
+    for (var side = 0u; side < 2u; side++) {
+        if part.count > 1.0 && other[side] != NONE
+            && part_of(style, extent, other[side]).index != part.index {
+            other[side] = NONE;
+        }
+    }
+    let is_ring = extent.is_closed && part.count == 1.0;
     for (var side = 0u; side < 2u; side++) {
         let is_whole = select(here.cut.y == 1.0, here.cut.x == 0.0, side == 0u);
         if !is_whole {
             // Hidden from here on; the stroke itself may go on.
             ends[side] = select(ENDS_FLAT, style.end, style.is_cut_where_hidden != 0u);
         } else if other[side] != NONE {
-            let of_other = points[other[side] + 1u].position - points[other[side]].position;
+            let of_other = drawn_place(other[side] + 1u) - drawn_place(other[side]);
             let join = direction + of_other / max(length(of_other), 1e-6);
             // A turn on the spot is an end of both.
             if dot(join, join) > 1e-3 {
@@ -122,9 +131,10 @@ fn ribbon_of(index: u32) -> Ribbon {
     }
 
     let widest_px = width_of(style, points[extent.first].depth);
-    var range = vec2f(0.0, px_of_arc(extent.end_arc - extent.start_arc));
-    let begins = index == extent.first && extent.before_first == NONE;
-    let finishes = index == extent.last && extent.behind_last == NONE;
+    let stroke_px = px_of_arc(extent.end_arc - extent.start_arc);
+    var range = vec2f(part.index, part.index + 1.0) * stroke_px / part.count;
+    let begins = other.x == NONE && here.cut.x == 0.0;
+    let finishes = other.y == NONE && here.cut.y == 1.0;
     if begins {
         a -= direction * style.overshoot_px;
         arcs.x -= style.overshoot_px;
@@ -133,7 +143,7 @@ fn ribbon_of(index: u32) -> Ribbon {
         b += direction * style.overshoot_px;
         arcs.y += style.overshoot_px;
     }
-    if !extent.is_closed {
+    if !is_ring {
         range += vec2f(-style.overshoot_px, style.overshoot_px);
     }
     let total_px = max(range.y - range.x, 1e-3);
@@ -141,20 +151,63 @@ fn ribbon_of(index: u32) -> Ribbon {
     var opacities = vec2f(0.0);
     for (var side = 0u; side < 2u; side++) {
         let depth = mix(here.depth, next.depth, select(here.cut.x, here.cut.y, side == 1u));
-        let is_ring = extent.is_closed && total_px > style.taper_px.x + style.taper_px.y;
-        let taper = select(taper_of(style, arcs[side] - range.x, total_px), 1.0, is_ring);
-        half_widths[side] = 0.5 * width_of(style, depth) * taper;
-        opacities[side] = opacity_of(style, depth) * fade_of_short(style, total_px);
+        let is_even = is_ring && total_px > style.taper_px.x + style.taper_px.y;
+        let taper = select(taper_of(style, arcs[side] - range.x, total_px), 1.0, is_even);
+        let t = (arcs[side] - range.x) / total_px;
+        half_widths[side] =
+            0.5 * width_of(style, depth) * taper * curve_at(paths[draw].width_curve, t);
+        opacities[side] = opacity_of(style, depth) * fade_of_short(style, total_px)
+            * curve_at(paths[draw].opacity_curve, t);
     }
     ribbon.a = a;
     ribbon.b = b;
     ribbon.u = brush_of(style, arcs, range, widest_px);
     ribbon.half_width = half_widths;
+    let period_px = style.dash_px.x + style.dash_px.y;
+    ribbon.ink = 1.0;
+    if period_px > 0.0 {
+        // Whole dashes, one of them in the middle.
+        let periods = max(round(total_px / period_px), 1.0);
+        ribbon.ink = style.dash_px.x / period_px;
+        ribbon.dash = (arcs - 0.5 * (range.x + range.y)) * periods / total_px
+            + 0.5 * ribbon.ink;
+    }
     ribbon.opacity = pack2x16unorm(opacities);
     ribbon.join0 = joins[0];
     ribbon.join1 = joins[1];
     ribbon.ends = ends.x | (ends.y << 4u) | (side_of(style, here.flags) << 8u);
     return ribbon;
+}
+
+// Of how many equal parts of a stroke a segment is in which.
+struct Part {
+    count: f32,
+    index: f32,
+}
+
+fn part_of(style: PathUniform, extent: Extent, index: u32) -> Part {
+    let stroke_px = px_of_arc(extent.end_arc - extent.start_arc);
+    if style.max_length_px <= 0.0 || stroke_px <= style.max_length_px {
+        return Part(1.0, 0.0);
+    }
+    let count = ceil(stroke_px / style.max_length_px);
+    var middle_px = 0.5 * (px_of_arc(points[index].arc - extent.start_arc)
+        + px_of_arc(points[index + 1u].arc - extent.start_arc));
+    // Beyond the seam of a loop arc lengths start again.
+    if middle_px < 0.0 || middle_px > stroke_px {
+        middle_px = clamp(middle_px, 0.0, stroke_px);
+    }
+    return Part(count, min(floor(middle_px / stroke_px * count), count - 1.0));
+}
+
+// A value between eight even ones, at 0 to 1 along a stroke.
+fn curve_at(curve: array<vec4f, 2>, t: f32) -> f32 {
+    let at = clamp(t, 0.0, 1.0) * 7.0;
+    let first = min(u32(at), 6u);
+    var values = curve;
+    let low = values[first / 4u][first % 4u];
+    let high = values[(first + 1u) / 4u][(first + 1u) % 4u];
+    return mix(low, high, at - f32(first));
 }
 
 // Of a difference of arc lengths, which may be negative.
@@ -173,8 +226,10 @@ fn width_of(style: PathUniform, depth: f32) -> f32 {
 fn taper_of(style: PathUniform, arc_px: f32, total_px: f32) -> f32 {
     // Where both do not fit, both are shorter.
     let fit = min(1.0, total_px / max(style.taper_px.x + style.taper_px.y, 1e-3));
-    let taper_px = max(style.taper_px * fit, vec2f(1e-3));
-    return clamp(min(arc_px / taper_px.x, (total_px - arc_px) / taper_px.y), 0.0, 1.0);
+    let taper_px = style.taper_px * fit;
+    let grown = select(arc_px / max(taper_px.x, 1e-3), 1.0, taper_px.x <= 0.0);
+    let left = select((total_px - arc_px) / max(taper_px.y, 1e-3), 1.0, taper_px.y <= 0.0);
+    return clamp(min(grown, left), 0.0, 1.0);
 }
 
 fn opacity_of(style: PathUniform, depth: f32) -> f32 {

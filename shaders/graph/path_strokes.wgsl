@@ -10,7 +10,7 @@
 const HALVINGS: u32 = 4u;
 
 // Points to both sides that are asked where one is grazed.
-const BRIDGE: u32 = 3u;
+const BRIDGE: u32 = 6u;
 
 // Whether a point is drawn.
 fn is_drawn(index: u32) -> bool {
@@ -103,7 +103,7 @@ fn segment_arc(index: u32) -> u32 {
     if !is_segment {
         return 0u;
     }
-    let length_px = distance(points[index].position, points[index + 1u].position);
+    let length_px = distance(drawn_place(index), drawn_place(index + 1u));
     return u32(round(length_px * ARC_PER_PX));
 }
 

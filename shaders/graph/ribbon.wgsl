@@ -31,6 +31,7 @@ struct RibbonVarying {
     @location(3) @interpolate(flat) u_and_opacity: vec4f,
     @location(4) @interpolate(flat) joins: vec4f,
     @location(5) @interpolate(flat) ends: u32,
+    @location(6) @interpolate(flat) dash_and_ink: vec3f,
 }
 
 @vertex
@@ -45,6 +46,7 @@ fn ribbon_vertex(@builtin(vertex_index) vertex: u32) -> RibbonVarying {
     out.length_px = length(along);
     let direction = along / out.length_px;
     out.half_width_px = ribbon.half_width;
+    out.dash_and_ink = vec3f(ribbon.dash, ribbon.ink);
     out.u_and_opacity = vec4f(ribbon.u, unpack2x16unorm(ribbon.opacity));
     out.joins = vec4f(ribbon.join0, ribbon.join1);
     let side = (ribbon.ends >> 8u) & 3u;
@@ -99,11 +101,15 @@ fn ribbon_fragment(in: RibbonVarying) -> @location(0) vec4f {
     var off = abs(across);
     var coverage = 1.0;
     var widest = reach;
+    // Where a one-sided stroke begins beside its line: at a point not on it.
+    var nearest_off = 0.0;
     if beyond > 0.0 {
         if kind == ENDS_FLAT {
             coverage = 0.0;
         } else if kind == ENDS_POINTED {
-            widest = max(reach - 0.5 * beyond, 0.0);
+            let gone = 0.5 * beyond * select(0.5, 1.0, side == 0u);
+            widest = max(reach - gone, 0.0);
+            nearest_off = select(gone, 0.0, side == 0u);
         } else if kind != JOINS_MITRED || is_past_limit(in.joins, at_end) {
             off = length(vec2f(beyond, across));
         }
@@ -117,7 +123,7 @@ fn ribbon_fragment(in: RibbonVarying) -> @location(0) vec4f {
     } else {
         let outer = select(across, off, beyond > 0.0);
         let outermost = min(across + 0.5, across + widest - outer);
-        coverage *= clamp(outermost - max(across - 0.5, 0.0), 0.0, 1.0);
+        coverage *= clamp(outermost - max(across - 0.5, nearest_off), 0.0, 1.0);
     }
     // Both segments of a join have the line that halves its angle.
     let join = select(in.joins.xy, in.joins.zw, at_end);
@@ -125,6 +131,15 @@ fn ribbon_fragment(in: RibbonVarying) -> @location(0) vec4f {
         let from_joint = vec2f(along - select(0.0, in.length_px, at_end), in.along_across.y);
         let past = dot(from_joint, join) * select(-1.0, 1.0, at_end);
         coverage *= f32(past <= 0.02);
+    }
+    if in.dash_and_ink.z < 1.0 {
+        // Periods from one dash to the next, and a pixel of them.
+        let per_px = abs(in.dash_and_ink.y - in.dash_and_ink.x) / in.length_px;
+        let phase = fract(in.dash_and_ink.x + per_px * along);
+        let from_middle = abs(phase - 0.5 * in.dash_and_ink.z);
+        // The dash that begins with the next period is near too.
+        let nearest = min(from_middle, 1.0 - from_middle);
+        coverage *= clamp((0.5 * in.dash_and_ink.z - nearest) / max(per_px, 1e-6) + 0.5, 0.0, 1.0);
     }
     let opacity = mix(in.u_and_opacity.z, in.u_and_opacity.w, t);
     coverage *= opacity;

@@ -28,7 +28,7 @@ use edgemesh::report::Report;
 use strokes::brush::Brush;
 use strokes::gpu::{self, Gpu};
 use strokes::gpu_time::{GpuTimer, GpuTimes};
-use strokes::look::{Layer, Look, StrokeStyle, Width};
+use strokes::look::{PathStyle, Layer, Look, StrokeStyle, Width};
 use strokes::mesh_buffers::{Layout, MeshBuffers};
 use strokes::object::Object;
 use strokes::renderer::{DetectionPath, PASS_NAMES, Renderer, RendererOptions};
@@ -86,7 +86,9 @@ impl Runner {
         let Contender { layout, path, .. } = *contender;
         let mut renderer = Renderer::new(gpu, RendererOptions { layout, path, formats }).unwrap();
         let look = renderer.prepare(gpu, &contender.look).unwrap();
-        let buffers = Arc::new(MeshBuffers::new(&gpu.device, mesh, layout).unwrap());
+        let upload =
+            if look.is_linked() { MeshBuffers::with_links } else { MeshBuffers::new };
+        let buffers = Arc::new(upload(&gpu.device, mesh, layout).unwrap());
         let byte_count = buffers.byte_count();
         let objects = vec![renderer.object(gpu, &buffers, &look)];
         let passes = u32::try_from(PASS_NAMES.len()).unwrap();
@@ -179,6 +181,26 @@ impl Bench {
         ]
         .map(|(name, look)| Contender::new(name, look));
         self.table(&format!("{name}, kinds of lines"), mesh, samples, &contenders);
+    }
+
+    /// Linked strokes beside edges drawn one by one.
+    fn linked(&self, name: &str, mesh: &EdgeMesh, samples: u32) {
+        let all = EdgeClass::ALL;
+        let linked = |is_textured| {
+            let path = Some(PathStyle::default());
+            StrokeStyle { path, ..style(LineKind::QuadAndCaps, is_textured) }
+        };
+        let wide = |style| StrokeStyle { width: Width::Pixels(7.0), ..style };
+        let contenders = [
+            ("quads with caps", look(&all, style(LineKind::QuadAndCaps, false))),
+            ("linked", look(&all, linked(false))),
+            ("quads with caps, textured", look(&all, style(LineKind::QuadAndCaps, true))),
+            ("linked, textured", look(&all, linked(true))),
+            ("quads with caps, textured, 7 px", look(&all, wide(style(LineKind::QuadAndCaps, true)))),
+            ("linked, textured, 7 px", look(&all, wide(linked(true)))),
+        ]
+        .map(|(name, look)| Contender::new(name, look));
+        self.table(&format!("{name}, linked"), mesh, samples, &contenders);
     }
 
     fn layouts(&self, name: &str, mesh: &EdgeMesh, samples: u32) {
@@ -292,6 +314,7 @@ fn main() {
     }
     for (name, mesh) in &meshes {
         bench.kinds(name, mesh, 4);
+        bench.linked(name, mesh, 4);
         bench.layouts(name, mesh, 4);
     }
 }

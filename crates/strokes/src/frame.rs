@@ -61,6 +61,8 @@ fn along_sight(row: Vec4, distance: Vec4) -> [f32; 2] {
 pub struct ObjectUniform {
     /// Takes the object's positions to clip space; depth 1 near, 0 far.
     pub clip_from_object: [[f32; 4]; 4],
+    /// Takes it back.
+    pub object_from_clip: [[f32; 4]; 4],
     /// Takes its normals to clip space, as directions of a unit of the world.
     pub clip_from_normal: [[f32; 4]; 4],
     /// The eye in the object's space with w = 1, or the direction to the viewer
@@ -97,7 +99,9 @@ impl ObjectUniform {
             return None;
         }
         let clip_from_world = view.clip_from_world.as_dmat4();
-        let clip_from_object = (clip_from_world * world_from_object).as_mat4();
+        let clip_from_object = clip_from_world * world_from_object;
+        let object_from_clip = clip_from_object.inverse().as_mat4();
+        let clip_from_object = clip_from_object.as_mat4();
         // Normals go by the inverse transposed; of unit length where the scale is
         // the same along all axes.
         let normals = DMat3::from_mat4(object_from_world).transpose() * determinant.abs().cbrt();
@@ -114,6 +118,7 @@ impl ObjectUniform {
         let is_outside = eye_is_outside(eye, bounds.min.into(), bounds.max.into());
         Some(Self {
             clip_from_object: clip_from_object.to_cols_array_2d(),
+            object_from_clip: object_from_clip.to_cols_array_2d(),
             clip_from_normal: clip_from_normal.to_cols_array_2d(),
             eye: eye.to_array(),
             distance: distance.to_array(),

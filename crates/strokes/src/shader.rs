@@ -45,6 +45,7 @@ pub const EMBEDDED: &[(&str, &str)] = &[
     embedded!("common/path_grid.wgsl"),
     embedded!("common/path_style.wgsl"),
     embedded!("common/path_visibility.wgsl"),
+    embedded!("common/path_wobble.wgsl"),
     embedded!("common/replicated_corner.wgsl"),
     embedded!("common/scan.wgsl"),
     embedded!("common/silhouette.wgsl"),

@@ -18,7 +18,7 @@ use edgemesh::oracle::feature::EdgeClass;
 use edgemesh::oracle::stroke_quad::Placement;
 use edgemesh::oracle::stroke_segment::{LineKind, Parameterization};
 use strokes::brush::Brush;
-use strokes::graph::path_style::{BrushFit, End, Join, PathStyle};
+use strokes::graph::path_style::{BrushFit, CURVE_LENGTH, End, Join, PathStyle};
 use strokes::look::{Layer, Look, StrokeStyle, Width};
 
 /// The techniques, by name, with what each shows.
@@ -44,7 +44,7 @@ pub const PASSES: [(&str, &str); 8] = [
 ];
 
 /// The variables of all passes of strokes.
-pub const STROKE_VARIABLES: [(&str, &str); 19] = [
+pub const STROKE_VARIABLES: [(&str, &str); 25] = [
     ("show", "true or false"),
     ("color", "the ink, #rrggbb or #rrggbbaa"),
     ("opacity", "0 to 1"),
@@ -64,6 +64,12 @@ pub const STROKE_VARIABLES: [(&str, &str); 19] = [
     ("fit", "how the brush lies along linked strokes: tiled or stretched"),
     ("taper", "pixels over which linked strokes grow and shrink, as 20 or 10,40"),
     ("overshoot", "pixels by which linked strokes go on beyond their ends"),
+    ("width-curve", "2 to 8 numbers along linked strokes: what is left of their width, as 0.3,1,0.3"),
+    ("opacity-curve", "the same for their opacity"),
+    ("wobble", "pixels by which linked strokes swing, as 3, or with the wavelength as 3,60"),
+    ("jitter", "pixels by which the hand that draws linked strokes trembles"),
+    ("seed", "0 to 65535: another hand"),
+    ("dash", "pixels of ink and gap along linked strokes, as 12,8; or none"),
 ];
 
 /// The widest stroke: the guard band around the picture hides the cut ends of
@@ -343,6 +349,12 @@ enum StrokeSetting {
     Fit(BrushFit),
     Taper([f32; 2]),
     Overshoot(f32),
+    WidthCurve([f32; CURVE_LENGTH]),
+    OpacityCurve([f32; CURVE_LENGTH]),
+    Wobble(f32, Option<f32>),
+    Jitter(f32),
+    Seed(u16),
+    Dash(Option<[f32; 2]>),
 }
 
 enum SettingError {
@@ -430,6 +442,27 @@ impl StrokeSetting {
                 Self::Taper([parse_pixels(start)?, parse_pixels(end)?])
             }
             "overshoot" => Self::Overshoot(parse_pixels(value)?),
+            "width-curve" => Self::WidthCurve(parse_curve(value, 10.0)?),
+            "opacity-curve" => Self::OpacityCurve(parse_curve(value, 1.0)?),
+            "wobble" => {
+                let (amplitude, wavelength) = value.split_once(',').unzip();
+                let wavelength = wavelength.map(parse_pixels).transpose()?;
+                Self::Wobble(parse_pixels(amplitude.unwrap_or(value))?, wavelength)
+            }
+            "jitter" => Self::Jitter(parse_pixels(value)?),
+            "seed" => Self::Seed(
+                value.parse().map_err(|_| "needs a whole number from 0 to 65535".to_owned())?,
+            ),
+            "dash" if value == "none" => Self::Dash(None),
+            "dash" => {
+                let what = || "needs ink and gap, as 12,8; or none".to_owned();
+                let parts = value.split_once(',').ok_or_else(what)?;
+                let dash = [parse_pixels(parts.0)?, parse_pixels(parts.1)?];
+                if dash[0] < 0.1 || dash[1] < 0.1 {
+                    return Err("needs at least 0.1 pixels of ink and of gap".to_owned().into());
+                }
+                Self::Dash(Some(dash))
+            }
             _ => {
                 let names: Vec<&str> = STROKE_VARIABLES.iter().map(|(name, _)| *name).collect();
                 let what = format!("there is no such variable; there are: {}", names.join(", "));
@@ -466,6 +499,17 @@ impl StrokeSetting {
             Self::Fit(fit) => to.path.brush_fit = *fit,
             Self::Taper(pixels) => to.path.taper_px = *pixels,
             Self::Overshoot(pixels) => to.path.overshoot_px = *pixels,
+            Self::WidthCurve(curve) => to.path.width_curve = *curve,
+            Self::OpacityCurve(curve) => to.path.opacity_curve = *curve,
+            Self::Wobble(pixels, wavelength) => {
+                to.path.wobble_px = *pixels;
+                if let Some(wavelength) = wavelength {
+                    to.path.wobble_length_px = wavelength.max(1.0);
+                }
+            }
+            Self::Jitter(pixels) => to.path.jitter_px = *pixels,
+            Self::Seed(seed) => to.path.seed = *seed,
+            Self::Dash(dash) => to.path.dash_px = *dash,
         }
     }
 }
@@ -514,6 +558,25 @@ fn parse_number(value: &str, least: f32, most: f32) -> Option<f32> {
 fn parse_pixels(value: &str) -> Result<f32, String> {
     let pixels = value.strip_suffix("px").unwrap_or(value);
     parse_number(pixels, 0.0, 10_000.0).ok_or_else(|| "needs pixels from 0 to 10000".to_owned())
+}
+
+/// Two to eight numbers, spread evenly over the values of a curve.
+fn parse_curve(value: &str, most: f32) -> Result<[f32; CURVE_LENGTH], String> {
+    let what = || format!("needs 2 to {CURVE_LENGTH} numbers from 0 to {most}, as 0.3,1,0.3");
+    let numbers: Option<Vec<f32>> =
+        value.split(',').map(|number| parse_number(number, 0.0, most)).collect();
+    let numbers = numbers
+        .filter(|numbers| (2..=CURVE_LENGTH).contains(&numbers.len()))
+        .ok_or_else(what)?;
+    Ok(std::array::from_fn(|at| {
+        // In sevenths of the way: exact where there is a number.
+        let place = at * (numbers.len() - 1);
+        let (first, part) = (place / (CURVE_LENGTH - 1), place % (CURVE_LENGTH - 1));
+        let next = (first + 1).min(numbers.len() - 1);
+        #[expect(clippy::cast_precision_loss, reason = "at most seven")]
+        let t = part as f32 / (CURVE_LENGTH - 1) as f32;
+        numbers[first] * (1.0 - t) + numbers[next] * t
+    }))
 }
 
 fn parse_width(value: &str) -> Result<Width, String> {
@@ -605,6 +668,10 @@ mod tests {
             "min-length" | "max-length" | "overshoot" => "10",
             "fit" => "stretched",
             "taper" => "10,20",
+            "width-curve" | "opacity-curve" => "0.2,1,0.5",
+            "wobble" => "3,60",
+            "jitter" | "seed" => "2",
+            "dash" => "12,8",
             other => panic!("{other} has no value here"),
         };
         for pass in ["strokes", "hidden", "silhouette", "contour", "hidden-valley", "smoothing"] {

@@ -63,6 +63,7 @@ fn scene_layouts() -> BTreeMap<String, Layout> {
         layout!(FrameUniform { viewport_px, px_per_unit, padding, projection }),
         layout!(ObjectUniform {
             clip_from_object,
+            object_from_clip,
             clip_from_normal,
             eye,
             distance,
@@ -182,9 +183,9 @@ fn graph_layouts() -> BTreeMap<String, Layout> {
         layout!(Chain { first, count }),
         layout!(Element { s0, s1, z0, z1, edge, next, first, count, arc, node }),
         layout!(Joint { cosine, kind, point_count, first_point }),
-        layout!(PathPoint { position, depth, arc, path, flags, cut, stroke, padding }),
+        layout!(PathPoint { position, offset, depth, arc, path, flags, cut, stroke, padding }),
         layout!(Stroke { first, last, start_arc, end_arc }),
-        layout!(Ribbon { a, b, u, half_width, join0, join1, opacity, ends }),
+        layout!(Ribbon { a, b, u, half_width, join0, join1, dash, ink, opacity, ends, padding }),
         layout!(PathUniform {
             layer,
             visibility,
@@ -203,6 +204,13 @@ fn graph_layouts() -> BTreeMap<String, Layout> {
             fade,
             taper_px,
             overshoot_px,
+            wobble_px,
+            wobble_length_px,
+            jitter_px,
+            dash_px,
+            width_curve,
+            opacity_curve,
+            seed,
             padding
         }),
         layout!(CompositeUniform { colors }),
@@ -259,7 +267,7 @@ fn structs_in_buffers_are_laid_out_alike_and_found_on_both_sides() {
 }
 
 /// Constants of one side only: how the shader works inside.
-const OF_SHADERS: [&str; 40] = [
+const OF_SHADERS: [&str; 42] = [
     "BEHIND",
     "SCAN_WIDTH",
     "EXPAND_WIDTH",
@@ -290,9 +298,11 @@ const OF_SHADERS: [&str; 40] = [
     "KEPT_COSINE",
     "MOST_ELEMENTS",
     "HALVINGS",
+    "JITTER_LENGTH_PX",
     "FOLD",
     "KEPT",
     "FOLD_STEPS",
+    "CUSP_COSINE",
     "BRIDGE",
     "GRAZED_PX",
     "SEEN",

@@ -7,7 +7,7 @@
 //! | nodes before, chains | 4 and 8 |
 //! | sums | 8 for 16 items |
 //! | joints | 16 an edge that can be linked |
-//! | points, strokes, ribbons | 40, 16 and 56 a point (two for each edge that can be linked, and 65,536) |
+//! | points, strokes, ribbons | 48, 16 and 72 a point (two for each edge that can be linked, and 65,536) |
 
 use bytemuck::{Pod, Zeroable};
 use wgpu::BufferUsages;
@@ -186,6 +186,8 @@ pub struct Joint {
 pub struct PathPoint {
     /// Pixels from the middle of the picture, y up.
     pub position: [f32; 2],
+    /// How far beside it the line is drawn, in pixels.
+    pub offset: [f32; 2],
     /// Its depth.
     pub depth: f32,
     /// Arc length up to here along the points, in [`ARC_PER_PX`] of a pixel, from
@@ -233,10 +235,16 @@ pub struct Ribbon {
     pub join0: [f32; 2],
     /// The same where it ends.
     pub join1: [f32; 2],
+    /// Dashes so far at both ends, in periods.
+    pub dash: [f32; 2],
+    /// Of a period, how much is ink; 1 for whole lines.
+    pub ink: f32,
     /// Its opacity at both ends, as fractions of 16 bits.
     pub opacity: u32,
     /// How it begins and ends, and on which side it lies.
     pub ends: u32,
+    /// Unused.
+    pub padding: u32,
 }
 
 /// Words of the arguments before the draws of ribbons. WGSL twin: `RIBBON_DRAWS`.

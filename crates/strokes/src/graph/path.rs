@@ -11,7 +11,7 @@ use crate::brush::Brush;
 use crate::detect::compute_pipeline;
 use crate::frame::{bind_buffers, storage_entry, uniform_buffer, uniform_entry};
 use crate::graph::buffers::GraphBuffers;
-use crate::graph::path_style::{BrushFit, PathStyle};
+use crate::graph::path_style::{BrushFit, CURVE_LENGTH, PathStyle};
 use crate::look::{Look, MAX_DRAWS, StyledDraw, Width};
 use crate::shader::{ShaderError, ShaderSource};
 use crate::targets::TargetFormats;
@@ -54,8 +54,22 @@ pub struct PathUniform {
     pub taper_px: [f32; 2],
     /// Pixels beyond both ends.
     pub overshoot_px: f32,
+    /// How far lines leave their path.
+    pub wobble_px: f32,
+    /// At which wavelength.
+    pub wobble_length_px: f32,
+    /// How far a hand trembles.
+    pub jitter_px: f32,
+    /// Ink and gap; zeros for whole lines.
+    pub dash_px: [f32; 2],
+    /// Along a stroke, what is left of its width.
+    pub width_curve: [f32; CURVE_LENGTH],
+    /// What is left of its opacity.
+    pub opacity_curve: [f32; CURVE_LENGTH],
+    /// A whole number.
+    pub seed: f32,
     /// Unused.
-    pub padding: f32,
+    pub padding: [f32; 3],
 }
 
 /// The least distance between the points of a path: where segments are shorter than a
@@ -81,7 +95,10 @@ impl PathUniform {
             width,
             step_px,
             corner_cosine: path.corner_rad.min(std::f32::consts::PI).cos(),
-            is_cut_where_hidden: u32::from(path.is_cut_where_hidden),
+            // Dashes go on behind what hides them.
+            is_cut_where_hidden: u32::from(
+                path.is_cut_where_hidden && path.dash_px.is_none(),
+            ),
             join: path.join as u32,
             end: path.end as u32,
             min_length_px: path.min_length_px,
@@ -91,7 +108,14 @@ impl PathUniform {
             fade: style.fade.unwrap_or_default(),
             taper_px: path.taper_px,
             overshoot_px: path.overshoot_px,
-            padding: 0.0,
+            wobble_px: path.wobble_px,
+            wobble_length_px: path.wobble_length_px,
+            jitter_px: path.jitter_px,
+            width_curve: path.width_curve,
+            opacity_curve: path.opacity_curve,
+            dash_px: path.dash_px.unwrap_or_default(),
+            seed: f32::from(path.seed),
+            padding: [0.0; 3],
         }
     }
 

@@ -29,6 +29,9 @@ pub enum End {
 /// constant of this name.
 pub const MITRE_LIMIT: f32 = 4.0;
 
+/// Values of a curve along a stroke.
+pub const CURVE_LENGTH: usize = 8;
+
 /// How the brush lies along a stroke.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum BrushFit {
@@ -62,6 +65,22 @@ pub struct PathStyle {
     pub taper_px: [f32; 2],
     /// How far a stroke goes on beyond both of its ends.
     pub overshoot_px: f32,
+    /// Along a stroke, in even steps, what is left of its width.
+    pub width_curve: [f32; CURVE_LENGTH],
+    /// Along a stroke, in even steps, what is left of its opacity.
+    pub opacity_curve: [f32; CURVE_LENGTH],
+    /// How far lines swing from their path, and at which wavelength. They do so at the
+    /// same places of the object, whatever the view.
+    pub wobble_px: f32,
+    /// In pixels, to within an octave.
+    pub wobble_length_px: f32,
+    /// How far a trembling hand leaves its path.
+    pub jitter_px: f32,
+    /// Another seed, another hand.
+    pub seed: u16,
+    /// Ink and gap of dashes; their phase goes on where they are hidden, whatever
+    /// `is_cut_where_hidden` says.
+    pub dash_px: Option<[f32; 2]>,
 }
 
 impl Default for PathStyle {
@@ -77,6 +96,13 @@ impl Default for PathStyle {
             brush_fit: BrushFit::default(),
             taper_px: [0.0; 2],
             overshoot_px: 0.0,
+            width_curve: [1.0; CURVE_LENGTH],
+            opacity_curve: [1.0; CURVE_LENGTH],
+            wobble_px: 0.0,
+            wobble_length_px: 60.0,
+            jitter_px: 0.0,
+            seed: 0,
+            dash_px: None,
         }
     }
 }
