@@ -68,7 +68,11 @@ fn link_node(entry: u32, edge: u32) -> LinkNode {
         spine.s1,
         spine.z0,
         spine.z1,
-        mesh_edge(edge) | (entry & (CONTOUR | BEHIND_SOLID)) | select(0u, BACKWARD, is_reversed),
+        mesh_edge(edge)
+            | (entry & (CONTOUR | BEHIND_SOLID))
+            // One of its own faces hides a contour in a groove.
+            | select(0u, BEHIND_SOLID, is_contour && is_groove(edge_word(edge)))
+            | select(0u, BACKWARD, is_reversed),
         following
             | select(0u, UNSEEN, is_unseen)
             | select(0u, CUT_START, is_unseen || spine.t0 > 0.0)

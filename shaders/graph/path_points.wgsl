@@ -47,9 +47,9 @@ fn point_of(index: u32) -> PathPoint {
         averaged = (back.sum + ahead.sum) / (back.length_px + ahead.length_px);
     }
     let on_contour = (here.edge & CONTOUR) != 0u;
-    // What its own solid hides, it hides from everywhere outside; a contour in a groove
-    // may be one of a few triangles.
-    var seen = select(SEEN_NOT, SEEN_ALMOST, on_contour);
+    // What its own solid hides, it hides from everywhere outside; but the average near
+    // a fold is of what is before and behind the surface.
+    var seen = select(SEEN_NOT, SEEN_ALMOST, on_contour && half_px > 2.0 * step_px);
     if (here.edge & BEHIND_SOLID) == 0u {
         seen = visibility_at(exact.xy, exact.z, direction, on_contour, draw);
     }
