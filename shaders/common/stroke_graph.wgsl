@@ -203,5 +203,7 @@ const ENDS_FLAT: u32 = 1u;
 const ENDS_POINTED: u32 = 2u;
 const JOINS_ROUND: u32 = 3u;
 const JOINS_MITRED: u32 = 4u;
+// Without a line between the two: one of them is shorter than the other is wide.
+const JOINS_LOOSELY: u32 = 5u;
 const NOT_DRAWN: u32 = 15u;
 const IS_INSIDE: u32 = 1024u;

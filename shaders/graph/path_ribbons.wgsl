@@ -1,8 +1,9 @@
 // Segments of strokes, ready to be drawn: with their width, their place along the
 // brush, and how they join their neighbours.
 //
-// A join belongs to both of its segments up to the line that halves its angle. They
-// overlap inside of the turn only, where the larger coverage counts.
+// A join belongs to each of its segments up to the line that halves its angle. Where one
+// of them is too short to reach that line, both are round there and overlap: the larger
+// coverage counts.
 #import <common/path.wgsl>
 #import <common/stroke_quad.wgsl>
 
@@ -90,6 +91,7 @@ fn ribbon_of(index: u32) -> Ribbon {
         return ribbon;
     }
     let direction = along / length_px;
+    let widest_px = width_of(style, points[extent.first].depth);
     let part = part_of(style, extent, index);
     // From where the stroke begins.
     let from_start = px_of_arc(here.arc - extent.start_arc);
@@ -118,19 +120,24 @@ fn ribbon_of(index: u32) -> Ribbon {
             ends[side] = select(ENDS_FLAT, style.end, style.is_cut_where_hidden != 0u);
         } else if other[side] != NONE {
             let of_other = drawn_place(other[side] + 1u) - drawn_place(other[side]);
-            let join = direction + of_other / max(length(of_other), 1e-6);
+            let other_px = length(of_other);
+            let join = direction + of_other / max(other_px, 1e-6);
             // A turn on the spot is an end of both.
             if dot(join, join) > 1e-3 {
                 ends[side] = JOINS_ROUND + style.join;
                 let across = vec2f(-direction.y, direction.x);
                 joins[side] = normalize(vec2f(dot(join, direction), dot(join, across)));
+                let shortest_px = min(length_px, other_px);
+                // As far as the inner side of the turn lies before the joint.
+                if shortest_px < (widest_px + 1.0) * abs(joins[side].y) {
+                    ends[side] = JOINS_LOOSELY;
+                }
             } else {
                 ends[side] = ENDS_ROUND;
             }
         }
     }
 
-    let widest_px = width_of(style, points[extent.first].depth);
     let stroke_px = px_of_arc(extent.end_arc - extent.start_arc);
     var range = vec2f(part.index, part.index + 1.0) * stroke_px / part.count;
     let begins = other.x == NONE && here.cut.x == 0.0;

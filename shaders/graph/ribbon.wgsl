@@ -16,6 +16,9 @@
 // Rust twin: MITRE_LIMIT in crates/strokes/src/graph/path_style.rs.
 const MITRE_LIMIT: f32 = 4.0;
 
+// Both segments of a join have the pixels on the line that halves its angle.
+const SHARED_PX: f32 = 0.5;
+
 override IS_TEXTURED: bool = false;
 
 @group(1) @binding(1) var brush: texture_2d<f32>;
@@ -79,6 +82,9 @@ fn overhang(kind: u32, reach: f32, join: vec2f) -> f32 {
     if kind == ENDS_ROUND {
         return reach;
     }
+    if kind == JOINS_LOOSELY {
+        return reach;
+    }
     // As far as its outer side is from the line that halves the angle.
     let outer = (reach + 1.0) * abs(join.y) / max(join.x, 1e-3);
     return min(outer, select(reach, MITRE_LIMIT * reach, kind == JOINS_MITRED));
@@ -125,12 +131,15 @@ fn ribbon_fragment(in: RibbonVarying) -> @location(0) vec4f {
         let outermost = min(across + 0.5, across + widest - outer);
         coverage *= clamp(outermost - max(across - 0.5, nearest_off), 0.0, 1.0);
     }
-    // Both segments of a join have the line that halves its angle.
     let join = select(in.joins.xy, in.joins.zw, at_end);
-    if kind >= JOINS_ROUND {
+    if kind == JOINS_LOOSELY && beyond > 0.0 && side != 0u {
+        // A one-sided stroke goes around the outside of a turn only.
+        let turns_left = (join.y > 0.0) == at_end;
+        coverage *= f32(turns_left == (side == 1u));
+    } else if kind == JOINS_ROUND || kind == JOINS_MITRED {
         let from_joint = vec2f(along - select(0.0, in.length_px, at_end), in.along_across.y);
         let past = dot(from_joint, join) * select(-1.0, 1.0, at_end);
-        coverage *= f32(past <= 0.02);
+        coverage *= f32(past <= SHARED_PX);
     }
     if in.dash_and_ink.z < 1.0 {
         // Periods from one dash to the next, and a pixel of them.

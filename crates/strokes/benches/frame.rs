@@ -28,7 +28,7 @@ use edgemesh::report::Report;
 use strokes::brush::Brush;
 use strokes::gpu::{self, Gpu};
 use strokes::gpu_time::{GpuTimer, GpuTimes};
-use strokes::look::{PathStyle, Layer, Look, StrokeStyle, Width};
+use strokes::look::{Layer, Look, PathStyle, StrokeStyle, Width};
 use strokes::mesh_buffers::{Layout, MeshBuffers};
 use strokes::object::Object;
 use strokes::renderer::{DetectionPath, PASS_NAMES, Renderer, RendererOptions};
@@ -86,8 +86,7 @@ impl Runner {
         let Contender { layout, path, .. } = *contender;
         let mut renderer = Renderer::new(gpu, RendererOptions { layout, path, formats }).unwrap();
         let look = renderer.prepare(gpu, &contender.look).unwrap();
-        let upload =
-            if look.is_linked() { MeshBuffers::with_links } else { MeshBuffers::new };
+        let upload = if look.is_linked() { MeshBuffers::with_links } else { MeshBuffers::new };
         let buffers = Arc::new(upload(&gpu.device, mesh, layout).unwrap());
         let byte_count = buffers.byte_count();
         let objects = vec![renderer.object(gpu, &buffers, &look)];
@@ -196,7 +195,10 @@ impl Bench {
             ("linked", look(&all, linked(false))),
             ("quads with caps, textured", look(&all, style(LineKind::QuadAndCaps, true))),
             ("linked, textured", look(&all, linked(true))),
-            ("quads with caps, textured, 7 px", look(&all, wide(style(LineKind::QuadAndCaps, true)))),
+            (
+                "quads with caps, textured, 7 px",
+                look(&all, wide(style(LineKind::QuadAndCaps, true))),
+            ),
             ("linked, textured, 7 px", look(&all, wide(linked(true)))),
         ]
         .map(|(name, look)| Contender::new(name, look));

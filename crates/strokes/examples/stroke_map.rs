@@ -37,7 +37,8 @@ fn graph_of(path: &Path) -> GraphReadback {
     let layers = vec![Layer { classes: EdgeClass::ALL.into(), visible: Some(style), hidden: None }];
     let look = Look { fill_color: Some([1.0; 4]), layers, ..Look::default() };
     let formats = TargetFormats::new(4);
-    let options = RendererOptions { layout: Layout::Indexed, path: DetectionPath::Compute, formats };
+    let options =
+        RendererOptions { layout: Layout::Indexed, path: DetectionPath::Compute, formats };
     let mut renderer = Renderer::new(&gpu, options).unwrap();
     let look = renderer.prepare(&gpu, &look).unwrap();
     let buffers = MeshBuffers::with_links(&gpu.device, &mesh, Layout::Indexed).unwrap();
@@ -79,8 +80,7 @@ impl Map {
 
     fn square(&mut self, at: Vec2, reach: f32, color: Rgb<u8>) {
         let corner = |x, y| at + Vec2::new(x, y) * reach;
-        let corners =
-            [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+        let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
         for side in 0..4 {
             self.line([corners[side], corners[(side + 1) % 4]], color);
         }
@@ -116,16 +116,27 @@ fn main() {
         if flags & 4 != 0 {
             map.square(a, 4.0, Rgb([255, 0, 0]));
         }
-        map.square(a, if flags & 8 != 0 { 1.0 } else { 2.0 }, if flags & 8 != 0 { color } else { Rgb([160; 3]) });
+        map.square(
+            a,
+            if flags & 8 != 0 { 1.0 } else { 2.0 },
+            if flags & 8 != 0 { color } else { Rgb([160; 3]) },
+        );
     }
-    let lengths: Vec<f32> =
-        graph.strokes.iter().map(|stroke| (stroke.end_arc.wrapping_sub(stroke.start_arc)) as f32 / 1024.0).collect();
+    let lengths: Vec<f32> = graph
+        .strokes
+        .iter()
+        .map(|stroke| (stroke.end_arc.wrapping_sub(stroke.start_arc)) as f32 / 1024.0)
+        .collect();
     let total: f32 = lengths.iter().sum();
     println!("{:?}", graph.header);
     for bound in [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 1e9] {
         let shorter = lengths.iter().filter(|length| **length < bound).count();
         println!("{shorter} strokes shorter than {bound} px");
     }
-    println!("{} strokes, {total} px, {} a 1000 px", lengths.len(), 1e3 * lengths.len() as f32 / total);
+    println!(
+        "{} strokes, {total} px, {} a 1000 px",
+        lengths.len(),
+        1e3 * lengths.len() as f32 / total
+    );
     map.picture.save(&arguments[1]).unwrap();
 }

@@ -222,9 +222,8 @@ fn graph(
         return None;
     }
     let sizes: Vec<ChunkUniform> = mesh.chunks.iter().map(|chunk| chunk.size).collect();
-    let of_layer = |layer: u32| {
-        look.draws.iter().filter(|draw| draw.is_linked && draw.layer == layer).count()
-    };
+    let of_layer =
+        |layer: u32| look.draws.iter().filter(|draw| draw.is_linked && draw.layer == layer).count();
     let most = (0..look.layer_count).map(of_layer).max().unwrap_or(1);
     let buffers = GraphBuffers::new(device, &sizes, to_u32(most));
     let views = parts.iter().filter_map(|part| part.lists.as_ref().map(|lists| &lists.view));

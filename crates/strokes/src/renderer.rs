@@ -233,7 +233,10 @@ impl Renderer {
         look: &Arc<PreparedLook>,
     ) -> Object {
         assert_eq!(mesh.layout, self.options.layout, "a mesh in the renderer's layout");
-        assert!(!look.is_linked() || mesh.has_links(), "a mesh with links for strokes that are linked");
+        assert!(
+            !look.is_linked() || mesh.has_links(),
+            "a mesh with links for strokes that are linked"
+        );
         for draw in &look.draws {
             for chunk in &mesh.chunks {
                 for key in IndexKey::of(draw) {
@@ -636,7 +639,9 @@ impl FrameEncoder<'_> {
         let mut laid = laid.iter();
         for step in &self.steps {
             match step {
-                DrawStep::Edges { object, draw } => self.strokes(pass, self.objects[*object], *draw),
+                DrawStep::Edges { object, draw } => {
+                    self.strokes(pass, self.objects[*object], *draw)
+                }
                 DrawStep::Linked(draws) => {
                     let pipelines = self.renderer.graph.as_ref();
                     if let Some((pipelines, group)) = pipelines.zip(laid.next()) {

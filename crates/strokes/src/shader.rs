@@ -235,7 +235,8 @@ impl ShaderSource {
         validator.validate(&module).map_err(|error| {
             let line = error.location(&self.text).map_or(1, |at| at.line_number as usize);
             let error = error.into_inner();
-            let causes = std::iter::successors(Some(&error as &dyn std::error::Error), |e| e.source());
+            let causes =
+                std::iter::successors(Some(&error as &dyn std::error::Error), |e| e.source());
             let causes: Vec<String> = causes.map(ToString::to_string).collect();
             self.error_at(line, &causes.join(": "))
         })?;

@@ -64,7 +64,10 @@ pub const STROKE_VARIABLES: [(&str, &str); 25] = [
     ("fit", "how the brush lies along linked strokes: tiled or stretched"),
     ("taper", "pixels over which linked strokes grow and shrink, as 20 or 10,40"),
     ("overshoot", "pixels by which linked strokes go on beyond their ends"),
-    ("width-curve", "2 to 8 numbers along linked strokes: what is left of their width, as 0.3,1,0.3"),
+    (
+        "width-curve",
+        "2 to 8 numbers along linked strokes: what is left of their width, as 0.3,1,0.3",
+    ),
     ("opacity-curve", "the same for their opacity"),
     ("wobble", "pixels by which linked strokes swing, as 3, or with the wavelength as 3,60"),
     ("jitter", "pixels by which the hand that draws linked strokes trembles"),
@@ -420,10 +423,9 @@ impl StrokeSetting {
         let truths = [("true", true), ("false", false)];
         Ok(match variable {
             "linked" => Self::Linked(parse_word(value, &truths)?),
-            "join" => Self::Join(parse_word(
-                value,
-                &[("round", Join::Round), ("mitred", Join::Mitred)],
-            )?),
+            "join" => {
+                Self::Join(parse_word(value, &[("round", Join::Round), ("mitred", Join::Mitred)])?)
+            }
             "corner" if value == "none" => Self::Corner(180.0),
             "corner" => Self::Corner(
                 parse_number(value, 0.0, 180.0)
@@ -565,9 +567,8 @@ fn parse_curve(value: &str, most: f32) -> Result<[f32; CURVE_LENGTH], String> {
     let what = || format!("needs 2 to {CURVE_LENGTH} numbers from 0 to {most}, as 0.3,1,0.3");
     let numbers: Option<Vec<f32>> =
         value.split(',').map(|number| parse_number(number, 0.0, most)).collect();
-    let numbers = numbers
-        .filter(|numbers| (2..=CURVE_LENGTH).contains(&numbers.len()))
-        .ok_or_else(what)?;
+    let numbers =
+        numbers.filter(|numbers| (2..=CURVE_LENGTH).contains(&numbers.len())).ok_or_else(what)?;
     Ok(std::array::from_fn(|at| {
         // In sevenths of the way: exact where there is a number.
         let place = at * (numbers.len() - 1);

@@ -20,7 +20,8 @@ use strokes::fill::FillUniform;
 use strokes::frame::{FrameUniform, ObjectUniform};
 use strokes::graph::buffers::{
     ARC_PER_PX, BACKWARD, CUT_END, CUT_START, Chain, ChainState, Element, GraphHeader,
-    GraphUniform, ITEMS_PER_SUM, Joint, LinkNode, PathPoint, Ribbon, Stroke, NO_NODE, ON_LOOP, UNSEEN,
+    GraphUniform, ITEMS_PER_SUM, Joint, LinkNode, NO_NODE, ON_LOOP, PathPoint, Ribbon, Stroke,
+    UNSEEN,
 };
 use strokes::graph::coverage::CompositeUniform;
 use strokes::graph::link_table::{REVERSED, SURFACE_CUT, SURFACE_END};
@@ -267,7 +268,7 @@ fn structs_in_buffers_are_laid_out_alike_and_found_on_both_sides() {
 }
 
 /// Constants of one side only: how the shader works inside.
-const OF_SHADERS: [&str; 42] = [
+const OF_SHADERS: [&str; 44] = [
     "BEHIND",
     "SCAN_WIDTH",
     "EXPAND_WIDTH",
@@ -302,6 +303,8 @@ const OF_SHADERS: [&str; 42] = [
     "FOLD",
     "KEPT",
     "FOLD_STEPS",
+    "SHARED_PX",
+    "JOINS_LOOSELY",
     "CUSP_COSINE",
     "BRIDGE",
     "GRAZED_PX",

@@ -12,6 +12,8 @@ mod gpu_device;
 #[cfg(feature = "gpu")]
 mod gpu_graph;
 #[cfg(feature = "gpu")]
+mod gpu_joins;
+#[cfg(feature = "gpu")]
 mod gpu_layouts;
 #[cfg(feature = "gpu")]
 mod gpu_render;

@@ -269,11 +269,7 @@ pub(crate) struct GraphSize {
 
 impl GraphSize {
     /// For draws of which at most `draws_a_layer` are of one layer.
-    pub(crate) fn new(
-        device: &wgpu::Device,
-        chunks: &[ChunkUniform],
-        draws_a_layer: u32,
-    ) -> Self {
+    pub(crate) fn new(device: &wgpu::Device, chunks: &[ChunkUniform], draws_a_layer: u32) -> Self {
         let nodes = chunks.iter().map(|chunk| chunk.node_capacity).sum::<u32>().max(1);
         let limit = device.limits().max_storage_buffer_binding_size;
         let most = u32::try_from(limit / size_of::<Ribbon>() as u64).unwrap_or(u32::MAX);
@@ -309,11 +305,7 @@ pub(crate) struct GraphBuffers {
 }
 
 impl GraphBuffers {
-    pub(crate) fn new(
-        device: &wgpu::Device,
-        chunks: &[ChunkUniform],
-        draws_a_layer: u32,
-    ) -> Self {
+    pub(crate) fn new(device: &wgpu::Device, chunks: &[ChunkUniform], draws_a_layer: u32) -> Self {
         let size = GraphSize::new(device, chunks, draws_a_layer);
         let buffer = |label: &str, count: u32, bytes: usize, usage: BufferUsages| {
             device.create_buffer(&wgpu::BufferDescriptor {

@@ -106,8 +106,7 @@ impl CoveragePipeline {
         coverage: &wgpu::TextureView,
     ) -> wgpu::BindGroup {
         let uniform = uniform_buffer(device, "composite", &CompositeUniform { colors });
-        let resources =
-            [uniform.as_entire_binding(), wgpu::BindingResource::TextureView(coverage)];
+        let resources = [uniform.as_entire_binding(), wgpu::BindingResource::TextureView(coverage)];
         let entries: Vec<wgpu::BindGroupEntry> = (0..)
             .zip(resources)
             .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })

@@ -96,9 +96,7 @@ impl PathUniform {
             step_px,
             corner_cosine: path.corner_rad.min(std::f32::consts::PI).cos(),
             // Dashes go on behind what hides them.
-            is_cut_where_hidden: u32::from(
-                path.is_cut_where_hidden && path.dash_px.is_none(),
-            ),
+            is_cut_where_hidden: u32::from(path.is_cut_where_hidden && path.dash_px.is_none()),
             join: path.join as u32,
             end: path.end as u32,
             min_length_px: path.min_length_px,

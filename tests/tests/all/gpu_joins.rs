@@ -1,0 +1,278 @@
+//! Linked strokes as they are composited: no gap along them, and no pixel covered more
+//! than once, at any width and any turn.
+
+use std::sync::Arc;
+
+use edgemesh::build::{BuildOptions, build_edge_mesh};
+use edgemesh::camera::Camera;
+use edgemesh::edge_mesh::EdgeMesh;
+use edgemesh::model::{Model, Segment};
+use edgemesh::oracle::feature::EdgeClass;
+use edgemesh::oracle::stroke_quad::Placement;
+use edgemesh::report::Report;
+use glam::{DVec3, Vec2};
+use strokes::brush::Brush;
+use strokes::graph::buffers::Ribbon;
+use strokes::graph::path_style::{End, Join};
+use strokes::look::{Layer, Look, PathStyle, StrokeStyle, Width};
+use strokes::mesh_buffers::{Layout, MeshBuffers};
+use strokes::object::GraphReadback;
+use strokes::readback::read_texels;
+use strokes::renderer::{DetectionPath, Renderer, RendererOptions};
+use strokes::targets::{TargetFormats, Targets};
+
+use crate::gpu_device::gpu;
+
+/// Pixels a side.
+const SIZE: u16 = 384;
+
+/// One coverage of half black ink on white paper, and what rounding leaves of it.
+const ONCE: u8 = 127;
+
+/// Numbers from a fixed seed (Marsaglia's xorshift), the same on every machine.
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f32 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        f32::from(u16::try_from(self.0 >> 48).unwrap()) / 65535.0
+    }
+
+    fn between(&mut self, least: f32, most: f32) -> f32 {
+        least + (most - least) * self.unit()
+    }
+}
+
+/// Lines that wander about, some with steps of a fraction of a pixel, some that turn
+/// back on themselves, some that cross themselves.
+fn wandering(random: &mut Random) -> EdgeMesh {
+    let mut model = Model::default();
+    for line in 0..10 {
+        let steps = 3 + (random.unit() * 40.0) as usize;
+        let length = 0.7 * random.unit().powi(3) + 0.002;
+        let sharpest = [0.2, 1.0, 3.1][line % 3];
+        let mut heading = random.between(-3.1, 3.1);
+        let mut at = Vec2::new(random.between(-0.8, 0.8), random.between(-0.8, 0.8));
+        for step in 0..steps {
+            let index = u32::try_from(model.positions.len()).unwrap();
+            model.positions.push([at.x.into(), at.y.into(), 0.0]);
+            if step > 0 {
+                model.segments.push(Segment { ends: [index - 1, index], line: 0 });
+            }
+            heading += random.between(-sharpest, sharpest);
+            at = (at + Vec2::from_angle(heading) * length).clamp(Vec2::splat(-1.0), Vec2::ONE);
+        }
+    }
+    build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default())
+}
+
+/// Stars of two sides: their rims are contours that turn by any angle.
+fn stars(random: &mut Random) -> EdgeMesh {
+    let mut model = Model::default();
+    for star in 0..4_u8 {
+        let center = Vec2::new(f32::from(star % 2), f32::from(star / 2)) - 0.5;
+        let corners = 5 + (random.unit() * 20.0) as u32;
+        let first = u32::try_from(model.positions.len()).unwrap();
+        for corner in 0..corners {
+            let angle = std::f32::consts::TAU * corner as f32 / corners as f32;
+            let at = center + Vec2::from_angle(angle) * random.between(0.08, 0.45);
+            model.positions.push([at.x.into(), at.y.into(), 0.0]);
+        }
+        let middle = first + corners;
+        model.positions.push([center.x.into(), center.y.into(), 0.01]);
+        model.positions.push([center.x.into(), center.y.into(), -0.01]);
+        for corner in 0..corners {
+            let (a, b) = (first + corner, first + (corner + 1) % corners);
+            let at = edgemesh::model::Corner::at;
+            model.push_polygon(&[at(a), at(b), at(middle)], 0);
+            model.push_polygon(&[at(b), at(a), at(middle + 1)], 0);
+        }
+    }
+    build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default())
+}
+
+/// What was drawn: red of every pixel, and the ribbons.
+fn draw(mesh: &EdgeMesh, style: StrokeStyle, classes: &[EdgeClass]) -> (Vec<u8>, GraphReadback) {
+    let gpu = gpu();
+    let formats = TargetFormats::new(1);
+    let options =
+        RendererOptions { layout: Layout::Indexed, path: DetectionPath::Compute, formats };
+    let mut renderer = Renderer::new(gpu, options).unwrap();
+    let layers = vec![Layer { classes: classes.into(), visible: Some(style), hidden: None }];
+    let look = renderer.prepare(gpu, &Look { layers, ..Look::default() }).unwrap();
+    let buffers = MeshBuffers::with_links(&gpu.device, mesh, Layout::Indexed).unwrap();
+    let mut objects = [renderer.object(gpu, &Arc::new(buffers), &look)];
+    let targets = Targets::new(&gpu.device, [SIZE.into(); 2], formats);
+    let camera = Camera {
+        eye: DVec3::new(0.0, 0.0, 4.0),
+        target: DVec3::ZERO,
+        ..Camera::default_view(&mesh.bounds)
+    };
+    let view = camera.view(&mesh.bounds, 1.0);
+    renderer.render(gpu, &targets, &view, [1.0; 4], &mut objects, None);
+    let texels: Vec<[u8; 4]> = read_texels(gpu, targets.picture(), 4).unwrap();
+    let graph = objects[0].read_chains(gpu).unwrap().unwrap();
+    (texels.into_iter().map(|texel| texel[0]).collect(), graph)
+}
+
+/// The centre of a pixel, from the middle of the picture, y up.
+fn center(x: u16, y: u16) -> Vec2 {
+    let half = f32::from(SIZE) / 2.0;
+    Vec2::new(f32::from(x) + 0.5 - half, half - f32::from(y) - 0.5)
+}
+
+/// Every pixel within so far of a ribbon, with where it is.
+fn pixels_near(ribbon: &Ribbon, reach: f32) -> impl Iterator<Item = (usize, Place)> {
+    let half = f32::from(SIZE) / 2.0;
+    let (a, b) = (Vec2::from(ribbon.a), Vec2::from(ribbon.b));
+    let range = |low: f32, high: f32| {
+        let clamped = |value: f32| value.clamp(0.0, f32::from(SIZE)) as u16;
+        clamped(low.floor())..clamped(high.ceil())
+    };
+    let (low, high) = (a.min(b) - reach, a.max(b) + reach);
+    let columns = range(low.x + half, high.x + half);
+    let ribbon = *ribbon;
+    range(half - high.y, half - low.y).flat_map(move |y| {
+        columns.clone().map(move |x| {
+            let at = usize::from(y) * usize::from(SIZE) + usize::from(x);
+            (at, Place::of(&ribbon, center(x, y)))
+        })
+    })
+}
+
+/// Where a pixel is beside a ribbon.
+struct Place {
+    center: Vec2,
+    /// 0 where the ribbon begins, 1 where it ends.
+    along: f32,
+    /// Pixels to the left.
+    off: f32,
+    /// Pixels to the nearest place on it.
+    distance: f32,
+}
+
+impl Place {
+    fn of(ribbon: &Ribbon, center: Vec2) -> Self {
+        let (a, b) = (Vec2::from(ribbon.a), Vec2::from(ribbon.b));
+        let length = a.distance(b);
+        let direction = (b - a) / length;
+        let along = (center - a).dot(direction);
+        let off = (center - a).dot(Vec2::new(-direction.y, direction.x));
+        let nearest = a + direction * along.clamp(0.0, length);
+        Self { center, along: along / length, off, distance: center.distance(nearest) }
+    }
+}
+
+fn drawn(graph: &GraphReadback) -> Vec<Ribbon> {
+    graph.ribbons.iter().filter(|ribbon| ribbon.ends & 15 != 15).copied().collect()
+}
+
+#[test]
+fn wandering_lines_have_no_gap_and_no_pixel_is_covered_twice() {
+    let mut random = Random(11);
+    let mut inside = 0;
+    for case in 0..100 {
+        let mesh = wandering(&mut random);
+        let width = 64.0_f32.powf(random.unit());
+        let path = PathStyle {
+            join: if case % 2 == 0 { Join::Round } else { Join::Mitred },
+            corner_rad: [1.0, 4.0][case / 2 % 2],
+            ..PathStyle::default()
+        };
+        let style = StrokeStyle {
+            width: Width::Pixels(width),
+            color: [0.0, 0.0, 0.0, 0.5],
+            placement: Placement::Centred,
+            path: Some(path),
+            ..StrokeStyle::default()
+        };
+        let (picture, graph) = draw(&mesh, style, &EdgeClass::ALL);
+        let ribbons = drawn(&graph);
+        assert!(ribbons.len() > 20, "case {case}: {} segments", ribbons.len());
+        let reach = 0.5 * width;
+        let mut nearest = vec![f32::INFINITY; picture.len()];
+        for (at, place) in ribbons.iter().flat_map(|ribbon| pixels_near(ribbon, reach + 2.0)) {
+            nearest[at] = nearest[at].min(place.distance);
+        }
+        for (at, (red, nearest)) in picture.into_iter().zip(nearest).enumerate() {
+            let what = format!("case {case}, {width} px wide, pixel {at}, {nearest} px off");
+            assert!(red >= ONCE, "{what}: covered twice");
+            if nearest < reach - 0.55 {
+                inside += 1;
+                assert!(red <= ONCE + 1, "{what}: a gap");
+            }
+            // Mitres go further than that.
+            if case % 2 == 0 && nearest > reach + 0.55 {
+                assert_eq!(red, 255, "{what}: ink beyond the stroke");
+            }
+        }
+    }
+    assert!(inside > 500_000, "{inside} pixels of ink");
+}
+
+#[test]
+fn strokes_outside_of_contours_have_no_gap_either() {
+    let mut random = Random(5);
+    let mut inside = 0;
+    for case in 0..60 {
+        let mesh = stars(&mut random);
+        let width = 40.0_f32.powf(random.unit());
+        let path = PathStyle { corner_rad: [1.0, 4.0][case % 2], ..PathStyle::default() };
+        let style = StrokeStyle {
+            width: Width::Pixels(width),
+            color: [0.0, 0.0, 0.0, 0.5],
+            path: Some(path),
+            ..StrokeStyle::default()
+        };
+        let (picture, graph) = draw(&mesh, style, &[EdgeClass::Contour]);
+        let ribbons = drawn(&graph);
+        assert!(ribbons.len() > 100, "case {case}: {} segments", ribbons.len());
+        assert!(picture.iter().all(|red| *red >= ONCE), "case {case}: covered twice");
+        for run in ribbons.windows(3) {
+            let [before, ribbon, behind] = run else { continue };
+            // Neighbours, but where a loop was cut.
+            if before.b != ribbon.a || ribbon.b != behind.a {
+                continue;
+            }
+            for (at, place) in pixels_near(ribbon, width + 2.0) {
+                // Right of all three, and not beyond the ends of this one.
+                let is_right = |of: &Ribbon| Place::of(of, place.center).off < -0.55;
+                let is_beside = (0.0..=1.0).contains(&place.along) && -place.off < width - 0.55;
+                if is_beside && run.iter().all(is_right) {
+                    inside += 1;
+                    let what = format!("case {case}, {width} px wide, pixel {at}");
+                    assert!(picture[at] <= ONCE + 1, "{what}: a gap");
+                }
+            }
+        }
+    }
+    assert!(inside > 100_000, "{inside} pixels of ink");
+}
+
+/// Brushes, tapers, all ends: never darker than the ink.
+#[test]
+fn nothing_makes_a_stroke_darker_than_its_ink() {
+    let mut random = Random(23);
+    for (case, name) in Brush::NAMES.into_iter().cycle().take(20).enumerate() {
+        let mesh = wandering(&mut random);
+        let path = PathStyle {
+            end: [End::Round, End::Flat, End::Pointed][case % 3],
+            taper_px: [20.0, 40.0],
+            overshoot_px: 5.0,
+            wobble_px: 4.0,
+            ..PathStyle::default()
+        };
+        let style = StrokeStyle {
+            width: Width::Pixels(random.between(2.0, 40.0)),
+            color: [0.0, 0.0, 0.0, 0.5],
+            brush: Brush::named(name).map(Result::unwrap),
+            path: Some(path),
+            ..StrokeStyle::default()
+        };
+        let (picture, _) = draw(&mesh, style, &EdgeClass::ALL);
+        assert!(picture.iter().all(|red| *red >= ONCE), "{name}");
+        assert!(picture.iter().any(|red| *red < 200), "{name} leaves ink");
+    }
+}
