@@ -87,5 +87,6 @@ fn chain_arc(element: u32) -> u32 {
 // all of them.
 fn step_of(draw: u32) -> f32 {
     let room = f32(header.point_capacity - min(2u * header.path_count, header.point_capacity));
-    return max(paths[draw].step_px, f32(MAX_DRAWS) * header.total_px / max(room, 1.0));
+    let total_px = f32(header.draws_a_layer) * header.total_px;
+    return max(paths[draw].step_px, total_px / max(room, 1.0));
 }

@@ -18,7 +18,8 @@ struct GraphUniform {
     point_capacity: u32,
     // 1 where contours are in a layer as such: else an edge is what else it is.
     draws_contours: u32,
-    padding: u32,
+    // Linked draws of one layer, at most.
+    draws_a_layer: u32,
     // Layer of each draw, and 1 where its strokes are linked.
     draws: array<vec4u, MAX_DRAWS>,
 }
@@ -34,7 +35,7 @@ struct GraphHeader {
     total_px: f32,
     // Points that there is room for.
     point_capacity: u32,
-    padding: u32,
+    draws_a_layer: u32,
     // Where the nodes of each layer begin; the last is their number.
     layer_first: array<u32, 8>,
     // Where the elements of each draw begin among all, and their number.

@@ -7,6 +7,9 @@ struct CompositeUniform {
     colors: array<vec4f, 4>,
 }
 
+// Channels that are in use.
+override CHANNEL_COUNT: u32 = 4u;
+
 @group(0) @binding(0) var<uniform> composite: CompositeUniform;
 @group(0) @binding(1) var coverage: texture_2d<f32>;
 
@@ -17,16 +20,22 @@ fn composite_vertex(@builtin(vertex_index) vertex: u32) -> @builtin(position) ve
     return vec4f(2.0 * corner - 1.0, 0.5, 1.0);
 }
 
+fn over(above: vec4f, below: vec4f) -> vec4f {
+    return above + below * (1.0 - above.a);
+}
+
 @fragment
 fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let covered = textureLoad(coverage, vec2i(position.xy), 0);
-    if all(covered == vec4f(0.0)) {
-        discard;
+    var color = composite.colors[0] * covered.x;
+    if CHANNEL_COUNT > 1u {
+        color = over(composite.colors[1] * covered.y, color);
     }
-    var color = vec4f(0.0);
-    for (var channel = 0u; channel < 4u; channel++) {
-        let ink = composite.colors[channel] * covered[channel];
-        color = ink + color * (1.0 - ink.a);
+    if CHANNEL_COUNT > 2u {
+        color = over(composite.colors[2] * covered.z, color);
+    }
+    if CHANNEL_COUNT > 3u {
+        color = over(composite.colors[3] * covered.w, color);
     }
     return color;
 }

@@ -41,6 +41,7 @@ fn link_bases() {
     header.node_count = nodes;
     header.path_count = paths;
     header.point_capacity = graph.point_capacity;
+    header.draws_a_layer = graph.draws_a_layer;
     for (var round = 0u; round < 16u; round++) {
         atomicStore(&header.changed[round], 0u);
     }

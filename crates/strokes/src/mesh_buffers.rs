@@ -33,7 +33,7 @@ use wgpu::util::DeviceExt as _;
 
 use crate::chunk::{Chunk, ChunkLimits, chunks};
 use crate::frame::uniform_buffer;
-use crate::graph::buffers::LinkNode;
+use crate::graph::buffers::BYTES_PER_NODE;
 use crate::graph::link_table::LinkTable;
 use crate::view_buffers::{MAX_EXPANDED_BYTES, RunState};
 
@@ -286,7 +286,7 @@ fn chunk_limits(
 /// Edges of a chunk that can be linked into strokes: of small meshes all, and its share
 /// of what one binding can hold of the whole mesh.
 fn node_capacity(device: &wgpu::Device, edge_count: usize, of_mesh: usize) -> u32 {
-    let limit = device.limits().max_storage_buffer_binding_size / size_of::<LinkNode>() as u64;
+    let limit = device.limits().max_storage_buffer_binding_size / BYTES_PER_NODE;
     let most = u128::from(limit) * edge_count as u128 / of_mesh.max(1) as u128;
     let most = usize::try_from(most).unwrap_or(usize::MAX);
     to_u32(edge_count.min(MIN_NODES.max(edge_count / EDGES_PER_NODE)).min(most))

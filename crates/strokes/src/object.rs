@@ -241,7 +241,7 @@ fn graph(
         path_capacity: buffers.size.paths,
         point_capacity: buffers.size.points,
         draws_contours: u32::from(look.draws_contours),
-        padding: 0,
+        draws_a_layer: to_u32(most),
         draws,
     };
     let uniform = uniform_buffer(device, "graph", &uniform);

@@ -161,11 +161,8 @@ impl Renderer {
         let has_stencil = self.options.formats.has_stencil();
         assert!(look.silhouette.is_none() || has_stencil, "a silhouette needs a stencil");
         let table = look.class_table();
-        let is_linked = look.draws().iter().any(|draw| draw.style.is_linked());
-        if is_linked && self.options.path == DetectionPath::Compute && self.graph.is_none() {
-            let RendererOptions { layout, formats, .. } = &self.options;
-            let made = GraphPipelines::new(&gpu.device, &self.layouts, *layout, formats)?;
-            self.graph = Some(made);
+        if look.draws().iter().any(|draw| draw.style.is_linked()) {
+            self.make_graph(&gpu.device)?;
         }
         let mut draws = Vec::new();
         for (index, draw) in look.draws().iter_mut().enumerate() {
@@ -253,6 +250,15 @@ impl Renderer {
             self.make_indices(&gpu.device, IndexKey::Quads, graph.buffers.size.points);
         }
         object
+    }
+
+    /// The pipelines of the stroke graph, once they are needed and can be used.
+    fn make_graph(&mut self, device: &wgpu::Device) -> Result<(), ShaderError> {
+        let RendererOptions { layout, path, formats } = &self.options;
+        if *path == DetectionPath::Compute && self.graph.is_none() {
+            self.graph = Some(GraphPipelines::new(device, &self.layouts, *layout, formats)?);
+        }
+        Ok(())
     }
 
     fn stroke(
@@ -645,7 +651,7 @@ impl FrameEncoder<'_> {
                 DrawStep::Linked(draws) => {
                     let pipelines = self.renderer.graph.as_ref();
                     if let Some((pipelines, group)) = pipelines.zip(laid.next()) {
-                        pipelines.coverage.record_composite(pass, group);
+                        pipelines.coverage.record_composite(pass, group, draws.len());
                     }
                     // What found no room to be linked.
                     for linked in draws {

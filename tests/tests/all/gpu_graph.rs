@@ -16,6 +16,7 @@ use strokes::graph::buffers::{BACKWARD, CUT_END, CUT_START, NO_NODE, ON_LOOP, UN
 use strokes::look::{Layer, Look, PathStyle, StrokeStyle};
 use strokes::mesh_buffers::{Layout, MeshBuffers};
 use strokes::object::{GraphReadback, Object};
+use strokes::readback::read_texels;
 use strokes::renderer::{DetectionPath, Renderer, RendererOptions};
 use strokes::targets::{TargetFormats, Targets};
 use testkit::locate::{left_out, shared};
@@ -187,7 +188,7 @@ fn chains_of_real_models_are_the_cpus() {
 /// The other layouts, and bindings that take a few hundred replicated edges each.
 #[test]
 fn chains_are_the_same_in_every_layout_and_across_chunks() {
-    let small = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 17);
+    let small = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 19);
     let mut chunks = 0;
     for (name, mesh) in own_models() {
         for view in [3, 40, 77, 101] {
@@ -200,7 +201,20 @@ fn chains_are_the_same_in_every_layout_and_across_chunks() {
             chunks += linker.objects[0].mesh().chunk_count();
         }
     }
-    assert!(chunks > 100, "{chunks} chunks");
+    assert!(chunks > 50, "{chunks} chunks");
+}
+
+#[test]
+fn chains_of_a_real_model_run_across_chunks() {
+    let small = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 22);
+    let Some(folder) = shared() else { return left_out("a real model in chunks", 1) };
+    let (model, mut report) = read_model(&folder.join("models/stanford-bunny.obj")).unwrap();
+    let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut report);
+    let mut linker = Linker::new(&small, &mesh, &linked_look(), Layout::Replicated);
+    assert!(linker.objects[0].mesh().chunk_count() > 7, "in chunks");
+    for view in [5, 50, 100] {
+        linker.check("bunny", &camera_of(&mesh, view));
+    }
 }
 
 /// A mirror keeps the front faces, and with them the chains.
@@ -229,4 +243,25 @@ fn the_same_view_gives_the_same_bytes() {
     linker.graph(&camera_of(&mesh, 60));
     let again = linker.graph(&camera);
     assert_eq!((first.nodes, first.elements), (again.nodes, again.elements));
+}
+
+/// Where there is no room to link all edges, the rest is drawn one by one: as much ink.
+#[test]
+fn what_finds_no_room_is_drawn_edge_by_edge() {
+    let crowded = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 16);
+    let mesh = own_model("torus_knot");
+    let camera = Camera::default_view(&mesh.bounds);
+    let ink = |gpu: &Gpu| {
+        let mut linker = Linker::new(gpu, &mesh, &linked_look(), Layout::Indexed);
+        linker.targets = Targets::new(&gpu.device, [256; 2], TargetFormats::new(1));
+        let view = camera.view(&mesh.bounds, 1.0);
+        linker.renderer.render(gpu, &linker.targets, &view, [1.0; 4], &mut linker.objects, None);
+        let texels: Vec<[u8; 4]> = read_texels(gpu, linker.targets.picture(), 4).unwrap();
+        let count = linker.objects[0].read_chains(gpu).unwrap().unwrap().header.node_count;
+        let drawn = linker.objects[0].read_tally(gpu).unwrap().stroke_count;
+        (texels.iter().map(|texel| 255 - u32::from(texel[0])).sum::<u32>(), drawn - count)
+    };
+    let ((whole, left), (crowded, left_out)) = (ink(gpu()), ink(&crowded));
+    assert!(left == 0 && left_out > 0, "{left} and {left_out} edges without room");
+    assert!(whole.abs_diff(crowded) * 20 < whole, "{whole} and {crowded} of ink");
 }

@@ -40,6 +40,11 @@ impl Random {
         f32::from(u16::try_from(self.0 >> 48).unwrap()) / 65535.0
     }
 
+    fn below(&mut self, count: u16) -> u16 {
+        self.unit();
+        u16::try_from(self.0 % u64::from(count)).unwrap()
+    }
+
     fn between(&mut self, least: f32, most: f32) -> f32 {
         least + (most - least) * self.unit()
     }
@@ -50,7 +55,7 @@ impl Random {
 fn wandering(random: &mut Random) -> EdgeMesh {
     let mut model = Model::default();
     for line in 0..10 {
-        let steps = 3 + (random.unit() * 40.0) as usize;
+        let steps = 3 + random.below(40);
         let length = 0.7 * random.unit().powi(3) + 0.002;
         let sharpest = [0.2, 1.0, 3.1][line % 3];
         let mut heading = random.between(-3.1, 3.1);
@@ -73,13 +78,14 @@ fn stars(random: &mut Random) -> EdgeMesh {
     let mut model = Model::default();
     for star in 0..4_u8 {
         let center = Vec2::new(f32::from(star % 2), f32::from(star / 2)) - 0.5;
-        let corners = 5 + (random.unit() * 20.0) as u32;
+        let corners = 5 + random.below(20);
         let first = u32::try_from(model.positions.len()).unwrap();
         for corner in 0..corners {
-            let angle = std::f32::consts::TAU * corner as f32 / corners as f32;
+            let angle = std::f32::consts::TAU * f32::from(corner) / f32::from(corners);
             let at = center + Vec2::from_angle(angle) * random.between(0.08, 0.45);
             model.positions.push([at.x.into(), at.y.into(), 0.0]);
         }
+        let corners = u32::from(corners);
         let middle = first + corners;
         model.positions.push([center.x.into(), center.y.into(), 0.01]);
         model.positions.push([center.x.into(), center.y.into(), -0.01]);
@@ -128,6 +134,7 @@ fn pixels_near(ribbon: &Ribbon, reach: f32) -> impl Iterator<Item = (usize, Plac
     let half = f32::from(SIZE) / 2.0;
     let (a, b) = (Vec2::from(ribbon.a), Vec2::from(ribbon.b));
     let range = |low: f32, high: f32| {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
         let clamped = |value: f32| value.clamp(0.0, f32::from(SIZE)) as u16;
         clamped(low.floor())..clamped(high.ceil())
     };

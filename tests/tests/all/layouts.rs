@@ -55,6 +55,7 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
     let mut layouts = scene_layouts();
     layouts.extend(view_layouts());
     layouts.extend(graph_layouts());
+    layouts.extend(path_layouts());
     layouts
 }
 
@@ -163,7 +164,7 @@ fn graph_layouts() -> BTreeMap<String, Layout> {
             path_capacity,
             point_capacity,
             draws_contours,
-            padding,
+            draws_a_layer,
             draws
         }),
         layout!(GraphHeader {
@@ -174,7 +175,7 @@ fn graph_layouts() -> BTreeMap<String, Layout> {
             chain_count,
             total_px,
             point_capacity,
-            padding,
+            draws_a_layer,
             layer_first,
             draw_first,
             changed
@@ -187,6 +188,12 @@ fn graph_layouts() -> BTreeMap<String, Layout> {
         layout!(PathPoint { position, offset, depth, arc, path, flags, cut, stroke, padding }),
         layout!(Stroke { first, last, start_arc, end_arc }),
         layout!(Ribbon { a, b, u, half_width, join0, join1, dash, ink, opacity, ends, padding }),
+    ])
+}
+
+/// How linked strokes look.
+fn path_layouts() -> BTreeMap<String, Layout> {
+    BTreeMap::from([
         layout!(PathUniform {
             layer,
             visibility,
@@ -342,6 +349,32 @@ fn constants_of_shaders() -> BTreeMap<String, u64> {
     found
 }
 
+/// Those of the stroke graph.
+fn graph_constants() -> BTreeMap<&'static str, u64> {
+    let float = |value: f32| u64::from(value.to_bits());
+    BTreeMap::from([
+        ("ITEMS_PER_SUM", ITEMS_PER_SUM.into()),
+        ("BACKWARD", BACKWARD.into()),
+        ("NO_NODE", NO_NODE.into()),
+        ("CUT_START", CUT_START.into()),
+        ("CUT_END", CUT_END.into()),
+        ("UNSEEN", UNSEEN.into()),
+        ("ON_LOOP", ON_LOOP.into()),
+        ("ARC_PER_PX", float(ARC_PER_PX)),
+        ("MITRE_LIMIT", float(MITRE_LIMIT)),
+        ("ENDS_ROUND", End::Round as u64),
+        ("ENDS_FLAT", End::Flat as u64),
+        ("ENDS_POINTED", End::Pointed as u64),
+        ("JOINS_ROUND", 3 + Join::Round as u64),
+        ("JOINS_MITRED", 3 + Join::Mitred as u64),
+        ("HIDDEN_STROKES", Visibility::Hidden as u64),
+        ("SILHOUETTE_STROKES", Visibility::Silhouette as u64),
+        ("SURFACE_END", SURFACE_END.into()),
+        ("SURFACE_CUT", SURFACE_CUT.into()),
+        ("REVERSED", REVERSED.into()),
+    ])
+}
+
 #[test]
 fn constants_are_equal_and_found_on_both_sides() {
     let float = |value: f32| u64::from(value.to_bits());
@@ -378,26 +411,8 @@ fn constants_are_equal_and_found_on_both_sides() {
         ("OBJECT_SPACE", Parameterization::ObjectSpace as u64),
         ("SCREEN_SPACE", Parameterization::ScreenSpace as u64),
         ("EDGE_INDEX_MASK", u64::from(!LineBits::all().bits() | LineBits::DRAWN.bits())),
-        ("ITEMS_PER_SUM", ITEMS_PER_SUM.into()),
-        ("BACKWARD", BACKWARD.into()),
-        ("NO_NODE", NO_NODE.into()),
-        ("CUT_START", CUT_START.into()),
-        ("CUT_END", CUT_END.into()),
-        ("UNSEEN", UNSEEN.into()),
-        ("ON_LOOP", ON_LOOP.into()),
-        ("ARC_PER_PX", float(ARC_PER_PX)),
-        ("MITRE_LIMIT", float(MITRE_LIMIT)),
-        ("ENDS_ROUND", End::Round as u64),
-        ("ENDS_FLAT", End::Flat as u64),
-        ("ENDS_POINTED", End::Pointed as u64),
-        ("JOINS_ROUND", 3 + Join::Round as u64),
-        ("JOINS_MITRED", 3 + Join::Mitred as u64),
-        ("HIDDEN_STROKES", Visibility::Hidden as u64),
-        ("SILHOUETTE_STROKES", Visibility::Silhouette as u64),
-        ("SURFACE_END", SURFACE_END.into()),
-        ("SURFACE_CUT", SURFACE_CUT.into()),
-        ("REVERSED", REVERSED.into()),
     ]);
+    expected.extend(graph_constants());
     let facing = [ConeFacing::Mixed, ConeFacing::AllFace, ConeFacing::AllAway];
     expected.extend(["MIXED", "ALL_FACE", "ALL_AWAY"].into_iter().zip(facing.map(|f| f as u64)));
     expected.extend(EdgeFlags::all().iter_names().map(|(name, bits)| (name, bits.bits().into())));

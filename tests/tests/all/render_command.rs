@@ -154,7 +154,7 @@ mod with_adapter {
         assert_eq!(statistics["features"]["ridge"], 12);
         let names: Vec<_> =
             statistics["passes"].as_array().unwrap().iter().map(|pass| &pass["name"]).collect();
-        assert_eq!(names, ["detect", "expand", "fill", "strokes"]);
+        assert_eq!(names, ["detect", "link", "expand", "fill", "paths", "coverage", "strokes"]);
     }
 
     /// The GPU counts what the reference program counted in 64 bits.

@@ -62,8 +62,8 @@ pub struct GraphUniform {
     pub point_capacity: u32,
     /// 1 where contours are in a layer as such, else 0.
     pub draws_contours: u32,
-    /// Unused.
-    pub padding: u32,
+    /// Linked draws of one layer, at most.
+    pub draws_a_layer: u32,
     /// Layer of each draw, and 1 where its strokes are linked.
     pub draws: [[u32; 4]; MAX_DRAWS],
 }
@@ -86,8 +86,8 @@ pub struct GraphHeader {
     pub total_px: f32,
     /// Points that there is room for.
     pub point_capacity: u32,
-    /// Unused.
-    pub padding: u32,
+    /// Linked draws of one layer, at most.
+    pub draws_a_layer: u32,
     /// Where the nodes of each layer begin; the last is their number.
     pub layer_first: [u32; MAX_LAYERS + 1],
     /// Where the elements of each draw begin among all, and their number.
@@ -247,11 +247,24 @@ pub struct Ribbon {
     pub padding: u32,
 }
 
+/// How large a dispatch is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Groups {
+    /// One workgroup.
+    One,
+    /// As many as the arguments say, so many bytes from their start.
+    By(u64),
+}
+
 /// Words of the arguments before the draws of ribbons. WGSL twin: `RIBBON_DRAWS`.
 pub(crate) const RIBBON_DRAWS: usize = 18;
 
 /// Words of the arguments before those of the chunks. WGSL twin: `CHUNK_GROUPS`.
 pub(crate) const CHUNK_GROUPS: usize = RIBBON_DRAWS + 5 * MAX_DRAWS;
+
+/// Bytes of the largest binding for each edge that can be linked: two points at least,
+/// as many again for the even grid, twice for layers with hidden strokes too.
+pub(crate) const BYTES_PER_NODE: u64 = 8 * size_of::<Ribbon>() as u64;
 
 /// Points of the even grid along paths that there is room for, besides two for each
 /// element: a quarter of a million pixels of lines at four pixels a point. Where that

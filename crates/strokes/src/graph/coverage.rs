@@ -42,7 +42,8 @@ pub(crate) struct CoveragePipeline {
     /// By channel: solid and textured.
     ribbons: Vec<[wgpu::RenderPipeline; 2]>,
     composite_layout: wgpu::BindGroupLayout,
-    composite: wgpu::RenderPipeline,
+    /// By how many channels are in use, less one.
+    composite: Vec<wgpu::RenderPipeline>,
 }
 
 impl CoveragePipeline {
@@ -80,7 +81,9 @@ impl CoveragePipeline {
             })
             .collect();
         let module = ShaderSource::embedded("graph/composite.wgsl")?.module(device, "composite");
-        let composite = composite_pipeline(device, &module, &composite_layout, formats);
+        let composite = (1..=CHANNELS)
+            .map(|count| composite_pipeline(device, &module, &composite_layout, formats, count))
+            .collect();
         Ok(Self { ribbons_layout, ribbons, composite_layout, composite })
     }
 
@@ -118,8 +121,14 @@ impl CoveragePipeline {
         })
     }
 
-    pub(crate) fn record_composite(&self, pass: &mut wgpu::RenderPass, group: &wgpu::BindGroup) {
-        pass.set_pipeline(&self.composite);
+    /// Lays the first `count` channels over the picture.
+    pub(crate) fn record_composite(
+        &self,
+        pass: &mut wgpu::RenderPass,
+        group: &wgpu::BindGroup,
+        count: usize,
+    ) {
+        pass.set_pipeline(&self.composite[count - 1]);
         pass.set_bind_group(0, group, &[]);
         pass.draw(0..3, 0..1);
     }
@@ -184,7 +193,10 @@ fn composite_pipeline(
     module: &wgpu::ShaderModule,
     layout: &wgpu::BindGroupLayout,
     formats: &TargetFormats,
+    count: usize,
 ) -> wgpu::RenderPipeline {
+    #[expect(clippy::cast_precision_loss, reason = "at most four")]
+    let constants = [("CHANNEL_COUNT", count as f64)];
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("composite"),
         bind_group_layouts: &[Some(layout)],
@@ -211,7 +223,10 @@ fn composite_pipeline(
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some("composite_fragment"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &constants,
+                ..Default::default()
+            },
             targets: &[Some(wgpu::ColorTargetState {
                 format: formats.color,
                 blend: Some(BlendState::PREMULTIPLIED_ALPHA_BLENDING),

@@ -7,7 +7,7 @@
 
 use crate::detect::compute_pipeline;
 use crate::frame::{bind_buffers, storage_entry, uniform_buffer, uniform_entry};
-use crate::graph::buffers::{CHUNK_GROUPS, GraphBuffers};
+use crate::graph::buffers::{CHUNK_GROUPS, GraphBuffers, Groups};
 use crate::mesh_buffers::{ChunkBuffers, EdgeSource, Layout};
 use crate::shader::{ShaderError, ShaderSource};
 use crate::view_buffers::{ObjectBuffers, ViewBuffers};
@@ -32,13 +32,6 @@ pub(crate) struct LinkPipeline {
     /// After the rounds: pipeline, and how large its dispatch is.
     chains: Vec<(wgpu::ComputePipeline, Groups)>,
     rounds: Vec<wgpu::BindGroup>,
-}
-
-/// How large a dispatch is.
-#[derive(Debug, Clone, Copy)]
-enum Groups {
-    One,
-    By(u64),
 }
 
 #[derive(Debug)]

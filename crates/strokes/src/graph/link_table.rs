@@ -175,7 +175,7 @@ mod tests {
     /// Where a half-edge begins and ends.
     fn ends(mesh: &EdgeMesh, half_edge: u32) -> [u32; 2] {
         let record = &mesh.records[half_edge as usize / 2];
-        if half_edge % 2 == 0 { [record.v0, record.v1] } else { [record.v1, record.v0] }
+        if half_edge.is_multiple_of(2) { [record.v0, record.v1] } else { [record.v1, record.v0] }
     }
 
     #[test]

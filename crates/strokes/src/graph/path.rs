@@ -10,7 +10,7 @@ use wgpu::ShaderStages;
 use crate::brush::Brush;
 use crate::detect::compute_pipeline;
 use crate::frame::{bind_buffers, storage_entry, uniform_buffer, uniform_entry};
-use crate::graph::buffers::GraphBuffers;
+use crate::graph::buffers::{GraphBuffers, Groups};
 use crate::graph::path_style::{BrushFit, CURVE_LENGTH, PathStyle};
 use crate::look::{Look, MAX_DRAWS, StyledDraw, Width};
 use crate::shader::{ShaderError, ShaderSource};
@@ -137,21 +137,31 @@ const PATH_SUM_GROUPS: u64 = 4 * 9;
 const POINT_GROUPS: u64 = 4 * 12;
 const POINT_SUM_GROUPS: u64 = 4 * 15;
 
-/// A step of the run.
-#[derive(Debug)]
-struct Step {
-    pipeline: wgpu::ComputePipeline,
-    /// Where the size of its dispatch is; `None` for one workgroup.
-    groups: Option<u64>,
-    /// Which buffers it works on.
-    buffers: Buffers,
-}
-
-#[derive(Debug, Clone, Copy)]
-enum Buffers {
-    Paths,
-    Sums,
-}
+/// The run: files with their entry points, and how large each dispatch is. What is one
+/// workgroup scans sums.
+const STEPS: &[(&str, &[(&str, Groups)])] = &[
+    (
+        "graph/path_joints.wgsl",
+        &[
+            ("measure_turns", Groups::By(PATH_GROUPS)),
+            ("find_corners", Groups::By(PATH_GROUPS)),
+            ("sum_points", Groups::By(PATH_SUM_GROUPS)),
+            ("scan_points", Groups::One),
+            ("write_points", Groups::By(PATH_SUM_GROUPS)),
+            ("finish_points", Groups::One),
+        ],
+    ),
+    ("graph/path_points.wgsl", &[("place_points", Groups::By(POINT_GROUPS))]),
+    (
+        "graph/path_strokes.wgsl",
+        &[
+            ("sum_strokes", Groups::By(POINT_SUM_GROUPS)),
+            ("scan_strokes", Groups::One),
+            ("write_strokes", Groups::By(POINT_SUM_GROUPS)),
+        ],
+    ),
+    ("graph/path_ribbons.wgsl", &[("write_ribbons", Groups::By(POINT_GROUPS))]),
+];
 
 /// The compute pipelines for one kind of target.
 #[derive(Debug)]
@@ -160,7 +170,7 @@ pub(crate) struct PathPipeline {
     object: wgpu::BindGroupLayout,
     paths: wgpu::BindGroupLayout,
     sums: wgpu::BindGroupLayout,
-    steps: Vec<Step>,
+    steps: Vec<(wgpu::ComputePipeline, Groups)>,
 }
 
 /// What they need of one object.
@@ -191,39 +201,16 @@ impl PathPipeline {
         let paths = make("paths", &[0, 2, 3, 4, 5, 6, 7].map(write));
         let sums = make("path sums", &[0, 3, 4, 8].map(write));
         let mut steps = Vec::new();
-        let files: [(&str, &[(&str, Option<u64>, Buffers)]); 4] = [
-            (
-                "graph/path_joints.wgsl",
-                &[
-                    ("measure_turns", Some(PATH_GROUPS), Buffers::Paths),
-                    ("find_corners", Some(PATH_GROUPS), Buffers::Paths),
-                    ("sum_points", Some(PATH_SUM_GROUPS), Buffers::Paths),
-                    ("scan_points", None, Buffers::Sums),
-                    ("write_points", Some(PATH_SUM_GROUPS), Buffers::Paths),
-                    ("finish_points", None, Buffers::Sums),
-                ],
-            ),
-            ("graph/path_points.wgsl", &[("place_points", Some(POINT_GROUPS), Buffers::Paths)]),
-            (
-                "graph/path_strokes.wgsl",
-                &[
-                    ("sum_strokes", Some(POINT_SUM_GROUPS), Buffers::Paths),
-                    ("scan_strokes", None, Buffers::Sums),
-                    ("write_strokes", Some(POINT_SUM_GROUPS), Buffers::Paths),
-                ],
-            ),
-            ("graph/path_ribbons.wgsl", &[("write_ribbons", Some(POINT_GROUPS), Buffers::Paths)]),
-        ];
-        for (file, entries) in files {
+        for (file, entries) in STEPS {
             let module = ShaderSource::embedded_over(file, formats)?.module(device, file);
-            for &(entry, groups, buffers) in entries {
-                let last = match buffers {
-                    Buffers::Paths => &paths,
-                    Buffers::Sums => &sums,
+            for &(entry, groups) in *entries {
+                let buffers = match groups {
+                    Groups::One => &sums,
+                    Groups::By(_) => &paths,
                 };
-                let layouts = [Some(frame_fill), Some(&pass), Some(&object), Some(last)];
+                let layouts = [Some(frame_fill), Some(&pass), Some(&object), Some(buffers)];
                 let pipeline = compute_pipeline(device, &module, entry, &layouts, &[]);
-                steps.push(Step { pipeline, groups, buffers });
+                steps.push((pipeline, groups));
             }
         }
         Ok(Self { pass, object, paths, sums, steps })
@@ -268,16 +255,17 @@ impl PathPipeline {
         draw: &PathDraw,
     ) {
         pass.set_bind_group(2, &draw.object, &[]);
-        for step in &self.steps {
-            pass.set_pipeline(&step.pipeline);
-            let buffers = match step.buffers {
-                Buffers::Paths => &draw.paths,
-                Buffers::Sums => &draw.sums,
-            };
-            pass.set_bind_group(3, buffers, &[]);
-            match step.groups {
-                Some(offset) => pass.dispatch_workgroups_indirect(&graph.arguments, offset),
-                None => pass.dispatch_workgroups(1, 1, 1),
+        for (pipeline, groups) in &self.steps {
+            pass.set_pipeline(pipeline);
+            match groups {
+                Groups::One => {
+                    pass.set_bind_group(3, &draw.sums, &[]);
+                    pass.dispatch_workgroups(1, 1, 1);
+                }
+                Groups::By(offset) => {
+                    pass.set_bind_group(3, &draw.paths, &[]);
+                    pass.dispatch_workgroups_indirect(&graph.arguments, *offset);
+                }
             }
         }
     }
