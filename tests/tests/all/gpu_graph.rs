@@ -206,12 +206,12 @@ fn chains_are_the_same_in_every_layout_and_across_chunks() {
 
 #[test]
 fn chains_of_a_real_model_run_across_chunks() {
-    let small = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 22);
+    let small = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 23);
     let Some(folder) = shared() else { return left_out("a real model in chunks", 1) };
     let (model, mut report) = read_model(&folder.join("models/stanford-bunny.obj")).unwrap();
     let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut report);
     let mut linker = Linker::new(&small, &mesh, &linked_look(), Layout::Replicated);
-    assert!(linker.objects[0].mesh().chunk_count() > 7, "in chunks");
+    assert!(linker.objects[0].mesh().chunk_count() > 3, "in chunks");
     for view in [5, 50, 100] {
         linker.check("bunny", &camera_of(&mesh, view));
     }
