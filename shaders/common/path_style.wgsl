@@ -18,6 +18,7 @@ struct PathUniform {
     is_cut_where_hidden: u32,
     join: u32,
     end: u32,
+    // Negative for the width.
     min_length_px: f32,
     max_length_px: f32,
     // Length of the brush over its height.

@@ -4,6 +4,12 @@
 #import <common/path_visibility.wgsl>
 #import <common/path_wobble.wgsl>
 
+// Of a loop, how much to both sides of a point is averaged at most.
+const LOOP_PART: f32 = 0.125;
+
+// On shorter chains what is hidden stays hidden.
+const LEAST_BRIDGED_PX: f32 = 100.0;
+
 @compute @workgroup_size(GROUP)
 fn place_points(@builtin(global_invocation_id) id: vec3u) {
     if id.x >= header.point_count {
@@ -38,7 +44,12 @@ fn point_of(index: u32) -> PathPoint {
     let exact = vec3f(mix(here.s0, here.s1, t), mix(here.z0, here.z1, t));
     // Near folds more is averaged, so that a path does not go back and forth.
     let fold_px = min(back.fold_px, ahead.fold_px);
-    let wanted_px = clamp(far_px + step_px - fold_px, step_px, far_px);
+    var wanted_px = clamp(far_px + step_px - fold_px, step_px, far_px);
+    let chain_px = grid.chain / ARC_PER_PX;
+    if (here.count & ON_LOOP) != 0u {
+        // A small loop is a bump, and its average would be its middle.
+        wanted_px = min(wanted_px, LOOP_PART * chain_px);
+    }
     let half_px = min(wanted_px, min(back.length_px, ahead.length_px));
     var averaged = exact;
     if half_px > 0.01 {
@@ -62,7 +73,7 @@ fn point_of(index: u32) -> PathPoint {
         path,
         flags_of(element, path, is_start, is_end)
             | select(0u, POINT_IS_VISIBLE, seen == SEEN)
-            | select(0u, POINT_IS_GRAZED, seen == SEEN_ALMOST)
+            | select(0u, POINT_IS_GRAZED, seen == SEEN_ALMOST && chain_px > LEAST_BRIDGED_PX)
             | select(0u, POINT_ON_CONTOUR, on_contour)
             | (draw << DRAW_SHIFT),
         vec2f(0.0, 1.0),

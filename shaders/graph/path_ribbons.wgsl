@@ -163,7 +163,7 @@ fn ribbon_of(index: u32) -> Ribbon {
         let t = (arcs[side] - range.x) / total_px;
         half_widths[side] =
             0.5 * width_of(style, depth) * taper * curve_at(paths[draw].width_curve, t);
-        opacities[side] = opacity_of(style, depth) * fade_of_short(style, total_px)
+        opacities[side] = opacity_of(style, depth) * fade_of_short(style, total_px, widest_px * select(1.0, 3.0, is_ring))
             * curve_at(paths[draw].opacity_curve, t);
     }
     ribbon.a = a;
@@ -247,11 +247,9 @@ fn opacity_of(style: PathUniform, depth: f32) -> f32 {
     return 1.0 - clamp(faded, 0.0, 1.0);
 }
 
-fn fade_of_short(style: PathUniform, total_px: f32) -> f32 {
-    if style.min_length_px <= 0.0 {
-        return 1.0;
-    }
-    return clamp(2.0 * total_px / style.min_length_px - 1.0, 0.0, 1.0);
+fn fade_of_short(style: PathUniform, total_px: f32, width_px: f32) -> f32 {
+    let least_px = select(style.min_length_px, width_px, style.min_length_px < 0.0);
+    return clamp(2.0 * total_px / max(least_px, 1e-3) - 1.0, 0.0, 1.0);
 }
 
 // Along the brush at both ends: stretched to the stroke; or whole repeats of it, held

@@ -186,6 +186,7 @@ fn wandering_lines_have_no_gap_and_no_pixel_is_covered_twice() {
         let path = PathStyle {
             join: if case % 2 == 0 { Join::Round } else { Join::Mitred },
             corner_rad: [1.0, 4.0][case / 2 % 2],
+            min_length_px: Some(0.0),
             ..PathStyle::default()
         };
         let style = StrokeStyle {
@@ -226,7 +227,11 @@ fn strokes_outside_of_contours_have_no_gap_either() {
     for case in 0..60 {
         let mesh = stars(&mut random);
         let width = 40.0_f32.powf(random.unit());
-        let path = PathStyle { corner_rad: [1.0, 4.0][case % 2], ..PathStyle::default() };
+        let path = PathStyle {
+            corner_rad: [1.0, 4.0][case % 2],
+            min_length_px: Some(0.0),
+            ..PathStyle::default()
+        };
         let style = StrokeStyle {
             width: Width::Pixels(width),
             color: [0.0, 0.0, 0.0, 0.5],

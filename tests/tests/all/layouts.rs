@@ -275,7 +275,7 @@ fn structs_in_buffers_are_laid_out_alike_and_found_on_both_sides() {
 }
 
 /// Constants of one side only: how the shader works inside.
-const OF_SHADERS: [&str; 44] = [
+const OF_SHADERS: [&str; 46] = [
     "BEHIND",
     "SCAN_WIDTH",
     "EXPAND_WIDTH",
@@ -310,6 +310,8 @@ const OF_SHADERS: [&str; 44] = [
     "FOLD",
     "KEPT",
     "FOLD_STEPS",
+    "LOOP_PART",
+    "LEAST_BRIDGED_PX",
     "SHARED_PX",
     "JOINS_LOOSELY",
     "CUSP_COSINE",

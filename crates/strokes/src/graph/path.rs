@@ -40,7 +40,7 @@ pub struct PathUniform {
     pub join: u32,
     /// A [`crate::graph::path_style::End`].
     pub end: u32,
-    /// Shorter strokes fade.
+    /// Shorter strokes fade; negative for those shorter than wide.
     pub min_length_px: f32,
     /// Longer ones are cut; 0 for never.
     pub max_length_px: f32,
@@ -99,7 +99,7 @@ impl PathUniform {
             is_cut_where_hidden: u32::from(path.is_cut_where_hidden && path.dash_px.is_none()),
             join: path.join as u32,
             end: path.end as u32,
-            min_length_px: path.min_length_px,
+            min_length_px: path.min_length_px.unwrap_or(-1.0),
             max_length_px: path.max_length_px,
             brush_aspect: style.brush.as_ref().map_or(1.0, Brush::aspect),
             is_stretched: u32::from(path.brush_fit == BrushFit::Stretched),

@@ -55,8 +55,9 @@ pub struct PathStyle {
     /// Whether a stroke ends where it is hidden and another begins where it comes out;
     /// else it goes on unseen.
     pub is_cut_where_hidden: bool,
-    /// Shorter strokes fade, and those half as long are left out.
-    pub min_length_px: f32,
+    /// Shorter strokes fade, and those half as long are left out; `None` for those that
+    /// are shorter than wide, which are no strokes but blots.
+    pub min_length_px: Option<f32>,
     /// Longer strokes are cut into equal parts; 0 for never.
     pub max_length_px: f32,
     /// How the brush lies along them.
@@ -91,7 +92,7 @@ impl Default for PathStyle {
             end: End::default(),
             corner_rad: std::f32::consts::FRAC_PI_3,
             is_cut_where_hidden: true,
-            min_length_px: 0.0,
+            min_length_px: None,
             max_length_px: 0.0,
             brush_fit: BrushFit::default(),
             taper_px: [0.0; 2],
