@@ -168,7 +168,7 @@ fn ribbon_of(index: u32) -> Ribbon {
     }
     ribbon.a = a;
     ribbon.b = b;
-    ribbon.u = brush_of(style, arcs, range, widest_px);
+    ribbon.u = brush_of(style, arcs, range, widest_px, is_ring);
     ribbon.half_width = half_widths;
     let period_px = style.dash_px.x + style.dash_px.y;
     ribbon.ink = 1.0;
@@ -253,13 +253,22 @@ fn fade_of_short(style: PathUniform, total_px: f32, width_px: f32) -> f32 {
 }
 
 // Along the brush at both ends: stretched to the stroke; or whole repeats of it, held
-// where the stroke has its middle.
-fn brush_of(style: PathUniform, arcs: vec2f, range: vec2f, width_px: f32) -> vec2f {
+// where the stroke has its middle. A short stroke has a part of the brush, but a ring
+// has a whole one.
+fn brush_of(
+    style: PathUniform,
+    arcs: vec2f,
+    range: vec2f,
+    width_px: f32,
+    is_ring: bool,
+) -> vec2f {
     let total_px = max(range.y - range.x, 1e-3);
     if style.is_stretched != 0u {
         return (arcs - range.x) / total_px;
     }
-    let repeats = max(round(total_px / max(width_px * style.brush_aspect, 1e-3)), 1.0);
+    let fitting = total_px / max(width_px * style.brush_aspect, 1e-3);
+    let whole = max(round(fitting), 1.0);
+    let repeats = select(whole, fitting, fitting < 1.0 && !is_ring);
     return (arcs - 0.5 * (range.x + range.y)) * repeats / total_px;
 }
 

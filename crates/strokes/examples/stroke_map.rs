@@ -46,7 +46,7 @@ fn graph_of(path: &Path) -> GraphReadback {
     let targets = Targets::new(&gpu.device, [SIZE.into(); 2], formats);
     let view = Camera::default_view(&mesh.bounds).view(&mesh.bounds, 1.0);
     renderer.render(&gpu, &targets, &view, [1.0; 4], &mut objects, None);
-    objects[0].read_chains(&gpu).unwrap().unwrap()
+    objects[0].read_graph(&gpu).unwrap().unwrap()
 }
 
 struct Map {
@@ -105,7 +105,7 @@ fn main() {
     }
     for (at, pair) in graph.points.windows(2).enumerate() {
         let [a, b] = [map.place(pair[0].position), map.place(pair[1].position)];
-        let is_drawn = pair[0].cut[0] < pair[0].cut[1] && graph.ribbons[at].ends & 15 != 15;
+        let is_drawn = pair[0].cut[0] < pair[0].cut[1] && graph.ribbons[at].is_drawn();
         let hue = pair[0].stroke.wrapping_mul(2_654_435_761);
         let color = Rgb([hue >> 24, hue >> 16, hue >> 8].map(|word| (word & 0xbf) as u8));
         if is_drawn {

@@ -46,6 +46,8 @@ pub struct Object {
 pub struct GraphReadback {
     /// How much of everything there is.
     pub header: GraphHeader,
+    /// The layer of each draw that is linked.
+    pub draw_layers: Vec<Option<u32>>,
     /// The edges that are linked, layer by layer.
     pub nodes: Vec<LinkNode>,
     /// The elements of all chains, one chain after another.
@@ -56,6 +58,27 @@ pub struct GraphReadback {
     pub strokes: Vec<Stroke>,
     /// Their segments, one a point.
     pub ribbons: Vec<Ribbon>,
+}
+
+impl GraphReadback {
+    /// The draw that an element of a path belongs to.
+    fn draw_of(&self, path: u32) -> usize {
+        let firsts = &self.header.draw_first[..self.draw_layers.len()];
+        firsts.iter().rposition(|first| *first <= path).unwrap_or(0)
+    }
+
+    /// The layer of an element of a path, as the points count them.
+    #[must_use]
+    pub fn layer_of(&self, path: u32) -> usize {
+        self.draw_layers.get(self.draw_of(path)).copied().flatten().unwrap_or(0) as usize
+    }
+
+    /// Which of the elements an element of a path is.
+    #[must_use]
+    pub fn element_of(&self, path: u32) -> usize {
+        let first = self.header.draw_first[self.draw_of(path)];
+        (self.header.layer_first[self.layer_of(path)] + path - first) as usize
+    }
 }
 
 /// The stroke graph of an object.
@@ -183,7 +206,7 @@ impl Object {
     ///
     /// # Errors
     /// Where the device is lost.
-    pub fn read_chains(&self, gpu: &Gpu) -> Result<Option<GraphReadback>, ReadbackError> {
+    pub fn read_graph(&self, gpu: &Gpu) -> Result<Option<GraphReadback>, ReadbackError> {
         let Some(ObjectGraph { buffers, .. }) = &self.graph else { return Ok(None) };
         let header: Vec<GraphHeader> = read_buffer(gpu, &buffers.header, 1)?;
         let count = header[0].node_count as usize;
@@ -192,7 +215,10 @@ impl Object {
         let points = read_buffer(gpu, &buffers.points, header[0].point_count as usize)?;
         let ribbons = read_buffer(gpu, &buffers.ribbons, header[0].point_count as usize)?;
         let strokes = read_buffer(gpu, &buffers.strokes, header[0].stroke_count as usize)?;
-        Ok(Some(GraphReadback { header: header[0], nodes, elements, points, strokes, ribbons }))
+        let draws = self.look.draws.iter();
+        let draw_layers = draws.map(|draw| draw.is_linked.then_some(draw.layer)).collect();
+        let header = header[0];
+        Ok(Some(GraphReadback { header, draw_layers, nodes, elements, points, strokes, ribbons }))
     }
 
     /// The facing bits of one chunk in the last view, 32 faces a word; of the

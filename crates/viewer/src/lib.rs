@@ -10,12 +10,14 @@
 //! - [`render`]: a scene of edge meshes to pictures, without any window.
 //! - [`picture`]: PNG in and out, and the comparison with a reference.
 //! - [`animation`]: several pictures as a GIF or an animated PNG.
+//! - [`comparison`]: stroke textures, measured along camera paths.
 //! - [`command`]: the command line; `main.rs` only calls it.
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 pub mod animation;
 pub mod command;
+pub mod comparison;
 pub mod picture;
 pub mod render;
 pub mod scene_file;

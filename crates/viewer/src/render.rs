@@ -16,7 +16,7 @@ use strokes::gpu::{Gpu, GpuError, ResourceError};
 use strokes::gpu_time::GpuTimer;
 use strokes::look::Look;
 use strokes::mesh_buffers::{Layout, MeshBuffers};
-use strokes::object::Object;
+use strokes::object::{GraphReadback, Object};
 use strokes::readback::{ReadbackError, read_picture};
 use strokes::renderer::{DetectionPath, PASS_NAMES, PreparedLook, Renderer, RendererOptions};
 use strokes::shader::ShaderError;
@@ -222,6 +222,16 @@ impl<'a> PictureRenderer<'a> {
         let statistics =
             FrameStatistics { tally: self.read_tally()?, passes: self.read_passes()?, frame_ms };
         Ok((picture, statistics))
+    }
+
+    /// The stroke graph of an object in the last picture; nothing where its strokes are
+    /// not linked.
+    ///
+    /// # Errors
+    /// Where the device is lost.
+    pub fn read_graph(&self, object: usize) -> Result<Option<GraphReadback>, Failure> {
+        let Some(object) = self.objects.get(object) else { return Ok(None) };
+        object.read_graph(self.gpu).map_err(lost)
     }
 
     fn submit(&mut self, camera: &Camera) {

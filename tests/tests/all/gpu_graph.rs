@@ -65,7 +65,7 @@ impl<'a> Linker<'a> {
     fn graph(&mut self, camera: &Camera) -> GraphReadback {
         let view = camera.view(&self.mesh.bounds, 1.0);
         self.renderer.render(self.gpu, &self.targets, &view, [0.0; 4], &mut self.objects, None);
-        self.objects[0].read_chains(self.gpu).unwrap().unwrap()
+        self.objects[0].read_graph(self.gpu).unwrap().unwrap()
     }
 
     /// Checks the graph of a view against the CPU's; says how many contours it has.
@@ -257,7 +257,7 @@ fn what_finds_no_room_is_drawn_edge_by_edge() {
         let view = camera.view(&mesh.bounds, 1.0);
         linker.renderer.render(gpu, &linker.targets, &view, [1.0; 4], &mut linker.objects, None);
         let texels: Vec<[u8; 4]> = read_texels(gpu, linker.targets.picture(), 4).unwrap();
-        let count = linker.objects[0].read_chains(gpu).unwrap().unwrap().header.node_count;
+        let count = linker.objects[0].read_graph(gpu).unwrap().unwrap().header.node_count;
         let drawn = linker.objects[0].read_tally(gpu).unwrap().stroke_count;
         (texels.iter().map(|texel| 255 - u32::from(texel[0])).sum::<u32>(), drawn - count)
     };

@@ -119,7 +119,7 @@ fn draw(mesh: &EdgeMesh, style: StrokeStyle, classes: &[EdgeClass]) -> (Vec<u8>,
     let view = camera.view(&mesh.bounds, 1.0);
     renderer.render(gpu, &targets, &view, [1.0; 4], &mut objects, None);
     let texels: Vec<[u8; 4]> = read_texels(gpu, targets.picture(), 4).unwrap();
-    let graph = objects[0].read_chains(gpu).unwrap().unwrap();
+    let graph = objects[0].read_graph(gpu).unwrap().unwrap();
     (texels.into_iter().map(|texel| texel[0]).collect(), graph)
 }
 
@@ -173,7 +173,7 @@ impl Place {
 }
 
 fn drawn(graph: &GraphReadback) -> Vec<Ribbon> {
-    graph.ribbons.iter().filter(|ribbon| ribbon.ends & 15 != 15).copied().collect()
+    graph.ribbons.iter().filter(|ribbon| ribbon.is_drawn()).copied().collect()
 }
 
 #[test]

@@ -20,8 +20,8 @@ use strokes::fill::FillUniform;
 use strokes::frame::{FrameUniform, ObjectUniform};
 use strokes::graph::buffers::{
     ARC_PER_PX, BACKWARD, CUT_END, CUT_START, Chain, ChainState, Element, GraphHeader,
-    GraphUniform, ITEMS_PER_SUM, Joint, LinkNode, NO_NODE, ON_LOOP, PathPoint, Ribbon, Stroke,
-    UNSEEN,
+    GraphUniform, ITEMS_PER_SUM, Joint, LinkNode, NO_NODE, NOT_DRAWN, ON_LOOP, PathPoint, Ribbon,
+    Stroke, UNSEEN,
 };
 use strokes::graph::coverage::CompositeUniform;
 use strokes::graph::link_table::{REVERSED, SURFACE_CUT, SURFACE_END};
@@ -275,7 +275,7 @@ fn structs_in_buffers_are_laid_out_alike_and_found_on_both_sides() {
 }
 
 /// Constants of one side only: how the shader works inside.
-const OF_SHADERS: [&str; 46] = [
+const OF_SHADERS: [&str; 45] = [
     "BEHIND",
     "SCAN_WIDTH",
     "EXPAND_WIDTH",
@@ -301,7 +301,6 @@ const OF_SHADERS: [&str; 46] = [
     "POINT_ON_CONTOUR",
     "POINT_ON_SEAM",
     "DRAW_SHIFT",
-    "NOT_DRAWN",
     "IS_INSIDE",
     "KEPT_COSINE",
     "MOST_ELEMENTS",
@@ -356,6 +355,7 @@ fn graph_constants() -> BTreeMap<&'static str, u64> {
     let float = |value: f32| u64::from(value.to_bits());
     BTreeMap::from([
         ("ITEMS_PER_SUM", ITEMS_PER_SUM.into()),
+        ("NOT_DRAWN", NOT_DRAWN.into()),
         ("BACKWARD", BACKWARD.into()),
         ("NO_NODE", NO_NODE.into()),
         ("CUT_START", CUT_START.into()),

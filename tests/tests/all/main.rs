@@ -4,6 +4,7 @@
 
 mod child;
 mod commands;
+mod compare_strokes;
 mod corpus;
 mod dependencies;
 mod expectations;

@@ -247,6 +247,18 @@ pub struct Ribbon {
     pub padding: u32,
 }
 
+impl Ribbon {
+    /// Whether there is anything to draw: not so behind the end of a path, and where it
+    /// is hidden.
+    #[must_use]
+    pub const fn is_drawn(&self) -> bool {
+        self.ends & NOT_DRAWN != NOT_DRAWN
+    }
+}
+
+/// In [`Ribbon::ends`]: nothing. WGSL twin: the constant of this name.
+pub const NOT_DRAWN: u32 = 15;
+
 /// How large a dispatch is.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Groups {

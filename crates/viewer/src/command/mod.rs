@@ -1,6 +1,7 @@
 //! The `viewer` command line.
 
 mod adapters;
+mod compare_strokes;
 mod render;
 
 use std::process::ExitCode;
@@ -24,6 +25,7 @@ struct Viewer {
 enum Command {
     // Boxed: it has far more options than the others.
     Render(Box<render::RenderCommand>),
+    CompareStrokes(compare_strokes::CompareStrokesCommand),
     Adapters(adapters::AdaptersCommand),
     #[command(hide = true)]
     Completions(CompletionsCommand),
@@ -38,6 +40,7 @@ pub fn main() -> ExitCode {
     arguments.messages.start_logging();
     run(move || match arguments.command {
         Command::Render(command) => command.run(arguments.messages.quiet),
+        Command::CompareStrokes(command) => command.run(arguments.messages.quiet),
         Command::Adapters(command) => command.run(),
         Command::Completions(command) => command.run(Viewer::command()),
         Command::Man(command) => command.run(Viewer::command()),

@@ -405,7 +405,7 @@ impl RenderCommand {
 
 /// Says on a terminal how far a turntable is.
 #[expect(clippy::print_stderr, reason = "progress, on a terminal only")]
-fn show_progress(done: u32, total: u32) {
+pub(super) fn show_progress(done: u32, total: u32) {
     if std::io::stderr().is_terminal() {
         let end = if done == total { "\n" } else { "" };
         eprint!("\rpicture {done} of {total}{end}");
@@ -428,7 +428,7 @@ fn numbered(path: &Path, step: u32, steps: u32) -> PathBuf {
     path.with_file_name(name)
 }
 
-fn parse_size(text: &str) -> Result<[u32; 2], String> {
+pub(super) fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| text.trim().parse().ok().filter(|&side: &u32| side > 0);
     text.split_once(['x', 'X'])
         .and_then(|(width, height)| Some([side(width)?, side(height)?]))

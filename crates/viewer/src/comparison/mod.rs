@@ -1,0 +1,116 @@
+//! The comparison of stroke textures: each brush in each parameterization along camera
+//! paths, measured.
+//!
+//! The paper compares its two parameterizations in words (section 4): in object space
+//! the brush holds to the surface and breaks at every edge, in screen space it is whole
+//! in a still picture and slides when the view moves. Here both are measured beside
+//! linked strokes, on the same lines, frame by frame.
+//!
+//! ```text
+//! model, brush, path --frames--> lines with u in each parameterization (samples)
+//!     samples of a frame, and of the one before --> sums (measure) --> CSV, page
+//! ```
+
+pub mod measure;
+pub mod page;
+pub mod samples;
+
+use std::f64::consts::TAU;
+
+use edgemesh::camera::Camera;
+use edgemesh::edge_mesh::Bounds;
+use glam::DQuat;
+
+/// How a brush lies along strokes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Way {
+    /// The paper's, along each edge from a random start.
+    ObjectSpace,
+    /// The paper's, by the place on the screen.
+    ScreenSpace,
+    /// By arc length along linked strokes.
+    Chained,
+}
+
+impl Way {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::ObjectSpace, Self::ScreenSpace, Self::Chained];
+
+    /// Its name in tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::ObjectSpace => "object-space",
+            Self::ScreenSpace => "screen-space",
+            Self::Chained => "chained",
+        }
+    }
+
+    /// The settings of a technique that draw it.
+    #[must_use]
+    pub const fn settings(self) -> &'static [&'static str] {
+        match self {
+            Self::ObjectSpace => &["strokes.parameterization=object"],
+            Self::ScreenSpace => &["strokes.parameterization=screen"],
+            Self::Chained => &["strokes.linked=true"],
+        }
+    }
+}
+
+/// How a camera moves from frame to frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum CameraPath {
+    /// Around the model, by a degree.
+    Turntable,
+    /// Sideways, by half a percent of the distance.
+    Pan,
+    /// Toward the model, by one percent.
+    Dolly,
+    /// A smaller field of view, by one percent.
+    Zoom,
+    /// Around the line of sight, by a degree.
+    Roll,
+}
+
+impl CameraPath {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Turntable, Self::Pan, Self::Dolly, Self::Zoom, Self::Roll];
+
+    /// Its name in tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Turntable => "turntable",
+            Self::Pan => "pan",
+            Self::Dolly => "dolly",
+            Self::Zoom => "zoom",
+            Self::Roll => "roll",
+        }
+    }
+
+    /// The camera of a frame; frame 0 is the default view.
+    #[must_use]
+    pub fn camera(self, bounds: &Bounds, frame: u32) -> Camera {
+        let start = Camera::default_view(bounds);
+        let frame = f64::from(frame);
+        let sight = start.target - start.eye;
+        let turn = |axis: glam::DVec3| DQuat::from_axis_angle(axis, TAU / 360.0 * frame);
+        match self {
+            Self::Turntable => {
+                let eye = start.target - turn(start.up) * sight;
+                Camera { eye, ..start }
+            }
+            Self::Pan => {
+                let right = sight.cross(start.up).normalize_or_zero();
+                let moved = right * sight.length() * 0.005 * frame;
+                Camera { eye: start.eye + moved, target: start.target + moved, ..start }
+            }
+            Self::Dolly => Camera { eye: start.target - sight * 0.99_f64.powf(frame), ..start },
+            Self::Zoom => Camera { fov_y_rad: start.fov_y_rad * 0.99_f64.powf(frame), ..start },
+            Self::Roll => {
+                let axis = sight.normalize_or_zero();
+                Camera { up: turn(axis) * start.up, ..start }
+            }
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! The lines of one frame, with where along its brush each lies in every
+//! parameterization.
+//!
+//! All three are asked about the same lines: the edges that linked strokes cover. In the
+//! paper's two, u comes from the CPU twin of the stroke shader; along linked strokes from
+//! the ribbons that the GPU made.
+
+use edgemesh::camera::View;
+use edgemesh::edge_mesh::EdgeMesh;
+use edgemesh::oracle::feature::LineBits;
+use edgemesh::oracle::stroke_quad::Placement;
+use edgemesh::oracle::stroke_segment::{
+    ClipEdge, LineKind, Parameterization, StrokeShape, stroke_segment,
+};
+use edgemesh::record::edge_random;
+use glam::{Mat4, Vec2, Vec3, Vec4};
+use strokes::graph::buffers::{BACKWARD, NO_NODE, Ribbon};
+use strokes::object::GraphReadback;
+
+/// A stretch of a line, between two places where u is known.
+#[derive(Debug, Clone, Copy)]
+pub struct Stretch {
+    /// Length in pixels.
+    pub length_px: f32,
+    /// Repeats of the brush where it begins and where it ends.
+    pub u: [f32; 2],
+    /// The layer of its line.
+    pub layer: usize,
+    /// Whether the next stretch begins where this one ends.
+    pub is_followed: bool,
+    /// Tells strokes apart; stretches of one have the same.
+    pub stroke: u32,
+}
+
+/// An edge that can be found again in the next frame.
+#[derive(Debug, Clone, Copy)]
+pub struct Track {
+    /// The record.
+    pub edge: u32,
+    /// The layer.
+    pub layer: usize,
+    /// How long it is on the screen.
+    pub length_px: f32,
+    /// Repeats of the brush at its middle.
+    pub u: f32,
+}
+
+/// The lines of a frame in one parameterization.
+#[derive(Debug, Clone, Default)]
+pub struct FrameLines {
+    /// All stretches in order.
+    pub stretches: Vec<Stretch>,
+    /// The edges, in the order of the records.
+    pub tracks: Vec<Track>,
+}
+
+/// What a frame is asked about.
+#[derive(Debug, Clone, Copy)]
+pub struct FrameSource<'a> {
+    /// The mesh.
+    pub mesh: &'a EdgeMesh,
+    /// The view.
+    pub view: &'a View,
+    /// Pixels of the picture.
+    pub viewport_px: Vec2,
+    /// Width of the strokes in pixels.
+    pub width_px: f32,
+    /// Length of the brush over its height.
+    pub brush_aspect: f32,
+    /// What the GPU linked.
+    pub graph: &'a GraphReadback,
+}
+
+impl FrameSource<'_> {
+    /// The lines with the brush along linked strokes.
+    #[must_use]
+    pub fn chained(&self) -> FrameLines {
+        let graph = self.graph;
+        let mut lines = FrameLines::default();
+        for (at, ribbon) in graph.ribbons.iter().enumerate().filter(|(_, r)| r.is_drawn()) {
+            let point = &graph.points[at];
+            let next = graph.ribbons.get(at + 1).filter(|next| next.is_drawn());
+            let [a, b] = [Vec2::from(ribbon.a), Vec2::from(ribbon.b)];
+            lines.stretches.push(Stretch {
+                length_px: a.distance(b),
+                u: ribbon.u,
+                layer: graph.layer_of(point.path),
+                is_followed: next.is_some_and(|next| Vec2::from(next.a).distance(b) < 0.01),
+                stroke: point.stroke,
+            });
+        }
+        for (ribbon, element) in self.covered() {
+            let element = &graph.elements[element];
+            let middle = (Vec2::from(element.s0) + Vec2::from(element.s1)) / 2.0;
+            let [a, b] = [Vec2::from(ribbon.a), Vec2::from(ribbon.b)];
+            let along = (middle - a).dot(b - a) / a.distance_squared(b);
+            let t = along.clamp(0.0, 1.0);
+            lines.tracks.push(Track {
+                edge: element.edge & NO_NODE,
+                layer: layer_of_element(graph, element.node),
+                length_px: Vec2::from(element.s0).distance(element.s1.into()),
+                u: ribbon.u[0] * (1.0 - t) + ribbon.u[1] * t,
+            });
+        }
+        lines.tracks.sort_unstable_by_key(|track| track.edge);
+        lines.tracks.dedup_by_key(|track| track.edge);
+        lines
+    }
+
+    /// The same lines, edge by edge, in one of the paper's parameterizations.
+    #[must_use]
+    pub fn edge_by_edge(&self, parameterization: Parameterization) -> FrameLines {
+        let graph = self.graph;
+        let mut is_covered = vec![false; graph.elements.len()];
+        self.covered().for_each(|(_, element)| is_covered[element] = true);
+        let mut lines = FrameLines::default();
+        for (at, element) in graph.elements.iter().enumerate().filter(|(at, _)| is_covered[*at]) {
+            let length_px = Vec2::from(element.s0).distance(element.s1.into());
+            let Some(u) = self.u_of(element.edge, parameterization) else { continue };
+            let layer = layer_of_element(graph, element.node);
+            let is_last = at + 1 == (element.first + (element.count & !(1 << 31))) as usize;
+            let is_followed = !is_last && is_covered.get(at + 1) == Some(&true);
+            lines.stretches.push(Stretch {
+                length_px,
+                u,
+                layer,
+                is_followed,
+                stroke: element.edge,
+            });
+            let edge = element.edge & NO_NODE;
+            lines.tracks.push(Track { edge, layer, length_px, u: 0.5 * (u[0] + u[1]) });
+        }
+        lines.tracks.sort_unstable_by_key(|track| track.edge);
+        lines
+    }
+
+    /// The drawn ribbons with the elements that each covers.
+    fn covered(&self) -> impl Iterator<Item = (&Ribbon, usize)> {
+        let graph = self.graph;
+        let drawn = graph.ribbons.iter().enumerate().filter(|(_, ribbon)| ribbon.is_drawn());
+        drawn.flat_map(move |(at, ribbon)| {
+            let paths = graph.points[at].path..=graph.points[at + 1].path;
+            paths.map(move |path| (ribbon, graph.element_of(path)))
+        })
+    }
+
+    /// u where an edge begins and ends in the direction of its chain.
+    fn u_of(&self, word: u32, parameterization: Parameterization) -> Option<[f32; 2]> {
+        let record = &self.mesh.records[(word & NO_NODE) as usize];
+        let at = |vertex: u32| Vec3::from(self.mesh.positions[vertex as usize]);
+        let normal = |vertex: u32| Vec3::from(self.mesh.vertex_normals[vertex as usize]);
+        let clip = |point: Vec4| self.view.clip_from_world * point;
+        let [p0, p1] = [at(record.v0), at(record.v1)];
+        let edge = ClipEdge {
+            c0: clip(p0.extend(1.0)),
+            c1: clip(p1.extend(1.0)),
+            c2: clip(p0.extend(1.0)),
+            c3: clip(p0.extend(1.0)),
+            n0: clip(normal(record.v0).extend(0.0)),
+            n1: clip(normal(record.v1).extend(0.0)),
+            facing: Vec2::ONE,
+            distance: Vec2::ONE,
+            r: edge_random(p0.into(), p1.into()),
+        };
+        let is_backward = word & BACKWARD != 0;
+        let mut bits = LineBits::empty();
+        bits.set(LineBits::CONTOUR, word & LineBits::CONTOUR.bits() != 0);
+        bits.set(LineBits::A_FACES, !is_backward);
+        let segment = stroke_segment(&edge, &self.shape(parameterization), bits);
+        let u = segment.u.to_array();
+        segment.is_drawn.then_some(if is_backward { [u[1], u[0]] } else { u })
+    }
+
+    fn shape(&self, parameterization: Parameterization) -> StrokeShape {
+        let origin = self.view.clip_from_world * Vec4::W;
+        let origin_px = edgemesh::oracle::spine::to_pixels(origin, self.viewport_px);
+        StrokeShape {
+            viewport_px: self.viewport_px,
+            origin_px: if origin.w > f32::EPSILON { origin_px } else { Vec2::ZERO },
+            fade: Vec2::ZERO,
+            width: self.width_px,
+            px_per_unit: px_per_unit(&self.view.clip_from_world, self.viewport_px),
+            brush_aspect: self.brush_aspect,
+            mirror: 1.0,
+            kind: LineKind::Quad,
+            placement: Placement::Automatic,
+            parameterization,
+            is_world_width: false,
+        }
+    }
+}
+
+fn px_per_unit(clip_from_world: &Mat4, viewport_px: Vec2) -> f32 {
+    clip_from_world.row(1).truncate().length() * viewport_px.y * 0.5
+}
+
+/// The layer of a node.
+fn layer_of_element(graph: &GraphReadback, node: u32) -> usize {
+    graph.header.layer_first.iter().rposition(|first| *first <= node).unwrap_or(0)
+}
