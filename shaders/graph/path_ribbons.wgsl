@@ -166,6 +166,9 @@ fn ribbon_of(index: u32) -> Ribbon {
         opacities[side] = opacity_of(style, depth) * fade_of_short(style, total_px, widest_px * select(1.0, 3.0, is_ring))
             * curve_at(paths[draw].opacity_curve, t);
     }
+    if max(opacities.x, opacities.y) <= 0.0 {
+        return ribbon;
+    }
     ribbon.a = a;
     ribbon.b = b;
     ribbon.u = brush_of(style, arcs, range, widest_px, is_ring);
