@@ -21,4 +21,5 @@ pub mod comparison;
 pub mod picture;
 pub mod render;
 pub mod scene_file;
+pub mod stroke_setting;
 pub mod technique;

@@ -23,9 +23,9 @@ struct Viewer {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    // Boxed: it has far more options than the others.
+    // Boxed: these have far more options than the others.
     Render(Box<render::RenderCommand>),
-    CompareStrokes(compare_strokes::CompareStrokesCommand),
+    CompareStrokes(Box<compare_strokes::CompareStrokesCommand>),
     Adapters(adapters::AdaptersCommand),
     #[command(hide = true)]
     Completions(CompletionsCommand),

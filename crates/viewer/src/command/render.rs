@@ -24,7 +24,8 @@ use crate::animation::{AnimationKind, encode_animation};
 use crate::picture::{DEFAULT_REFERENCE_THRESHOLD, compare, encode_png, read_png, straight_alpha};
 use crate::render::{FrameStatistics, PictureOptions, PictureRenderer, Scene, adapter_failure};
 use crate::scene_file::{SceneObject, is_scene_file, read_scene_file};
-use crate::technique::{PASSES, STROKE_VARIABLES, TECHNIQUES, Technique};
+use crate::stroke_setting::STROKE_VARIABLES;
+use crate::technique::{PASSES, TECHNIQUES, Technique};
 
 /// Renders models to a PNG, without a window
 #[derive(Debug, Clone, Args)]

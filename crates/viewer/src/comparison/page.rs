@@ -36,8 +36,11 @@ pub struct Sheet {
     pub png: Vec<u8>,
 }
 
-/// The measures: name, unit, and how to ask for them.
-pub const MEASURES: [(&str, &str, fn(&Row) -> f64); 7] = [
+/// A measure: its name, its unit, and how to ask for it.
+pub type Measure = (&'static str, &'static str, fn(&Row) -> f64);
+
+/// All of them.
+pub const MEASURES: [Measure; 7] = [
     ("breaks", "for 1000 px", |row| row.sums.breaks()),
     ("strokes", "for 1000 px", |row| row.sums.strokes()),
     ("stretch", "powers of two", |row| row.sums.stretch()),
@@ -157,7 +160,7 @@ fn plot(
     rows: &[Row],
     names: &[String],
     name: fn(&Row) -> String,
-    (measure, unit, value): (&str, &str, fn(&Row) -> f64),
+    (measure, unit, value): Measure,
 ) -> String {
     let values: Vec<[f64; 3]> = names
         .iter()

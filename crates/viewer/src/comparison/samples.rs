@@ -160,7 +160,7 @@ impl FrameSource<'_> {
             n1: clip(normal(record.v1).extend(0.0)),
             facing: Vec2::ONE,
             distance: Vec2::ONE,
-            r: edge_random(p0.into(), p1.into()),
+            r: edge_random(p0, p1),
         };
         let is_backward = word & BACKWARD != 0;
         let mut bits = LineBits::empty();
