@@ -99,7 +99,10 @@ fn find_corners(@builtin(global_invocation_id) id: vec3u) {
         kind |= BREAK;
     } else if is_corner(element, path, step_of(draw)) {
         kind |= CORNER;
-        if joints[path].cosine < paths[draw].corner_cosine {
+        // A contour that turns back is another one from there on: it has a cusp.
+        let is_cusp = joints[path].cosine < CUSP_COSINE
+            && (elements[element].edge & CONTOUR) != 0u;
+        if joints[path].cosine < paths[draw].corner_cosine || is_cusp {
             kind |= SPLIT;
         }
     }

@@ -161,6 +161,29 @@ fn large_meshes_in_bindings_of_a_mebibyte() {
     }
 }
 
+/// Linked strokes are made of what the layouts have in common.
+#[test]
+fn linked_strokes_are_the_same_in_every_layout_and_in_chunks() {
+    let small = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 19);
+    let looks = [
+        technique("pen", &["strokes.linked=true", "strokes.width=5", "strokes.taper=20"]),
+        technique(
+            "charcoal",
+            &["strokes.linked=true", "ridge.width=3", "hidden.show=true", "hidden.linked=true"],
+        ),
+    ];
+    for (name, mesh) in own_models() {
+        for look in &looks {
+            let how = |layout| (layout, DetectionPath::Compute);
+            let indexed = picture_on(gpu(), &mesh, look, how(Layout::Indexed));
+            let replicated = picture_on(gpu(), &mesh, look, how(Layout::Replicated));
+            assert_eq!(difference(&indexed, &replicated), 0, "{name}");
+            let chunks = picture_on(&small, &mesh, look, how(Layout::Replicated));
+            assert_eq!(difference(&indexed, &chunks), 0, "{name} in chunks");
+        }
+    }
+}
+
 /// Views with more strokes than there is room for: the rest comes from the list.
 #[test]
 fn strokes_without_room_are_drawn_all_the_same() {

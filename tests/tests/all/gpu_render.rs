@@ -85,6 +85,46 @@ fn golden_models() {
     }
 }
 
+/// Linked strokes: tapered, dashed behind what hides them, of two brushes, by an
+/// unsteady hand, and with the corners that one wants.
+#[test]
+fn golden_linked() {
+    for (golden, model, name, settings) in [
+        ("torus_knot-linked", "torus_knot", "ink", &["strokes.width=5", "strokes.taper=25"][..]),
+        ("torus_knot-linked-watercolor", "torus_knot", "watercolor", &[]),
+        ("wave_blob-linked-charcoal", "wave_blob", "charcoal", &["strokes.wobble=3,40"]),
+        (
+            "bracket-linked-dashes",
+            "bracket",
+            "hidden-line",
+            &["hidden.linked=true", "hidden.brush=none", "hidden.dash=8,5", "strokes.width=3"],
+        ),
+        (
+            "cube-linked-mitred",
+            "cube",
+            "ink",
+            &[
+                "strokes.width=12",
+                "strokes.opacity=0.5",
+                "strokes.join=mitred",
+                "strokes.corner=none",
+                "strokes.ends=flat",
+            ],
+        ),
+        (
+            "cylinder-linked-curves",
+            "cylinder",
+            "ink",
+            &["strokes.width=8", "strokes.width-curve=0.2,1,0.2", "strokes.overshoot=8"],
+        ),
+    ] {
+        let mesh = own_model(model);
+        let camera = Camera::default_view(&mesh.bounds);
+        let look = technique(name, &[&["strokes.linked=true"], settings].concat());
+        check_golden(golden, &picture(&mesh, &camera, &look, 256, 4));
+    }
+}
+
 #[test]
 fn golden_pen() {
     for name in ["bracket", "plane_with_hole"] {

@@ -50,7 +50,7 @@ pub struct PathStyle {
     /// How strokes end.
     pub end: End,
     /// Strokes are cut where they turn by more than this angle, in radians; more than
-    /// half a turn for never.
+    /// half a turn for never. Contours are cut at their cusps in any case.
     pub corner_rad: f32,
     /// Whether a stroke ends where it is hidden and another begins where it comes out;
     /// else it goes on unseen.
