@@ -159,7 +159,8 @@ struct PathPoint {
 
 // Flags of points: no segment comes before it, none after it; it keeps its place;
 // strokes are cut there; nothing hides it; it is on a contour; it is the place where
-// a loop was cut; what hides it is no further in front than a line is wide.
+// a loop was cut; what hides it is no further in front than a line is wide; the path
+// turns there.
 const POINT_STARTS: u32 = 1u;
 const POINT_ENDS: u32 = 2u;
 const POINT_SPLITS: u32 = 4u;
@@ -167,6 +168,7 @@ const POINT_IS_VISIBLE: u32 = 8u;
 const POINT_ON_CONTOUR: u32 = 16u;
 const POINT_ON_SEAM: u32 = 32u;
 const POINT_IS_GRAZED: u32 = 64u;
+const POINT_IS_CORNER: u32 = 128u;
 const DRAW_SHIFT: u32 = 8u;
 
 // A stroke: from the first segment to the last one, and from arc length to arc length.
@@ -206,5 +208,7 @@ const JOINS_ROUND: u32 = 3u;
 const JOINS_MITRED: u32 = 4u;
 // Without a line between the two: one of them is shorter than the other is wide.
 const JOINS_LOOSELY: u32 = 5u;
+// Round about the line of a one-sided stroke, to meet another one at a corner.
+const ENDS_AROUND: u32 = 6u;
 const NOT_DRAWN: u32 = 15u;
 const IS_INSIDE: u32 = 1024u;

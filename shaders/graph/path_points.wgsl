@@ -108,6 +108,7 @@ fn flags_of(element: u32, path: u32, is_start: bool, is_end: bool) -> u32 {
         let starts = (kind & BREAK) != 0u || at_first;
         return select(0u, POINT_STARTS, starts)
             | select(0u, POINT_SPLITS, (kind & SPLIT) != 0u)
+            | select(0u, POINT_IS_CORNER, (kind & CORNER) != 0u)
             | select(0u, POINT_ON_SEAM, at_first && is_seam);
     }
     if is_end {

@@ -113,7 +113,12 @@ fn ribbon_of(index: u32) -> Ribbon {
         }
     }
     let is_ring = extent.is_closed && part.count == 1.0;
+    let beside = side_of(style, here.flags) & 3u;
     for (var side = 0u; side < 2u; side++) {
+        let splits = (points[index + side].flags & POINT_SPLITS) != 0u;
+        if splits && ends[side] == ENDS_ROUND && beside != 0u {
+            ends[side] = ENDS_AROUND;
+        }
         let is_whole = select(here.cut.y == 1.0, here.cut.x == 0.0, side == 0u);
         if !is_whole {
             // Hidden from here on; the stroke itself may go on.
@@ -127,9 +132,21 @@ fn ribbon_of(index: u32) -> Ribbon {
                 ends[side] = JOINS_ROUND + style.join;
                 let across = vec2f(-direction.y, direction.x);
                 joins[side] = normalize(vec2f(dot(join, direction), dot(join, across)));
-                let shortest_px = min(length_px, other_px);
                 // As far as the inner side of the turn lies before the joint.
-                if shortest_px < (widest_px + 1.0) * abs(joins[side].y) {
+                let inner_px =
+                    (widest_px + 1.0) * abs(joins[side].y) / max(joins[side].x, 1e-3);
+                var shortest_px = min(length_px, other_px);
+                // The two points of the joint; one, but where a loop was cut.
+                let ends_at = select(index + 1u, other[side] + 1u, side == 0u);
+                let begins_at = select(other[side], index, side == 0u);
+                let is_corner = (points[begins_at].flags & POINT_IS_CORNER) != 0u;
+                if shortest_px < inner_px && is_corner {
+                    shortest_px = min(
+                        straight_before(ends_at, inner_px),
+                        straight_behind(begins_at, inner_px),
+                    );
+                }
+                if shortest_px < inner_px {
                     ends[side] = JOINS_LOOSELY;
                 }
             } else {
@@ -223,6 +240,33 @@ fn curve_at(curve: array<vec4f, 2>, t: f32) -> f32 {
 // Of a difference of arc lengths, which may be negative.
 fn px_of_arc(arc: u32) -> f32 {
     return f32(bitcast<i32>(arc)) / ARC_PER_PX;
+}
+
+// How far the path goes back from a corner until it turns again, as far as is wanted.
+fn straight_before(joint: u32, wanted_px: f32) -> f32 {
+    var length_px = 0.0;
+    var at = joint;
+    while length_px < wanted_px && (points[at].flags & POINT_STARTS) == 0u {
+        at -= 1u;
+        length_px += distance(drawn_place(at), drawn_place(at + 1u));
+        if (points[at].flags & POINT_IS_CORNER) != 0u {
+            break;
+        }
+    }
+    return length_px;
+}
+
+fn straight_behind(joint: u32, wanted_px: f32) -> f32 {
+    var length_px = 0.0;
+    var at = joint;
+    while length_px < wanted_px && (points[at].flags & POINT_ENDS) == 0u {
+        at += 1u;
+        length_px += distance(drawn_place(at - 1u), drawn_place(at));
+        if (points[at].flags & POINT_IS_CORNER) != 0u {
+            break;
+        }
+    }
+    return length_px;
 }
 
 fn width_of(style: PathUniform, depth: f32) -> f32 {

@@ -79,10 +79,7 @@ fn overhang(kind: u32, reach: f32, join: vec2f) -> f32 {
     if kind == ENDS_POINTED {
         return 2.0 * reach;
     }
-    if kind == ENDS_ROUND {
-        return reach;
-    }
-    if kind == JOINS_LOOSELY {
+    if kind == ENDS_ROUND || kind == ENDS_AROUND || kind == JOINS_LOOSELY {
         return reach;
     }
     // As far as its outer side is from the line that halves the angle.
@@ -116,6 +113,12 @@ fn ribbon_fragment(in: RibbonVarying) -> @location(0) vec4f {
             let gone = 0.5 * beyond * select(0.5, 1.0, side == 0u);
             widest = max(reach - gone, 0.0);
             nearest_off = select(gone, 0.0, side == 0u);
+        } else if kind == ENDS_ROUND && side != 0u {
+            // A half disk over the width, which lies beside the line.
+            let chord = sqrt(max(half_width * half_width - beyond * beyond, 0.0));
+            nearest_off = half_width - chord;
+            widest = half_width + chord;
+            coverage = clamp(half_width - beyond + 0.5, 0.0, 1.0);
         } else if kind != JOINS_MITRED || is_past_limit(in.joins, at_end) {
             off = length(vec2f(beyond, across));
         }

@@ -275,7 +275,7 @@ fn structs_in_buffers_are_laid_out_alike_and_found_on_both_sides() {
 }
 
 /// Constants of one side only: how the shader works inside.
-const OF_SHADERS: [&str; 45] = [
+const OF_SHADERS: [&str; 47] = [
     "BEHIND",
     "SCAN_WIDTH",
     "EXPAND_WIDTH",
@@ -309,6 +309,8 @@ const OF_SHADERS: [&str; 45] = [
     "FOLD",
     "KEPT",
     "FOLD_STEPS",
+    "ENDS_AROUND",
+    "POINT_IS_CORNER",
     "LOOP_PART",
     "LEAST_BRIDGED_PX",
     "SHARED_PX",
