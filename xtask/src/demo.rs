@@ -6,7 +6,8 @@ use std::process::Command;
 use crate::failure::Failure;
 use crate::{adapter, programs};
 
-const TECHNIQUES: [&str; 6] = ["ink", "pen", "charcoal", "watercolor", "fur", "hidden-line"];
+const TECHNIQUES: [&str; 7] =
+    ["ink", "pen", "charcoal", "watercolor", "fur", "hidden-line", "linked"];
 
 pub(crate) fn run() -> Result<(), Failure> {
     let root = programs::workspace_root();

@@ -10,7 +10,7 @@ use crate::gpu_time::GpuTimer;
 use crate::graph::buffers::RIBBON_DRAWS;
 use crate::graph::coverage::CHANNELS;
 use crate::look::Visibility;
-use crate::object::{Object, ObjectPart};
+use crate::object::{Object, ObjectPart, SeenBox};
 use crate::renderer::{DrawVertices, PASS_NAMES, PreparedDraw, Renderer};
 use crate::silhouette::{NO_OBJECT, StencilValues};
 use crate::stroke_indices::IndexKey;
@@ -243,6 +243,24 @@ impl FrameEncoder<'_> {
         self.batches().zip(textures).map(group).collect()
     }
 
+    /// The part of the picture that linked strokes can touch: left, top, width, height.
+    fn touched(&self, draws: &[LinkedDraw]) -> [u32; 4] {
+        let size = self.targets.size;
+        let everything = [0, 0, size[0], size[1]];
+        let mut touched: Option<SeenBox> = None;
+        let mut reach_px: f32 = 0.0;
+        for linked in draws {
+            for &object in &linked.objects {
+                let object = self.objects[object];
+                let reach = object.look.draws[linked.draw].reach_px;
+                let Some((seen, reach)) = object.seen.zip(reach) else { return everything };
+                reach_px = reach_px.max(reach);
+                touched = Some(touched.map_or(seen, |touched| touched.union(&seen)));
+            }
+        }
+        touched.map_or(everything, |touched| touched.pixels(reach_px, size))
+    }
+
     /// What the steps say, in order.
     fn draw_steps(&self, pass: &mut wgpu::RenderPass, laid: &[wgpu::BindGroup], values: &[u32]) {
         let mut laid = laid.iter();
@@ -253,8 +271,14 @@ impl FrameEncoder<'_> {
                 }
                 DrawStep::Linked(draws) => {
                     let pipelines = self.renderer.graph.as_ref();
-                    if let Some((pipelines, group)) = pipelines.zip(laid.next()) {
+                    let [left, top, width, height] = self.touched(draws);
+                    let composite = pipelines.zip(laid.next());
+                    // Objects beside the picture touch nothing of it.
+                    if let Some((pipelines, group)) = composite.filter(|_| width * height > 0) {
+                        pass.set_scissor_rect(left, top, width, height);
                         pipelines.coverage.record_composite(pass, group, draws.len());
+                        let [width, height] = self.targets.size;
+                        pass.set_scissor_rect(0, 0, width, height);
                     }
                     // What found no room to be linked.
                     for linked in draws {

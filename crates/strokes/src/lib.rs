@@ -11,8 +11,10 @@
 //!                                                       |
 //!     detect: facing bit a face -> live edges by layer  |  each frame
 //!     expand: the vertices of each live stroke, once    |
+//!     link:   or chains of edges, for linked strokes    |
 //!     fill:   depth, a flat colour, stencil             |
-//!     strokes: hidden, visible, silhouettes             v
+//!     paths:  chains to ribbons, by the depth           |
+//!     coverage, strokes: hidden, visible, silhouettes   v
 //! ```
 //!
 //! Each primitive is one file with the same skeleton: an `XPipeline`, built once

@@ -17,6 +17,7 @@ use edgemesh::oracle::stroke_quad::Placement;
 use edgemesh::oracle::stroke_segment::{LineKind, Parameterization};
 
 use crate::brush::Brush;
+use crate::graph::path_style::MITRE_LIMIT;
 pub use crate::graph::path_style::PathStyle;
 
 /// Layers that one object can have: one a class. WGSL twin: the constant of this
@@ -77,6 +78,16 @@ impl Default for StrokeStyle {
 }
 
 impl StrokeStyle {
+    /// How far linked strokes lie from their lines at most, in pixels.
+    pub(crate) fn reach_px(&self) -> Option<f32> {
+        let Width::Pixels(width) = self.width else { return None };
+        let path = self.path.as_ref()?;
+        let widest = width * path.width_curve.into_iter().fold(0.0, f32::max);
+        // Mitres and points go beyond the width.
+        let beyond = path.overshoot_px + path.wobble_px + path.jitter_px;
+        Some(MITRE_LIMIT * widest + beyond + 2.0)
+    }
+
     /// Whether edges are linked into strokes.
     pub(crate) const fn is_linked(&self) -> bool {
         self.path.is_some() && !matches!(self.kind, LineKind::Thin | LineKind::Fin)

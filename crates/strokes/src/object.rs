@@ -3,9 +3,11 @@
 use std::sync::Arc;
 
 use edgemesh::camera::View;
+use edgemesh::edge_mesh::Bounds;
 use edgemesh::index::to_u32;
+use edgemesh::oracle::spine::to_pixels;
 use edgemesh::oracle::stroke_segment::LineKind;
-use glam::{DMat4, Vec2};
+use glam::{DMat4, Mat4, Vec2, Vec3, Vec4};
 
 use crate::detect::DetectDraw;
 use crate::frame::{ObjectUniform, bind_buffers, uniform_buffer};
@@ -36,6 +38,9 @@ pub struct Object {
     pub(crate) graph: Option<ObjectGraph>,
     /// Whether what no view changes is still to be worked out.
     pub(crate) is_stale: bool,
+    /// Where the object is on the screen; nowhere known for sure where a part of its
+    /// box is behind the eye.
+    pub(crate) seen: Option<SeenBox>,
     /// False where the transform flattens the object to nothing.
     pub(crate) is_placed: bool,
     uniform: wgpu::Buffer,
@@ -91,6 +96,49 @@ pub(crate) struct ObjectGraph {
     pub(crate) path: PathDraw,
     /// `@group(3)` of its ribbons.
     pub(crate) ribbons: wgpu::BindGroup,
+}
+
+/// A box on the screen, in pixels from its upper left corner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SeenBox {
+    pub(crate) min: Vec2,
+    pub(crate) max: Vec2,
+}
+
+impl SeenBox {
+    /// Around the corners of `bounds`.
+    fn of(clip_from_object: &Mat4, bounds: &Bounds, viewport_px: Vec2) -> Option<Self> {
+        let [low, high] = [Vec3::from(bounds.min), Vec3::from(bounds.max)];
+        let mut seen: Option<Self> = None;
+        for corner in 0..8_u32 {
+            let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
+            let clip = *clip_from_object * Vec4::new(pick(0), pick(1), pick(2), 1.0);
+            if clip.w <= 0.0 || clip.z > clip.w {
+                return None;
+            }
+            let px = to_pixels(clip, viewport_px) * Vec2::new(1.0, -1.0) + 0.5 * viewport_px;
+            let point = Self { min: px, max: px };
+            seen = Some(seen.map_or(point, |seen| seen.union(&point)));
+        }
+        seen
+    }
+
+    /// Around both.
+    pub(crate) fn union(&self, other: &Self) -> Self {
+        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+
+    /// The pixels within `reach_px` of it, on a picture of this size: left, top, width
+    /// and height.
+    pub(crate) fn pixels(&self, reach_px: f32, size: [u32; 2]) -> [u32; 4] {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+        let clamped = |value: f32, side: u32| (value.max(0.0) as u32).min(side);
+        let [width, height] = size;
+        let (min, max) = (self.min - reach_px, self.max + reach_px);
+        let (left, top) = (clamped(min.x.floor(), width), clamped(min.y.floor(), height));
+        let (right, bottom) = (clamped(max.x.ceil(), width), clamped(max.y.ceil(), height));
+        [left, top, right.saturating_sub(left), bottom.saturating_sub(top)]
+    }
 }
 
 /// What one chunk of the object needs.
@@ -152,6 +200,7 @@ impl Object {
             look,
             is_stale: true,
             is_placed: true,
+            seen: None,
             uniform,
         }
     }
@@ -161,6 +210,9 @@ impl Object {
         let uniform =
             ObjectUniform::new(view, viewport_px, self.world_from_object, &self.mesh.bounds);
         self.is_placed = uniform.is_some();
+        self.seen = uniform.and_then(|uniform| {
+            SeenBox::of(&uniform.clip_from_object(), &self.mesh.bounds, viewport_px)
+        });
         if let Some(uniform) = uniform {
             gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         }

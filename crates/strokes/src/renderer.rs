@@ -1,5 +1,5 @@
-//! One frame: detect, expand, fill, strokes, in one command buffer and without
-//! reading anything back.
+//! One frame in one command buffer, without reading anything back: detect, link,
+//! expand, fill, paths, coverage, strokes. What draws is in [`crate::frame_encoder`].
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -93,6 +93,9 @@ pub(crate) struct PreparedDraw {
     pub(crate) is_linked: bool,
     /// Premultiplied.
     pub(crate) color: [f32; 4],
+    /// How far ink lies from the lines at most, in pixels; not known where widths are
+    /// those of the world.
+    pub(crate) reach_px: Option<f32>,
     pub(crate) is_textured: bool,
     pub(crate) style: wgpu::BindGroup,
     pub(crate) vertices: DrawVertices,
@@ -198,6 +201,7 @@ impl Renderer {
                 lies_over_surface,
                 is_linked,
                 color: draw.style.color,
+                reach_px: draw.style.reach_px(),
                 is_textured: draw.style.brush.is_some(),
                 style,
                 vertices,

@@ -18,13 +18,14 @@ use strokes::look::{Layer, Look, StrokeStyle, Width};
 use crate::stroke_setting::{SettingError, StrokeSetting, Switched, parse_color, parse_number};
 
 /// The techniques, by name, with what each shows.
-pub const TECHNIQUES: [(&str, &str); 6] = [
+pub const TECHNIQUES: [(&str, &str); 7] = [
     ("ink", "plain solid strokes over a flat white fill"),
     ("pen", "the strokes of a pen, textured along each edge"),
     ("charcoal", "broad grainy strokes"),
     ("watercolor", "wide translucent strokes with darker rims"),
     ("fur", "tufts of cartoon fur around the model, a pen in its valleys"),
     ("hidden-line", "solid lines where they are visible, dashes where they are hidden"),
+    ("linked", "edges linked into long strokes that grow and shrink"),
 ];
 
 /// The passes whose variables can be set.
@@ -238,6 +239,13 @@ fn settings_of(name: &str) -> Option<&'static [&'static str]> {
             "valley.show=true",
             "valley.width=3",
             "valley.brush=pen",
+        ],
+        "linked" => &[
+            "strokes.linked=true",
+            "hidden.linked=true",
+            "silhouette.linked=true",
+            "strokes.width=5",
+            "strokes.taper=30",
         ],
         "hidden-line" => &[
             "hidden.show=true",

@@ -41,7 +41,8 @@ pub(super) struct RenderCommand {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = parse_size)]
     size: [u32; 2],
-    /// How it looks: ink, pen, charcoal, watercolor, fur or hidden-line
+    /// How it looks: ink, pen, charcoal, watercolor, fur, hidden-line
+    /// or linked
     #[arg(long, value_name = "NAME", default_value = "ink")]
     technique: String,
     /// Set a variable of the technique; repeatable
@@ -134,6 +135,7 @@ const EXAMPLES: &str = "Examples:\n  \
     viewer render part.obj -o part.png --technique hidden-line --set hidden.color=#c04000\n  \
     viewer render scene.toml -o scene.png --technique pen\n  \
     viewer render bunny.obj -o fur.png --technique fur --set contour.width=40\n  \
+    viewer render bunny.obj -o bunny.png --technique linked --set strokes.wobble=3,60\n  \
     viewer render part.obj -o part.png --eye 3,2,5 --ortho --crease 20 --stats -\n  \
     viewer render part.obj -o turn.gif --turntable 72 --size 512x512";
 
