@@ -191,13 +191,16 @@ struct Ribbon {
     join1: vec2f,
     // Dashes so far at both ends, in periods.
     dash: vec2f,
+    // Depth of the line at both ends.
+    depth: vec2f,
     // Of a period, how much is ink; 1 for whole lines.
     ink: f32,
     // At both ends, as fractions.
     opacity: u32,
     // How it begins and how it ends, four bits each; two bits for its side; IS_INSIDE.
     ends: u32,
-    padding: u32,
+    // What is filled so many pixels before the line hides it; 0 for never.
+    near_px: f32,
 }
 
 // How a segment begins and ends.

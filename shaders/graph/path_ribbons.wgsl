@@ -191,6 +191,14 @@ fn ribbon_of(index: u32) -> Ribbon {
     ribbon.u = brush_of(style, arcs, range, widest_px, is_ring);
     ribbon.half_width = half_widths;
     let period_px = style.dash_px.x + style.dash_px.y;
+    ribbon.depth = vec2f(
+        mix(here.depth, next.depth, here.cut.x), mix(here.depth, next.depth, here.cut.y),
+    );
+    if style.visibility != HIDDEN_STROKES {
+        // Beside a contour lies none of its own surface; under other strokes it may rise.
+        let is_beside = beside != 0u && (side_of(style, here.flags) & (IS_INSIDE >> 8u)) == 0u;
+        ribbon.near_px = select(6.0 * widest_px + 12.0, widest_px + 4.0, is_beside);
+    }
     ribbon.ink = 1.0;
     if period_px > 0.0 {
         // Whole dashes, one of them in the middle.

@@ -10,7 +10,11 @@
 //        |  (   a ------------> b   )  |    ^
 //        |   '---------------------'   |    '-> along
 //        +-----------------------------+
+//
+// Whether a stroke is visible was asked along its line. What lies well before the line
+// at a fragment hides it there: a wide stroke ends where another body begins.
 #import <common/frame.wgsl>
+#import <common/fill_depth.wgsl>
 #import <common/stroke_graph.wgsl>
 
 // Rust twin: MITRE_LIMIT in crates/strokes/src/graph/path_style.rs.
@@ -35,6 +39,8 @@ struct RibbonVarying {
     @location(4) @interpolate(flat) joins: vec4f,
     @location(5) @interpolate(flat) ends: u32,
     @location(6) @interpolate(flat) dash_and_ink: vec3f,
+    // Depth of the line at both ends, and how far before it things hide it.
+    @location(7) @interpolate(flat) depth_and_near: vec3f,
 }
 
 @vertex
@@ -49,6 +55,7 @@ fn ribbon_vertex(@builtin(vertex_index) vertex: u32) -> RibbonVarying {
     out.length_px = length(along);
     let direction = along / out.length_px;
     out.half_width_px = ribbon.half_width;
+    out.depth_and_near = vec3f(ribbon.depth, ribbon.near_px);
     out.dash_and_ink = vec3f(ribbon.dash, ribbon.ink);
     out.u_and_opacity = vec4f(ribbon.u, unpack2x16unorm(ribbon.opacity));
     out.joins = vec4f(ribbon.join0, ribbon.join1);
@@ -153,6 +160,10 @@ fn ribbon_fragment(in: RibbonVarying) -> @location(0) vec4f {
         let nearest = min(from_middle, 1.0 - from_middle);
         coverage *= clamp((0.5 * in.dash_and_ink.z - nearest) / max(per_px, 1e-6) + 0.5, 0.0, 1.0);
     }
+    if in.depth_and_near.z > 0.0 && coverage > 0.0 {
+        let depth = mix(in.depth_and_near.x, in.depth_and_near.y, t);
+        coverage *= share_in_front(depth, in.depth_and_near.z, vec2i(in.position.xy));
+    }
     let opacity = mix(in.u_and_opacity.z, in.u_and_opacity.w, t);
     coverage *= opacity;
     if IS_TEXTURED {
@@ -169,6 +180,31 @@ fn ribbon_fragment(in: RibbonVarying) -> @location(0) vec4f {
         coverage *= textureSampleLevel(brush, brush_sampler, vec2f(u, v), level).a;
     }
     return vec4f(coverage);
+}
+
+// Of the samples of a pixel, how many nothing covers so far before a depth.
+fn share_in_front(depth: f32, near_px: f32, pixel: vec2i) -> f32 {
+    let here = distance_of(depth);
+    let units_a_px = dot(frame.projection.zw, vec2f(here, 1.0)) / frame.px_per_unit;
+    let nearest = here - near_px * units_a_px;
+    let filled = filled_depths(pixel);
+    let behind = vec4f(
+        f32(distance_of(filled.x) >= nearest),
+        f32(distance_of(filled.y) >= nearest),
+        f32(distance_of(filled.z) >= nearest),
+        f32(distance_of(filled.w) >= nearest),
+    );
+    return dot(behind, vec4f(0.25));
+}
+
+// The distance from the eye along the line of sight; beyond everything where nothing
+// was filled.
+fn distance_of(depth: f32) -> f32 {
+    if depth <= 0.0 {
+        return 1e30;
+    }
+    let clip = frame.projection;
+    return (clip.y - depth * clip.w) / (depth * clip.z - clip.x);
 }
 
 fn is_past_limit(joins: vec4f, at_end: bool) -> bool {

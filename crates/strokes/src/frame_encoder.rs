@@ -194,7 +194,10 @@ impl FrameEncoder<'_> {
                 timestamp_writes: timer.map(|timer| timer.compute(5)),
             });
         }
-        let Some(pipelines) = &self.renderer.graph else { return };
+        let Some((pipelines, frame)) = self.renderer.graph.as_ref().zip(self.frame_fill.as_ref())
+        else {
+            return;
+        };
         for (batch, (draws, texture)) in self.batches().zip(textures).enumerate() {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some(PASS_NAMES[5]),
@@ -210,7 +213,7 @@ impl FrameEncoder<'_> {
                 timestamp_writes: timer.filter(|_| batch == 0).map(|timer| timer.render(5)),
                 ..Default::default()
             });
-            pass.set_bind_group(0, &self.renderer.frame.bind_group, &[]);
+            pass.set_bind_group(0, frame, &[]);
             self.renderer.set_indices(&mut pass, IndexKey::Quads);
             for (channel, linked) in draws.iter().enumerate() {
                 for object in linked.objects.iter().map(|&object| self.objects[object]) {

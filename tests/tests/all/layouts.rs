@@ -187,7 +187,20 @@ fn graph_layouts() -> BTreeMap<String, Layout> {
         layout!(Joint { cosine, kind, point_count, first_point }),
         layout!(PathPoint { position, offset, depth, arc, path, flags, cut, stroke, padding }),
         layout!(Stroke { first, last, start_arc, end_arc }),
-        layout!(Ribbon { a, b, u, half_width, join0, join1, dash, ink, opacity, ends, padding }),
+        layout!(Ribbon {
+            a,
+            b,
+            u,
+            half_width,
+            join0,
+            join1,
+            dash,
+            depth,
+            ink,
+            opacity,
+            ends,
+            near_px
+        }),
     ])
 }
 

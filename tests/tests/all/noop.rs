@@ -51,7 +51,7 @@ fn every_technique_builds_its_pipelines_within_the_default_limits() {
                 let options = RendererOptions { layout, path, formats };
                 let mut renderer = Renderer::new(&gpu, options).unwrap();
                 let look = renderer.prepare(&gpu, &look).unwrap();
-                let buffers = MeshBuffers::new(&gpu.device, &tetrahedron(), layout).unwrap();
+                let buffers = MeshBuffers::with_links(&gpu.device, &tetrahedron(), layout).unwrap();
                 let _ = renderer.object(&gpu, &Arc::new(buffers), &look);
             }
         }

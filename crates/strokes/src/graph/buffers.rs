@@ -7,7 +7,7 @@
 //! | nodes before, chains | 4 and 8 |
 //! | sums | 8 for 16 items |
 //! | joints | 16 an edge that can be linked |
-//! | points, strokes, ribbons | 48, 16 and 72 a point (two for each edge that can be linked, and 65,536) |
+//! | points, strokes, ribbons | 48, 16 and 80 a point (two for each edge that can be linked, and 65,536) |
 
 use bytemuck::{Pod, Zeroable};
 use wgpu::BufferUsages;
@@ -237,14 +237,16 @@ pub struct Ribbon {
     pub join1: [f32; 2],
     /// Dashes so far at both ends, in periods.
     pub dash: [f32; 2],
+    /// Depth of its line at both ends.
+    pub depth: [f32; 2],
     /// Of a period, how much is ink; 1 for whole lines.
     pub ink: f32,
     /// Its opacity at both ends, as fractions of 16 bits.
     pub opacity: u32,
     /// How it begins and ends, and on which side it lies.
     pub ends: u32,
-    /// Unused.
-    pub padding: u32,
+    /// What is filled so many pixels before the line hides it; 0 for never.
+    pub near_px: f32,
 }
 
 impl Ribbon {

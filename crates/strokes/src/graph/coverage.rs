@@ -71,8 +71,10 @@ impl CoveragePipeline {
         };
         let composite_layout =
             make("composite", &[uniform_entry(0, ShaderStages::FRAGMENT), texture]);
-        let module = ShaderSource::embedded("graph/ribbon.wgsl")?.module(device, "ribbons");
-        let groups = layouts.groups(None, Some(&ribbons_layout));
+        let source = ShaderSource::embedded_over("graph/ribbon.wgsl", formats)?;
+        let module = source.module(device, "ribbons");
+        let mut groups = layouts.groups(None, Some(&ribbons_layout));
+        groups[0] = Some(&layouts.frame_fill);
         let ribbons = (0..CHANNELS)
             .map(|channel| {
                 [false, true].map(|is_textured| {
