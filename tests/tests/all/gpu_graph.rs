@@ -7,9 +7,11 @@ use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::camera::Camera;
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::face_edges::FaceEdges;
+use edgemesh::model::Model;
 use edgemesh::oracle::feature::{EdgeClass, Line, LineBits, NO_LAYER};
 use edgemesh::oracle::layer_chain::{LayerChain, LayerLinks, StaticLinks};
 use edgemesh::read::read_model;
+use edgemesh::report::Report;
 use glam::{DMat4, DVec3};
 use strokes::gpu::Gpu;
 use strokes::graph::buffers::{BACKWARD, CUT_END, CUT_START, NO_NODE, ON_LOOP, UNSEEN};
@@ -215,6 +217,48 @@ fn chains_of_a_real_model_run_across_chunks() {
     for view in [5, 50, 100] {
         linker.check("bunny", &camera_of(&mesh, view));
     }
+}
+
+/// An umbrella of thousands of ribs, and a band that has no two sides.
+#[test]
+fn hubs_and_bands_without_sides_are_linked_as_on_the_cpu() {
+    let ribs = 3000_u32;
+    let rim = (0..ribs).map(|rib| {
+        let angle = f64::from(rib) / f64::from(ribs) * std::f64::consts::TAU;
+        // Up and down, so that many ribs are contours from the side.
+        let height = if rib % 2 == 0 { 0.3 } else { -0.3 };
+        #[expect(clippy::cast_possible_truncation, reason = "a test")]
+        [angle.cos(), height, angle.sin()].map(|x| x as f32)
+    });
+    let positions: Vec<[f32; 3]> = rim.chain([[0.0, 0.0, 0.0]]).collect();
+    let faces: Vec<[u32; 3]> = (0..ribs).map(|rib| [rib, ribs, (rib + 1) % ribs]).collect();
+    check_faces("umbrella", &positions, &faces);
+
+    let around = |at: u32| {
+        let angle = f64::from(at) / 40.0 * std::f64::consts::TAU;
+        [-0.4, 0.4].map(|out: f64| {
+            let radius = 1.0 + out * (angle / 2.0).cos();
+            #[expect(clippy::cast_possible_truncation, reason = "a test")]
+            [radius * angle.cos(), radius * angle.sin(), out * (angle / 2.0).sin()]
+                .map(|x| x as f32)
+        })
+    };
+    let positions: Vec<[f32; 3]> = (0..40).flat_map(around).collect();
+    let quads = (0..40_u32).map(|at| {
+        let [c, d] = if at == 39 { [1, 0] } else { [2 * at + 2, 2 * at + 3] };
+        [[2 * at, 2 * at + 1, d], [2 * at, d, c]]
+    });
+    check_faces("band", &positions, &quads.flatten().collect::<Vec<_>>());
+}
+
+fn check_faces(name: &str, positions: &[[f32; 3]], faces: &[[u32; 3]]) {
+    let polygons: Vec<&[u32]> = faces.iter().map(|face| &face[..]).collect();
+    let model = Model::from_polygons(positions, &polygons);
+    let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
+    let mut linker = Linker::new(gpu(), &mesh, &linked_look(), Layout::Indexed);
+    let contours: usize =
+        (0..VIEWS).step_by(9).map(|view| linker.check(name, &camera_of(&mesh, view))).sum();
+    assert!(contours > 10, "{name}: {contours} contours");
 }
 
 /// A mirror keeps the front faces, and with them the chains.
