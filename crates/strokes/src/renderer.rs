@@ -1,5 +1,6 @@
 //! One frame in one command buffer, without reading anything back: detect, link,
-//! expand, fill, paths, coverage, strokes. What draws is in [`crate::frame_encoder`].
+//! expand, fill, paths, coverage, strokes. What draws is in
+//! `frame_encoder.rs`.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;

@@ -22,7 +22,7 @@ use crate::targets::TargetFormats;
 pub struct PathUniform {
     /// The layer.
     pub layer: u32,
-    /// A [`Visibility`].
+    /// A [`crate::look::Visibility`].
     pub visibility: u32,
     /// A [`edgemesh::oracle::stroke_quad::Placement`].
     pub placement: u32,
