@@ -36,6 +36,7 @@ fn link_bases() {
         if draw < graph.draw_count && graph.draws[draw].y != 0u {
             let layer = graph.draws[draw].x;
             paths += header.layer_first[layer + 1u] - header.layer_first[layer];
+            paths = min(paths, graph.path_capacity);
         }
     }
     header.node_count = nodes;

@@ -4,7 +4,7 @@
 // A join belongs to each of its segments up to the line that halves its angle. Where one
 // of them is too short to reach that line, both are round there and overlap: the larger
 // coverage counts.
-#import <common/path.wgsl>
+#import <common/path_extent.wgsl>
 #import <common/stroke_quad.wgsl>
 
 @compute @workgroup_size(GROUP)
@@ -21,58 +21,6 @@ fn write_ribbons(@builtin(global_invocation_id) id: vec3u) {
         ribbon = ribbon_of(index);
     }
     ribbons[index] = ribbon;
-}
-
-// A stroke as a whole, with what lies beyond the seam of a loop.
-struct Extent {
-    start_arc: u32,
-    end_arc: u32,
-    first: u32,
-    last: u32,
-    // The segment before the first and the one behind the last, or NONE.
-    before_first: u32,
-    behind_last: u32,
-    is_closed: bool,
-}
-
-fn extent_of(stroke_index: u32) -> Extent {
-    let stroke = strokes[stroke_index];
-    var extent = Extent(
-        stroke.start_arc, stroke.end_arc, stroke.first, stroke.last, NONE, NONE, false,
-    );
-    let start = points[stroke.first];
-    let end = points[stroke.last + 1u];
-    let draw = start.flags >> DRAW_SHIFT;
-    let chain = elements[element_of(start.path, draw)];
-    let first_path = header.draw_first[draw] + chain.first - header.layer_first[paths[draw].layer];
-    let last_joint = joints[first_path + (chain.count & ~ON_LOOP) - 1u];
-    let first_segment = joints[first_path].first_point;
-    let last_segment = last_joint.first_point + last_joint.point_count - 2u;
-    let begins_on_seam = stroke.first == first_segment
-        && (start.flags & POINT_ON_SEAM) != 0u && stroke.start_arc == start.arc;
-    if begins_on_seam {
-        let partner = points[last_segment].stroke;
-        let end_arc = points[last_segment + 1u].arc;
-        let meets = strokes[partner].last == last_segment && strokes[partner].end_arc == end_arc;
-        if partner == stroke_index && meets {
-            extent.is_closed = true;
-        } else if meets {
-            extent.start_arc = start.arc - (end_arc - strokes[partner].start_arc);
-        }
-        extent.before_first = select(NONE, last_segment, meets);
-    }
-    let ends_on_seam = stroke.last == last_segment
-        && (end.flags & POINT_ON_SEAM) != 0u && stroke.end_arc == end.arc;
-    if ends_on_seam {
-        let partner = points[first_segment].stroke;
-        let meets = strokes[partner].first == first_segment
-            && strokes[partner].start_arc == points[first_segment].arc;
-        if meets && partner != stroke_index {
-            extent.end_arc = end.arc + strokes[partner].end_arc - points[first_segment].arc;
-        }
-        extent.behind_last = select(NONE, first_segment, meets);
-    }
-    return extent;
 }
 
 fn ribbon_of(index: u32) -> Ribbon {
@@ -98,62 +46,11 @@ fn ribbon_of(index: u32) -> Ribbon {
     let whole_px = px_of_arc(next.arc - here.arc);
     var arcs = from_start + here.cut * whole_px;
 
-    // The directions of the segments before and behind, where the stroke has such.
-    var ends = vec2u(style.end);
-    var joins = array<vec2f, 2>(vec2f(1.0, 0.0), vec2f(1.0, 0.0));
-    var other = vec2u(
-        select(index - 1u, extent.before_first, index == extent.first),
-        select(index + 1u, extent.behind_last, index == extent.last),
-    );
-    // Where one part of a long stroke ends another begins.
-    for (var side = 0u; side < 2u; side++) {
-        if part.count > 1.0 && other[side] != NONE
-            && part_of(style, extent, other[side]).index != part.index {
-            other[side] = NONE;
-        }
-    }
+    let other = neighbours_of(style, extent, part, index);
     let is_ring = extent.is_closed && part.count == 1.0;
-    let beside = side_of(style, here.flags) & 3u;
-    for (var side = 0u; side < 2u; side++) {
-        let splits = (points[index + side].flags & POINT_SPLITS) != 0u;
-        if splits && ends[side] == ENDS_ROUND && beside != 0u {
-            ends[side] = ENDS_AROUND;
-        }
-        let is_whole = select(here.cut.y == 1.0, here.cut.x == 0.0, side == 0u);
-        if !is_whole {
-            // Hidden from here on; the stroke itself may go on.
-            ends[side] = select(ENDS_FLAT, style.end, style.is_cut_where_hidden != 0u);
-        } else if other[side] != NONE {
-            let of_other = drawn_place(other[side] + 1u) - drawn_place(other[side]);
-            let other_px = length(of_other);
-            let join = direction + of_other / max(other_px, 1e-6);
-            // A turn on the spot is an end of both.
-            if dot(join, join) > 1e-3 {
-                ends[side] = JOINS_ROUND + style.join;
-                let across = vec2f(-direction.y, direction.x);
-                joins[side] = normalize(vec2f(dot(join, direction), dot(join, across)));
-                // As far as the inner side of the turn lies before the joint.
-                let inner_px =
-                    (widest_px + 1.0) * abs(joins[side].y) / max(joins[side].x, 1e-3);
-                var shortest_px = min(length_px, other_px);
-                // The two points of the joint; one, but where a loop was cut.
-                let ends_at = select(index + 1u, other[side] + 1u, side == 0u);
-                let begins_at = select(other[side], index, side == 0u);
-                let is_corner = (points[begins_at].flags & POINT_IS_CORNER) != 0u;
-                if shortest_px < inner_px && is_corner {
-                    shortest_px = min(
-                        straight_before(ends_at, inner_px),
-                        straight_behind(begins_at, inner_px),
-                    );
-                }
-                if shortest_px < inner_px {
-                    ends[side] = JOINS_LOOSELY;
-                }
-            } else {
-                ends[side] = ENDS_ROUND;
-            }
-        }
-    }
+    let side = side_of(style, here.flags);
+    let start = meeting_of(style, index, direction, length_px, widest_px, 0u, other.x);
+    let finish = meeting_of(style, index, direction, length_px, widest_px, 1u, other.y);
 
     let stroke_px = px_of_arc(extent.end_arc - extent.start_arc);
     var range = vec2f(part.index, part.index + 1.0) * stroke_px / part.count;
@@ -173,14 +70,15 @@ fn ribbon_of(index: u32) -> Ribbon {
     let total_px = max(range.y - range.x, 1e-3);
     var half_widths = vec2f(0.0);
     var opacities = vec2f(0.0);
-    for (var side = 0u; side < 2u; side++) {
-        let depth = mix(here.depth, next.depth, select(here.cut.x, here.cut.y, side == 1u));
-        let is_even = is_ring && total_px > style.taper_px.x + style.taper_px.y;
-        let taper = select(taper_of(style, arcs[side] - range.x, total_px), 1.0, is_even);
-        let t = (arcs[side] - range.x) / total_px;
-        half_widths[side] =
+    let is_even = is_ring && total_px > style.taper_px.x + style.taper_px.y;
+    let least_px = widest_px * select(1.0, 3.0, is_ring);
+    for (var end = 0u; end < 2u; end++) {
+        let depth = mix(here.depth, next.depth, select(here.cut.x, here.cut.y, end == 1u));
+        let taper = select(taper_of(style, arcs[end] - range.x, total_px), 1.0, is_even);
+        let t = (arcs[end] - range.x) / total_px;
+        half_widths[end] =
             0.5 * width_of(style, depth) * taper * curve_at(paths[draw].width_curve, t);
-        opacities[side] = opacity_of(style, depth) * fade_of_short(style, total_px, widest_px * select(1.0, 3.0, is_ring))
+        opacities[end] = opacity_of(style, depth) * fade_of_short(style, total_px, least_px)
             * curve_at(paths[draw].opacity_curve, t);
     }
     if max(opacities.x, opacities.y) <= 0.0 {
@@ -196,7 +94,7 @@ fn ribbon_of(index: u32) -> Ribbon {
     );
     if style.visibility != HIDDEN_STROKES {
         // Beside a contour lies none of its own surface; under other strokes it may rise.
-        let is_beside = beside != 0u && (side_of(style, here.flags) & (IS_INSIDE >> 8u)) == 0u;
+        let is_beside = (side & 3u) != 0u && (side & (IS_INSIDE >> 8u)) == 0u;
         ribbon.near_px = select(6.0 * widest_px + 12.0, widest_px + 4.0, is_beside);
     }
     ribbon.ink = 1.0;
@@ -208,46 +106,84 @@ fn ribbon_of(index: u32) -> Ribbon {
             + 0.5 * ribbon.ink;
     }
     ribbon.opacity = pack2x16unorm(opacities);
-    ribbon.join0 = joins[0];
-    ribbon.join1 = joins[1];
-    ribbon.ends = ends.x | (ends.y << 4u) | (side_of(style, here.flags) << 8u);
+    ribbon.join0 = start.join;
+    ribbon.join1 = finish.join;
+    ribbon.ends = start.kind | (finish.kind << 4u) | (side << 8u);
     return ribbon;
 }
 
-// Of how many equal parts of a stroke a segment is in which.
-struct Part {
-    count: f32,
-    index: f32,
-}
-
-fn part_of(style: PathUniform, extent: Extent, index: u32) -> Part {
-    let stroke_px = px_of_arc(extent.end_arc - extent.start_arc);
-    if style.max_length_px <= 0.0 || stroke_px <= style.max_length_px {
-        return Part(1.0, 0.0);
+// The segments before and behind one, or NONE where its stroke, or its part of a long
+// one, begins and ends.
+fn neighbours_of(style: PathUniform, extent: Extent, part: Part, index: u32) -> vec2u {
+    var other = vec2u(
+        select(index - 1u, extent.before_first, index == extent.first),
+        select(index + 1u, extent.behind_last, index == extent.last),
+    );
+    for (var end = 0u; end < 2u; end++) {
+        if part.count > 1.0 && other[end] != NONE
+            && part_of(style, extent, other[end]).index != part.index {
+            other[end] = NONE;
+        }
     }
-    let count = ceil(stroke_px / style.max_length_px);
-    var middle_px = 0.5 * (px_of_arc(points[index].arc - extent.start_arc)
-        + px_of_arc(points[index + 1u].arc - extent.start_arc));
-    // Beyond the seam of a loop arc lengths start again.
-    if middle_px < 0.0 || middle_px > stroke_px {
-        middle_px = clamp(middle_px, 0.0, stroke_px);
+    return other;
+}
+
+// How a segment begins or ends.
+struct Meeting {
+    kind: u32,
+    // Unit vector of half of the turn there, along and across the segment.
+    join: vec2f,
+}
+
+// `end` is 0 where it begins and 1 where it ends; `other` the segment that it meets.
+fn meeting_of(
+    style: PathUniform,
+    index: u32,
+    direction: vec2f,
+    length_px: f32,
+    width_px: f32,
+    end: u32,
+    other: u32,
+) -> Meeting {
+    let here = points[index];
+    var meeting = Meeting(style.end, vec2f(1.0, 0.0));
+    let is_whole = select(here.cut.y == 1.0, here.cut.x == 0.0, end == 0u);
+    if !is_whole {
+        // Hidden from here on; the stroke itself may go on.
+        meeting.kind = select(ENDS_FLAT, style.end, style.is_cut_where_hidden != 0u);
+        return meeting;
     }
-    return Part(count, min(floor(middle_px / stroke_px * count), count - 1.0));
-}
-
-// A value between eight even ones, at 0 to 1 along a stroke.
-fn curve_at(curve: array<vec4f, 2>, t: f32) -> f32 {
-    let at = clamp(t, 0.0, 1.0) * 7.0;
-    let first = min(u32(at), 6u);
-    var values = curve;
-    let low = values[first / 4u][first % 4u];
-    let high = values[(first + 1u) / 4u][(first + 1u) % 4u];
-    return mix(low, high, at - f32(first));
-}
-
-// Of a difference of arc lengths, which may be negative.
-fn px_of_arc(arc: u32) -> f32 {
-    return f32(bitcast<i32>(arc)) / ARC_PER_PX;
+    if other == NONE {
+        let splits = (points[index + end].flags & POINT_SPLITS) != 0u;
+        let is_beside = (side_of(style, here.flags) & 3u) != 0u;
+        if splits && is_beside && style.end == ENDS_ROUND {
+            meeting.kind = ENDS_AROUND;
+        }
+        return meeting;
+    }
+    let of_other = drawn_place(other + 1u) - drawn_place(other);
+    let other_px = length(of_other);
+    let join = direction + of_other / max(other_px, 1e-6);
+    if dot(join, join) <= 1e-3 {
+        // A turn on the spot is an end of both.
+        meeting.kind = ENDS_ROUND;
+        return meeting;
+    }
+    let across = vec2f(-direction.y, direction.x);
+    meeting.join = normalize(vec2f(dot(join, direction), dot(join, across)));
+    // As far as the inner side of the turn lies before the joint.
+    let inner_px = (width_px + 1.0) * abs(meeting.join.y) / max(meeting.join.x, 1e-3);
+    var shortest_px = min(length_px, other_px);
+    // The two points of the joint; one, but where a loop was cut.
+    let ends_at = select(index + 1u, other + 1u, end == 0u);
+    let begins_at = select(other, index, end == 0u);
+    let is_corner = (points[begins_at].flags & POINT_IS_CORNER) != 0u;
+    if shortest_px < inner_px && is_corner {
+        shortest_px =
+            min(straight_before(ends_at, inner_px), straight_behind(begins_at, inner_px));
+    }
+    meeting.kind = select(JOINS_ROUND + style.join, JOINS_LOOSELY, shortest_px < inner_px);
+    return meeting;
 }
 
 // How far the path goes back from a corner until it turns again, as far as is wanted.
@@ -267,7 +203,8 @@ fn straight_before(joint: u32, wanted_px: f32) -> f32 {
 fn straight_behind(joint: u32, wanted_px: f32) -> f32 {
     var length_px = 0.0;
     var at = joint;
-    while length_px < wanted_px && (points[at].flags & POINT_ENDS) == 0u {
+    while length_px < wanted_px && (points[at].flags & POINT_ENDS) == 0u
+        && at + 1u < header.point_count {
         at += 1u;
         length_px += distance(drawn_place(at - 1u), drawn_place(at));
         if (points[at].flags & POINT_IS_CORNER) != 0u {
@@ -277,12 +214,23 @@ fn straight_behind(joint: u32, wanted_px: f32) -> f32 {
     return length_px;
 }
 
+// A value between eight even ones, at 0 to 1 along a stroke.
+fn curve_at(curve: array<vec4f, 2>, t: f32) -> f32 {
+    let at = clamp(t, 0.0, 1.0) * 7.0;
+    let first = min(u32(at), 6u);
+    var values = curve;
+    let low = values[first / 4u][first % 4u];
+    let high = values[(first + 1u) / 4u][(first + 1u) % 4u];
+    return mix(low, high, at - f32(first));
+}
+
 fn width_of(style: PathUniform, depth: f32) -> f32 {
     if style.is_world_width == 0u {
         return style.width;
     }
     let clip_w = dot(frame.projection.zw, vec2f(distance_of(depth), 1.0));
-    return style.width * frame.px_per_unit / clip_w;
+    // At the eye a width has no bound; more than the picture is not seen.
+    return min(style.width * frame.px_per_unit / clip_w, frame.viewport_px.y);
 }
 
 fn taper_of(style: PathUniform, arc_px: f32, total_px: f32) -> f32 {

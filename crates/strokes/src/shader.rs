@@ -42,6 +42,7 @@ pub const EMBEDDED: &[(&str, &str)] = &[
     embedded!("common/normal_cone.wgsl"),
     embedded!("common/object_limits.wgsl"),
     embedded!("common/path.wgsl"),
+    embedded!("common/path_extent.wgsl"),
     embedded!("common/path_grid.wgsl"),
     embedded!("common/path_style.wgsl"),
     embedded!("common/path_visibility.wgsl"),
