@@ -39,6 +39,7 @@ pub const EMBEDDED: &[(&str, &str)] = &[
     embedded!("common/fill_object_of_samples.wgsl"),
     embedded!("common/frame.wgsl"),
     embedded!("common/mesh.wgsl"),
+    embedded!("common/noise.wgsl"),
     embedded!("common/normal_cone.wgsl"),
     embedded!("common/object_limits.wgsl"),
     embedded!("common/path.wgsl"),

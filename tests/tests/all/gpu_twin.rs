@@ -441,6 +441,51 @@ fn stroke_vertices_agree_and_are_always_finite() {
     assert!(unclear * 100 < compared, "{unclear} of {compared} are unclear");
 }
 
+/// What an unsteady hand follows: bounded, its own for every seed, and without jumps
+/// when a place or the wavelength changes a little.
+#[test]
+fn noise_is_smooth_in_place_and_wavelength() {
+    #[derive(Clone, Copy, Pod, Zeroable)]
+    #[repr(C)]
+    struct Input {
+        position: [f32; 3],
+        wavelength: f32,
+        seed: [u32; 4],
+    }
+    let mut random = Random(3);
+    let inputs: Vec<Input> = (0..20_000_u32)
+        .map(|case| Input {
+            position: (random.vec3() * 20.0).into(),
+            // Half of them just below or at a power of two.
+            wavelength: if case % 2 == 0 { 2.0 } else { 0.3 + random.unit() * 5.0 },
+            seed: [case % 3; 4],
+        })
+        .collect();
+    let body = "#import <common/noise.wgsl>
+        struct Input { position: vec3f, wavelength: f32, seed: vec4u }
+        struct Output { here: f32, beside: f32, longer: f32, other: f32 }
+        fn run(input: Input) -> Output {
+            let beside = input.position + vec3f(0.0005, -0.0005, 0.0005) * input.wavelength;
+            return Output(
+                noise_of(input.position, input.wavelength, input.seed.x),
+                noise_of(beside, input.wavelength, input.seed.x),
+                noise_of(input.position, input.wavelength * 0.9999, input.seed.x),
+                noise_of(input.position, input.wavelength, input.seed.x + 7u),
+            );
+        }";
+    let outputs: Vec<[f32; 4]> = run_wgsl(gpu(), body, &inputs);
+    let mut spread = 0;
+    let mut apart = 0;
+    for [here, beside, longer, other] in outputs {
+        assert!(here.abs() <= 1.0, "{here}");
+        assert!((here - beside).abs() < 0.01, "{here} and {beside} a thousandth apart");
+        assert!((here - longer).abs() < 0.01, "{here} and {longer}: a jump between octaves");
+        spread += i32::from(here.abs() > 0.3);
+        apart += i32::from((here - other).abs() > 0.1);
+    }
+    assert!(spread > 3000 && apart > 10_000, "{spread} far from zero, {apart} by another seed");
+}
+
 /// Whether a vertex normal points so nearly along the edge that its side is
 /// within rounding, or the edge runs so nearly at 45 degrees that it may be
 /// mostly vertical.
