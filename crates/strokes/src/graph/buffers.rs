@@ -7,7 +7,7 @@
 //! | nodes before, chains | 4 and 8 |
 //! | sums | 8 for 16 items |
 //! | joints | 16 an edge that can be linked |
-//! | points, strokes, ribbons | 48, 16 and 80 a point (two for each edge that can be linked, and 65,536) |
+//! | points, strokes, ribbons | 48, 16 and 80 a point (two for each edge that can be linked, and up to 65,536) |
 
 use bytemuck::{Pod, Zeroable};
 use wgpu::BufferUsages;
@@ -282,8 +282,10 @@ pub(crate) const BYTES_PER_NODE: u64 = 8 * size_of::<Ribbon>() as u64;
 
 /// Points of the even grid along paths that there is room for, besides two for each
 /// element: a quarter of a million pixels of lines at four pixels a point. Where that
-/// is too little the points lie further apart.
+/// is too little the points lie further apart. Meshes of a few edges have fewer.
 const GRID_POINTS: u32 = 1 << 16;
+const LEAST_GRID_POINTS: u32 = 1 << 11;
+const GRID_POINTS_A_NODE: u32 = 1 << 8;
 
 /// What there is room for.
 #[derive(Debug, Clone, Copy)]
@@ -301,7 +303,9 @@ impl GraphSize {
         let limit = device.limits().max_storage_buffer_binding_size;
         let most = u32::try_from(limit / size_of::<Ribbon>() as u64).unwrap_or(u32::MAX);
         let paths = nodes.saturating_mul(draws_a_layer).min(most);
-        let points = paths.saturating_mul(2).saturating_add(GRID_POINTS).min(most);
+        let grid = LEAST_GRID_POINTS + nodes.min(GRID_POINTS) * GRID_POINTS_A_NODE;
+        let grid = grid.min(GRID_POINTS);
+        let points = paths.saturating_mul(2).saturating_add(grid).min(most);
         Self { nodes, paths, points }
     }
 
