@@ -203,17 +203,16 @@ mod tests {
     fn three_faces_on_an_edge_cut() {
         let mesh = mesh(&[&[0, 1, 2], &[1, 0, 3], &[0, 1, 4]]);
         let table = LinkTable::of(&mesh);
-        for (record, links) in mesh.records.iter().zip(&table.0) {
-            let is_cut = record.flags.intersects(CUTS);
-            assert_eq!(
-                links[0] == SURFACE_CUT || links[1] == SURFACE_CUT,
-                is_cut || {
-                    let nexts = [links[0], links[1]];
-                    nexts.contains(&SURFACE_CUT)
-                }
-            );
-            assert!(!is_cut || links[0] == SURFACE_CUT, "{record:?}");
+        let is_cut = |edge: u32| mesh.records[edge as usize].flags.intersects(CUTS);
+        let cuts = (0..to_u32(mesh.records.len())).filter(|&edge| is_cut(edge)).count();
+        assert!(cuts > 0, "an edge of three faces");
+        for (edge, [next_a, ..]) in (0..).zip(&table.0) {
+            // From the edge itself no walk starts, and none leads over it.
+            let leads_on = *next_a < SURFACE_CUT;
+            assert!(!(leads_on && (is_cut(edge) || is_cut(*next_a / 2))), "edge {edge}");
         }
+        let ends = table.0.iter().filter(|[next_a, ..]| *next_a == SURFACE_CUT).count();
+        assert!(ends > cuts, "{ends} half-edges end at {cuts} records");
     }
 
     #[test]
