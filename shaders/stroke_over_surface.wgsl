@@ -165,15 +165,8 @@ fn is_own_surface(edge: f32, filled: f32) -> bool {
         return false;
     }
     let edge_distance = distance_of(edge);
-    let px_per_unit = frame.px_per_unit / dot(frame.projection.zw, vec2f(edge_distance, 1.0));
     // A wall seen nearly edge on comes nearer by its whole length within a pixel;
     // and as far its fill is pushed back, by a pixel of slope.
-    let away_px = abs(edge_distance - distance_of(filled)) * px_per_unit;
+    let away_px = abs(edge_distance - distance_of(filled)) * px_per_unit_at(edge_distance);
     return away_px <= OWN_REACH * frame.viewport_px.y;
-}
-
-// The distance from the eye along the line of sight.
-fn distance_of(depth: f32) -> f32 {
-    let clip = frame.projection;
-    return (clip.y - depth * clip.w) / (depth * clip.z - clip.x);
 }

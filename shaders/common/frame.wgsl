@@ -34,3 +34,14 @@ struct ObjectUniform {
 
 @group(0) @binding(0) var<uniform> frame: FrameUniform;
 @group(2) @binding(0) var<uniform> object: ObjectUniform;
+
+// The distance from the eye along the line of sight.
+fn distance_of(depth: f32) -> f32 {
+    let clip = frame.projection;
+    return (clip.y - depth * clip.w) / (depth * clip.z - clip.x);
+}
+
+// Pixels that a unit of the world has at a distance.
+fn px_per_unit_at(distance: f32) -> f32 {
+    return frame.px_per_unit / dot(frame.projection.zw, vec2f(distance, 1.0));
+}

@@ -46,9 +46,3 @@ const HIDDEN_STROKES: u32 = 1u;
 const SILHOUETTE_STROKES: u32 = 2u;
 
 @group(1) @binding(0) var<uniform> paths: array<PathUniform, MAX_DRAWS>;
-
-// The distance from the eye along the line of sight.
-fn distance_of(depth: f32) -> f32 {
-    let clip = frame.projection;
-    return (clip.y - depth * clip.w) / (depth * clip.z - clip.x);
-}

@@ -41,8 +41,8 @@ fn visibility_at(
     if in_front.x + in_front.y + in_front.z + in_front.w < 2u {
         let nearest = distance_of(max(max(filled.x, filled.y), max(filled.z, filled.w)));
         let here = distance_of(depth);
-        let px_per_unit = frame.px_per_unit / dot(frame.projection.zw, vec2f(here, 1.0));
-        return select(SEEN_NOT, SEEN_ALMOST, (here - nearest) * px_per_unit < GRAZED_PX);
+        let before_px = (here - nearest) * px_per_unit_at(here);
+        return select(SEEN_NOT, SEEN_ALMOST, before_px < GRAZED_PX);
     }
     if paths[draw].visibility != SILHOUETTE_STROKES {
         return SEEN;

@@ -10,16 +10,15 @@ const ITEMS_PER_SUM: u32 = 16u;
 
 // Of GraphUniform.draws: which draws are linked, and how.
 struct GraphUniform {
-    layer_count: u32,
     chunk_count: u32,
     draw_count: u32,
-    node_capacity: u32,
     path_capacity: u32,
     point_capacity: u32,
     // 1 where contours are in a layer as such: else an edge is what else it is.
     draws_contours: u32,
     // Linked draws of one layer, at most.
     draws_a_layer: u32,
+    padding: vec2u,
     // Layer of each draw, and 1 where its strokes are linked.
     draws: array<vec4u, MAX_DRAWS>,
 }
@@ -157,8 +156,7 @@ struct PathPoint {
     padding: u32,
 }
 
-// Flags of points: no segment comes before it, none after it; it keeps its place;
-// strokes are cut there; nothing hides it; it is on a contour; it is the place where
+// Flags of points: no segment comes before it, none after it; strokes are cut there; nothing hides it; it is on a contour; it is the place where
 // a loop was cut; what hides it is no further in front than a line is wide; the path
 // turns there.
 const POINT_STARTS: u32 = 1u;

@@ -128,19 +128,26 @@ struct Walk {
     fold_px: f32,
 }
 
+// A part of an element more, from one place on it to another.
+fn walked(so_far: Walk, element: u32, part: f32, to: f32, taken_px: f32) -> Walk {
+    let here = elements[element];
+    let middle = 0.5 * (part + to);
+    var walk = so_far;
+    walk.sum += taken_px * vec3f(mix(here.s0, here.s1, middle), mix(here.z0, here.z1, middle));
+    walk.length_px += taken_px;
+    walk.place = mix(here.s0, here.s1, to);
+    return walk;
+}
+
 fn walk_back(element: u32, path: u32, t: f32, reach_px: f32) -> Walk {
     var at = element;
     var part = t;
     var walk = Walk(vec3f(0.0), 0.0, vec2f(0.0), 1e9);
     for (var count = 0u; count < MOST_ELEMENTS; count++) {
-        let here = elements[at];
         let length_px = part * length_of(at);
         let taken_px = min(length_px, reach_px - walk.length_px);
         let to = part * (1.0 - taken_px / max(length_px, 1e-6));
-        let middle = 0.5 * (part + to);
-        walk.sum += taken_px * vec3f(mix(here.s0, here.s1, middle), mix(here.z0, here.z1, middle));
-        walk.length_px += taken_px;
-        walk.place = mix(here.s0, here.s1, to);
+        walk = walked(walk, at, part, to, taken_px);
         if walk.length_px >= reach_px {
             break;
         }
@@ -164,14 +171,10 @@ fn walk_ahead(element: u32, path: u32, t: f32, reach_px: f32) -> Walk {
     var part = t;
     var walk = Walk(vec3f(0.0), 0.0, vec2f(0.0), 1e9);
     for (var count = 0u; count < MOST_ELEMENTS; count++) {
-        let here = elements[at];
         let length_px = (1.0 - part) * length_of(at);
         let taken_px = min(length_px, reach_px - walk.length_px);
         let to = part + (1.0 - part) * taken_px / max(length_px, 1e-6);
-        let middle = 0.5 * (part + to);
-        walk.sum += taken_px * vec3f(mix(here.s0, here.s1, middle), mix(here.z0, here.z1, middle));
-        walk.length_px += taken_px;
-        walk.place = mix(here.s0, here.s1, to);
+        walk = walked(walk, at, part, to, taken_px);
         if walk.length_px >= reach_px {
             break;
         }

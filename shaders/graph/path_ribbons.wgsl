@@ -228,9 +228,8 @@ fn width_of(style: PathUniform, depth: f32) -> f32 {
     if style.is_world_width == 0u {
         return style.width;
     }
-    let clip_w = dot(frame.projection.zw, vec2f(distance_of(depth), 1.0));
     // At the eye a width has no bound; more than the picture is not seen.
-    return min(style.width * frame.px_per_unit / clip_w, frame.viewport_px.y);
+    return min(style.width * px_per_unit_at(distance_of(depth)), frame.viewport_px.y);
 }
 
 fn taper_of(style: PathUniform, arc_px: f32, total_px: f32) -> f32 {

@@ -185,8 +185,8 @@ fn ribbon_fragment(in: RibbonVarying) -> @location(0) vec4f {
 // Of the samples of a pixel, how many nothing covers so far before a depth.
 fn share_in_front(depth: f32, near_px: f32, pixel: vec2i) -> f32 {
     let here = distance_of(depth);
-    let units_a_px = dot(frame.projection.zw, vec2f(here, 1.0)) / frame.px_per_unit;
-    let nearest = here - near_px * units_a_px;
+    let nearest = here - near_px / px_per_unit_at(here);
+    // Where nothing was filled is the far plane.
     let filled = filled_depths(pixel);
     let behind = vec4f(
         f32(distance_of(filled.x) >= nearest),
@@ -195,16 +195,6 @@ fn share_in_front(depth: f32, near_px: f32, pixel: vec2i) -> f32 {
         f32(distance_of(filled.w) >= nearest),
     );
     return dot(behind, vec4f(0.25));
-}
-
-// The distance from the eye along the line of sight; beyond everything where nothing
-// was filled.
-fn distance_of(depth: f32) -> f32 {
-    if depth <= 0.0 {
-        return 1e30;
-    }
-    let clip = frame.projection;
-    return (clip.y - depth * clip.w) / (depth * clip.z - clip.x);
 }
 
 fn is_past_limit(joins: vec4f, at_end: bool) -> bool {

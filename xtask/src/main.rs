@@ -17,7 +17,7 @@ const HELP: &str = "\
 Usage: cargo xtask TASK
 
 Tasks:
-  demo              draw every model in models/ with the ink and the pen technique, into target/demo/
+  demo              draw every model in models/ in every technique, into target/demo/
   test [-- ARGS]    run all tests, those that need a Vulkan adapter too; ARGS go to the test programs
   models            write the project's own models to models/
   mesh --triangles N -o FILE

@@ -13,7 +13,7 @@
 use bytemuck::{Pod, Zeroable};
 use wgpu::ShaderStages;
 
-use crate::frame::{bind_buffers, storage_entry, uniform_buffer, uniform_entry};
+use crate::frame::{bind_buffers, bind_layout, storage_entry, uniform_buffer, uniform_entry};
 use crate::look::{Look, MAX_DRAWS};
 use crate::mesh_buffers::{ChunkBuffers, EdgeSource, FACES_PER_WORD, Layout};
 use crate::shader::{ShaderError, ShaderSource};
@@ -238,10 +238,7 @@ impl Layouts {
         let read = |binding| storage_entry(binding, compute, true);
         let write = |binding| storage_entry(binding, compute, false);
         let make = |label: &str, entries: &[wgpu::BindGroupLayoutEntry]| {
-            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                label: Some(label),
-                entries,
-            })
+            bind_layout(device, label, entries)
         };
         let mut lists = vec![write(1), write(2), write(3), write(4), write(5)];
         if layout == Layout::Indexed {

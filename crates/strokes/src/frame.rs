@@ -251,6 +251,16 @@ pub(crate) fn uniform_buffer<T: Pod>(
     })
 }
 
+/// A bind group layout.
+pub(crate) fn bind_layout(
+    device: &wgpu::Device,
+    label: &str,
+    entries: &[wgpu::BindGroupLayoutEntry],
+) -> wgpu::BindGroupLayout {
+    device
+        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries })
+}
+
 /// A layout entry for a uniform buffer.
 pub(crate) const fn uniform_entry(
     binding: u32,

@@ -154,6 +154,12 @@ impl StyledDraw {
 }
 
 impl Look {
+    /// Whether any strokes are linked, where compute shaders detect.
+    pub(crate) fn is_linked(&self) -> bool {
+        let of_layers = self.layers.iter().flat_map(|layer| [&layer.visible, &layer.hidden]);
+        of_layers.chain([&self.silhouette]).flatten().any(StrokeStyle::is_linked)
+    }
+
     /// The layer of each class, and the thresholds.
     #[must_use]
     pub fn class_table(&self) -> ClassTable {
@@ -166,8 +172,8 @@ impl Look {
             table.valley_steps = threshold_steps(valley);
         }
         // Chains would break where their own solid hides a part of them.
-        let needs_hidden = self.layers.iter().any(|layer| layer.hidden.is_some())
-            || self.draws().iter().any(|draw| draw.style.is_linked());
+        let needs_hidden =
+            self.layers.iter().any(|layer| layer.hidden.is_some()) || self.is_linked();
         table.keeps_hidden = u32::from(needs_hidden);
         table
     }

@@ -78,6 +78,12 @@ impl GraphReadback {
         self.draw_layers.get(self.draw_of(path)).copied().flatten().unwrap_or(0) as usize
     }
 
+    /// The layer of a node.
+    #[must_use]
+    pub fn layer_of_node(&self, node: u32) -> usize {
+        self.header.layer_first.iter().rposition(|first| *first <= node).unwrap_or(0)
+    }
+
     /// Which of the elements an element of a path is.
     #[must_use]
     pub fn element_of(&self, path: u32) -> usize {
@@ -312,14 +318,13 @@ fn graph(
         *words = [draw.layer, u32::from(draw.is_linked), 0, 0];
     }
     let uniform = GraphUniform {
-        layer_count: look.layer_count,
         chunk_count: to_u32(sizes.len()),
         draw_count: to_u32(look.draws.len()),
-        node_capacity: buffers.size.nodes,
         path_capacity: buffers.size.paths,
         point_capacity: buffers.size.points,
         draws_contours: u32::from(look.draws_contours),
         draws_a_layer: to_u32(most),
+        padding: [0; 2],
         draws,
     };
     let uniform = uniform_buffer(device, "graph", &uniform);

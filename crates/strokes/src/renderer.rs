@@ -1,6 +1,5 @@
 //! One frame in one command buffer, without reading anything back: detect, link,
-//! expand, fill, paths, coverage, strokes. What draws is in
-//! `frame_encoder.rs`.
+//! expand, fill, paths, coverage, strokes. What draws is in `frame_encoder.rs`.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -162,7 +161,7 @@ impl Renderer {
         let has_stencil = self.options.formats.has_stencil();
         assert!(look.silhouette.is_none() || has_stencil, "a silhouette needs a stencil");
         let table = look.class_table();
-        if look.draws().iter().any(|draw| draw.style.is_linked()) {
+        if look.is_linked() {
             self.make_graph(&gpu.device)?;
         }
         let mut draws = Vec::new();

@@ -5,7 +5,7 @@
 
 use wgpu::ShaderStages;
 
-use crate::frame::{frame_fill_layout, storage_entry, uniform_entry};
+use crate::frame::{bind_layout, frame_fill_layout, storage_entry, uniform_entry};
 use crate::mesh_buffers::Layout;
 use crate::targets::TargetFormats;
 
@@ -38,10 +38,7 @@ impl StrokeLayouts {
         formats: &TargetFormats,
     ) -> Self {
         let make = |label: &str, entries: &[wgpu::BindGroupLayoutEntry]| {
-            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                label: Some(label),
-                entries,
-            })
+            bind_layout(device, label, entries)
         };
         let both = ShaderStages::VERTEX | ShaderStages::COMPUTE;
         let read = |binding, visibility| storage_entry(binding, visibility, true);

@@ -42,7 +42,7 @@ pub struct RunState {
 }
 
 /// The arguments of one draw of strokes. WGSL twin:
-/// `shaders/common/view_lists.wgsl`.
+/// `shaders/common/draw_arguments.wgsl`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct DrawArguments {

@@ -97,7 +97,7 @@ impl<'a> Linker<'a> {
 fn lines_of(mesh: &EdgeMesh, graph: &GraphReadback) -> Vec<Line> {
     let mut lines = vec![Line { bits: LineBits::empty(), layer: NO_LAYER }; mesh.records.len()];
     for (at, node) in (0_u32..).zip(&graph.nodes) {
-        let layer = graph.header.layer_first.iter().rposition(|first| *first <= at).unwrap();
+        let layer = graph.layer_of_node(at);
         let is_backward = node.edge & BACKWARD != 0;
         let mut bits = LineBits::DRAWN;
         bits.set(LineBits::CONTOUR, node.edge & LineBits::CONTOUR.bits() != 0);

@@ -22,33 +22,13 @@ use strokes::renderer::{DetectionPath, Renderer, RendererOptions};
 use strokes::targets::{TargetFormats, Targets};
 
 use crate::gpu_device::gpu;
+use crate::random::Random;
 
 /// Pixels a side.
 const SIZE: u16 = 384;
 
 /// One coverage of half black ink on white paper, and what rounding leaves of it.
 const ONCE: u8 = 127;
-
-/// Numbers from a fixed seed (Marsaglia's xorshift), the same on every machine.
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f32 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        f32::from(u16::try_from(self.0 >> 48).unwrap()) / 65535.0
-    }
-
-    fn below(&mut self, count: u16) -> u16 {
-        self.unit();
-        u16::try_from(self.0 % u64::from(count)).unwrap()
-    }
-
-    fn between(&mut self, least: f32, most: f32) -> f32 {
-        least + (most - least) * self.unit()
-    }
-}
 
 /// Lines that wander about, some with steps of a fraction of a pixel, some that turn
 /// back on themselves, some that cross themselves.

@@ -31,26 +31,7 @@ use viewer::technique::Technique;
 use crate::gpu_device::gpu;
 use crate::gpu_render::technique;
 use crate::own_models::own_models;
-
-/// Numbers from a fixed seed (Marsaglia's xorshift), the same on every machine.
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f32 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        f32::from(u16::try_from(self.0 >> 48).unwrap()) / 65535.0
-    }
-
-    fn signed(&mut self) -> f32 {
-        2.0 * self.unit() - 1.0
-    }
-
-    fn vec3(&mut self) -> Vec3 {
-        Vec3::new(self.signed(), self.signed(), self.signed())
-    }
-}
+use crate::random::Random;
 
 #[derive(Clone, Copy, Pod, Zeroable)]
 #[repr(C)]

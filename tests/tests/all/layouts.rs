@@ -157,14 +157,13 @@ fn view_layouts() -> BTreeMap<String, Layout> {
 fn graph_layouts() -> BTreeMap<String, Layout> {
     BTreeMap::from([
         layout!(GraphUniform {
-            layer_count,
             chunk_count,
             draw_count,
-            node_capacity,
             path_capacity,
             point_capacity,
             draws_contours,
             draws_a_layer,
+            padding,
             draws
         }),
         layout!(GraphHeader {

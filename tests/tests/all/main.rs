@@ -31,5 +31,7 @@ mod models;
 mod noop;
 mod own_models;
 mod preprocess_commands;
+#[cfg(feature = "gpu")]
+mod random;
 mod render_command;
 mod shaders;

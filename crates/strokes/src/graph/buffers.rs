@@ -48,14 +48,10 @@ pub const ARC_PER_PX: f32 = 1024.0;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct GraphUniform {
-    /// Layers of the look.
-    pub layer_count: u32,
     /// Chunks of the mesh.
     pub chunk_count: u32,
     /// Draws of the look.
     pub draw_count: u32,
-    /// Nodes that there is room for.
-    pub node_capacity: u32,
     /// Elements of all draws that there is room for.
     pub path_capacity: u32,
     /// Points of all paths that there is room for.
@@ -64,6 +60,8 @@ pub struct GraphUniform {
     pub draws_contours: u32,
     /// Linked draws of one layer, at most.
     pub draws_a_layer: u32,
+    /// Unused.
+    pub padding: [u32; 2],
     /// Layer of each draw, and 1 where its strokes are linked.
     pub draws: [[u32; 4]; MAX_DRAWS],
 }

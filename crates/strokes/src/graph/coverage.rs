@@ -15,7 +15,7 @@
 use bytemuck::{Pod, Zeroable};
 use wgpu::{BlendComponent, BlendFactor, BlendOperation, BlendState, ShaderStages};
 
-use crate::frame::{storage_entry, uniform_buffer, uniform_entry};
+use crate::frame::{bind_layout, storage_entry, uniform_buffer, uniform_entry};
 use crate::shader::{ShaderError, ShaderSource};
 use crate::stroke_layouts::StrokeLayouts;
 use crate::targets::TargetFormats;
@@ -53,10 +53,7 @@ impl CoveragePipeline {
         formats: &TargetFormats,
     ) -> Result<Self, ShaderError> {
         let make = |label: &str, entries: &[wgpu::BindGroupLayoutEntry]| {
-            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                label: Some(label),
-                entries,
-            })
+            bind_layout(device, label, entries)
         };
         let ribbons_layout = make("ribbons", &[storage_entry(0, ShaderStages::VERTEX, true)]);
         let texture = wgpu::BindGroupLayoutEntry {

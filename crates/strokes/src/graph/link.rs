@@ -6,7 +6,7 @@
 //! cost next to nothing once nothing changes.
 
 use crate::detect::compute_pipeline;
-use crate::frame::{bind_buffers, storage_entry, uniform_buffer, uniform_entry};
+use crate::frame::{bind_buffers, bind_layout, storage_entry, uniform_buffer, uniform_entry};
 use crate::graph::buffers::{CHUNK_GROUPS, GraphBuffers, Groups};
 use crate::mesh_buffers::{ChunkBuffers, EdgeSource, Layout};
 use crate::shader::{ShaderError, ShaderSource};
@@ -211,10 +211,7 @@ impl Layouts {
         let read = |binding| storage_entry(binding, compute, true);
         let write = |binding| storage_entry(binding, compute, false);
         let make = |label: &str, entries: &[wgpu::BindGroupLayoutEntry]| {
-            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                label: Some(label),
-                entries,
-            })
+            bind_layout(device, label, entries)
         };
         let mut edges = vec![uniform(0), uniform(1), read(2)];
         if layout == Layout::Indexed {

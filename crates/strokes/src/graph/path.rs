@@ -9,7 +9,7 @@ use wgpu::ShaderStages;
 
 use crate::brush::Brush;
 use crate::detect::compute_pipeline;
-use crate::frame::{bind_buffers, storage_entry, uniform_buffer, uniform_entry};
+use crate::frame::{bind_buffers, bind_layout, storage_entry, uniform_buffer, uniform_entry};
 use crate::graph::buffers::{GraphBuffers, Groups};
 use crate::graph::path_style::{BrushFit, CURVE_LENGTH, PathStyle};
 use crate::look::{Look, MAX_DRAWS, StyledDraw, Width};
@@ -190,10 +190,7 @@ impl PathPipeline {
     ) -> Result<Self, ShaderError> {
         let compute = ShaderStages::COMPUTE;
         let make = |label: &str, entries: &[wgpu::BindGroupLayoutEntry]| {
-            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                label: Some(label),
-                entries,
-            })
+            bind_layout(device, label, entries)
         };
         let write = |binding| storage_entry(binding, compute, false);
         let pass = make("path style", &[uniform_entry(0, compute)]);

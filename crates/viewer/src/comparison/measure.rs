@@ -163,7 +163,7 @@ mod tests {
     use super::*;
 
     fn stretch(u: [f32; 2], is_followed: bool) -> Stretch {
-        Stretch { length_px: 10.0, u, layer: 0, is_followed, stroke: 0 }
+        Stretch { length_px: 10.0, u, layer: 0, is_followed }
     }
 
     fn measured(stretches: Vec<Stretch>) -> Sums {

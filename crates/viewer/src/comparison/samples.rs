@@ -13,7 +13,7 @@ use edgemesh::oracle::stroke_segment::{
     ClipEdge, LineKind, Parameterization, StrokeShape, stroke_segment,
 };
 use edgemesh::record::edge_random;
-use glam::{Mat4, Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use strokes::graph::buffers::{BACKWARD, NO_NODE, Ribbon};
 use strokes::object::GraphReadback;
 
@@ -28,8 +28,6 @@ pub struct Stretch {
     pub layer: usize,
     /// Whether the next stretch begins where this one ends.
     pub is_followed: bool,
-    /// Tells strokes apart; stretches of one have the same.
-    pub stroke: u32,
 }
 
 /// An edge that can be found again in the next frame.
@@ -86,7 +84,6 @@ impl FrameSource<'_> {
                 u: ribbon.u,
                 layer: graph.layer_of(point.path),
                 is_followed: next.is_some_and(|next| Vec2::from(next.a).distance(b) < 0.01),
-                stroke: point.stroke,
             });
         }
         for (ribbon, element) in self.covered() {
@@ -97,7 +94,7 @@ impl FrameSource<'_> {
             let t = along.clamp(0.0, 1.0);
             lines.tracks.push(Track {
                 edge: element.edge & NO_NODE,
-                layer: layer_of_element(graph, element.node),
+                layer: graph.layer_of_node(element.node),
                 length_px: Vec2::from(element.s0).distance(element.s1.into()),
                 u: ribbon.u[0] * (1.0 - t) + ribbon.u[1] * t,
             });
@@ -117,16 +114,10 @@ impl FrameSource<'_> {
         for (at, element) in graph.elements.iter().enumerate().filter(|(at, _)| is_covered[*at]) {
             let length_px = Vec2::from(element.s0).distance(element.s1.into());
             let Some(u) = self.u_of(element.edge, parameterization) else { continue };
-            let layer = layer_of_element(graph, element.node);
+            let layer = graph.layer_of_node(element.node);
             let is_last = at + 1 == (element.first + (element.count & !(1 << 31))) as usize;
             let is_followed = !is_last && is_covered.get(at + 1) == Some(&true);
-            lines.stretches.push(Stretch {
-                length_px,
-                u,
-                layer,
-                is_followed,
-                stroke: element.edge,
-            });
+            lines.stretches.push(Stretch { length_px, u, layer, is_followed });
             let edge = element.edge & NO_NODE;
             lines.tracks.push(Track { edge, layer, length_px, u: 0.5 * (u[0] + u[1]) });
         }
@@ -179,7 +170,8 @@ impl FrameSource<'_> {
             origin_px: if origin.w > f32::EPSILON { origin_px } else { Vec2::ZERO },
             fade: Vec2::ZERO,
             width: self.width_px,
-            px_per_unit: px_per_unit(&self.view.clip_from_world, self.viewport_px),
+            // Widths are in pixels.
+            px_per_unit: 1.0,
             brush_aspect: self.brush_aspect,
             mirror: 1.0,
             kind: LineKind::Quad,
@@ -188,13 +180,4 @@ impl FrameSource<'_> {
             is_world_width: false,
         }
     }
-}
-
-fn px_per_unit(clip_from_world: &Mat4, viewport_px: Vec2) -> f32 {
-    clip_from_world.row(1).truncate().length() * viewport_px.y * 0.5
-}
-
-/// The layer of a node.
-fn layer_of_element(graph: &GraphReadback, node: u32) -> usize {
-    graph.header.layer_first.iter().rposition(|first| *first <= node).unwrap_or(0)
 }
