@@ -5,10 +5,28 @@ struct FrameUniform {
     viewport_px: vec2f,
     // Pixels a unit of the world has at w = 1.
     px_per_unit: f32,
-    padding: f32,
+    clip_plane_count: u32,
     // At a distance d along the line of sight, clip z is x d + y and w is z d + w.
     projection: vec4f,
+    // Takes points of clip space back to the world.
+    world_from_clip: mat4x4f,
+    // The eye with w = 1, or the direction to the viewer with w = 0.
+    eye: vec4f,
+    // The distance from the eye along the line of sight is dot(point in world, this).
+    sight: vec4f,
+    // Right and up in the picture, of unit length.
+    right: vec4f,
+    up: vec4f,
+    // A light at a point with w = 1, or in a direction of unit length with w = 0.
+    light: vec4f,
+    light_color: vec3f,
+    // Half the diagonal of the box around the scene.
+    scene_radius: f32,
+    // Points of the world are drawn where dot(point, plane) is negative for none.
+    clip_planes: array<vec4f, MAX_CLIP_PLANES>,
 }
+
+const MAX_CLIP_PLANES: u32 = 6u;
 
 struct ObjectUniform {
     // Takes the object's positions to clip space; depth 1 near, 0 far.
@@ -30,6 +48,9 @@ struct ObjectUniform {
     // Replicated at 16 bits: the position of step 0, and units a step.
     center: vec3f,
     step: f32,
+    world_from_object: mat4x4f,
+    // Takes normals to the world, as directions of a unit of the world.
+    world_from_normal: mat4x4f,
 }
 
 @group(0) @binding(0) var<uniform> frame: FrameUniform;
@@ -44,4 +65,14 @@ fn distance_of(depth: f32) -> f32 {
 // Pixels that a unit of the world has at a distance.
 fn px_per_unit_at(distance: f32) -> f32 {
     return frame.px_per_unit / dot(frame.projection.zw, vec2f(distance, 1.0));
+}
+
+// Whether a clip plane cuts a point of the world away.
+fn is_cut_away(point_in_world: vec3f) -> bool {
+    for (var plane = 0u; plane < frame.clip_plane_count; plane++) {
+        if dot(frame.clip_planes[plane], vec4f(point_in_world, 1.0)) < 0.0 {
+            return true;
+        }
+    }
+    return false;
 }

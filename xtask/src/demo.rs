@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::{adapter, programs};
 
 const TECHNIQUES: [&str; 7] =
-    ["ink", "pen", "charcoal", "watercolor", "fur", "hidden-line", "linked"];
+    ["ink", "pen", "charcoal", "watercolour", "fur", "hidden_line", "linked"];
 
 pub(crate) fn run() -> Result<(), Failure> {
     let root = programs::workspace_root();

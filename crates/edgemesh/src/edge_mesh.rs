@@ -5,6 +5,7 @@ use glam::{DMat4, DVec3, Vec3};
 
 use crate::build::Frame;
 use crate::index::NONE;
+use crate::model::Material;
 use crate::record::{EdgeFlags, EdgeRecord, EdgeVertex, EdgeVertex16};
 use crate::topology::EdgeCounts;
 
@@ -101,13 +102,41 @@ pub struct ChainLink {
 }
 
 /// Triangles for shading: vertices split where normals or texture coordinates
-/// differ.
+/// differ, and what the triangles look like.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct FillMesh {
     /// The split vertices.
     pub vertices: Vec<FillVertex>,
     /// Three indices a triangle, in the order of [`EdgeMesh::triangles`].
     pub indices: Vec<u32>,
+    /// What triangles share, in runs, ascending by first triangle; the first one
+    /// starts at triangle 0 wherever there is a triangle.
+    pub runs: Vec<FillRun>,
+    /// The materials of the model, used or not.
+    pub materials: Vec<Material>,
+    /// Names of the model's groups, objects or nodes.
+    pub groups: Vec<String>,
+}
+
+/// What triangles in a row share: 16 bytes. The next run ends this one, and
+/// differs in something.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct FillRun {
+    /// The first triangle, in the order of [`EdgeMesh::triangles`].
+    pub first_triangle: u32,
+    /// Index into [`FillMesh::materials`], or [`NONE`].
+    pub material: u32,
+    /// Index into [`FillMesh::groups`], or [`NONE`].
+    pub group: u32,
+    /// 1 where all corners have texture coordinates of the file, else 0.
+    pub has_texcoords: u32,
+}
+
+impl FillRun {
+    /// The run of triangles that nothing is known of.
+    pub const PLAIN: Self =
+        Self { first_triangle: 0, material: NONE, group: NONE, has_texcoords: 0 };
 }
 
 /// A vertex of the fill: 32 bytes.
@@ -118,7 +147,8 @@ pub struct FillVertex {
     pub position: [f32; 3],
     /// Unit normal.
     pub normal: [f32; 3],
-    /// Texture coordinate; (0, 0) where the file has none.
+    /// Texture coordinate, (0, 0) at the lower left corner of a picture; (0, 0)
+    /// where the file has none.
     pub texcoord: [f32; 2],
 }
 

@@ -42,6 +42,7 @@ pub mod export;
 pub mod face_edges;
 pub mod file;
 pub mod index;
+mod material;
 pub mod model;
 pub mod oracle;
 pub mod read;

@@ -8,6 +8,7 @@
 //! corners and 4 of line a triangle.
 
 use crate::index::{NONE, to_u32};
+pub use crate::material::{MAX_PICTURE_BYTES, Material, Texture, TextureSource};
 use crate::report::Place;
 use crate::rig::Rig;
 
@@ -21,7 +22,8 @@ pub struct Model {
     /// Red, green and blue, 0 to 1 as the file has them, of each of
     /// `positions`; empty where the file has no vertex colours.
     pub colors: Vec<[f32; 3]>,
-    /// Texture coordinates that corners name.
+    /// Texture coordinates that corners name; (0, 0) is the lower left corner
+    /// of a picture, (1, 1) the upper right one.
     pub texcoords: Vec<[f32; 2]>,
     /// Normals that corners name, of any length.
     pub normals: Vec<[f32; 3]>,
@@ -125,25 +127,6 @@ pub struct Segment {
     pub ends: [u32; 2],
     /// The line of the file; 0 where the format has none.
     pub line: u32,
-}
-
-/// A material by name, with the colours that the file or its library gives it.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Material {
-    /// Its name; may be empty.
-    pub name: String,
-    /// Ambient colour, linear, 0 to 1 (`Ka`).
-    pub ambient: Option<[f32; 3]>,
-    /// Diffuse or base colour, linear, 0 to 1 (`Kd`).
-    pub diffuse: Option<[f32; 3]>,
-    /// Specular colour, linear, 0 to 1 (`Ks`).
-    pub specular: Option<[f32; 3]>,
-    /// Specular exponent (`Ns`).
-    pub shininess: Option<f32>,
-    /// Opacity, 0 to 1 (`d`, or 1 - `Tr`).
-    pub opacity: Option<f32>,
-    /// The diffuse texture's file name as written (`map_Kd`); nothing opens it.
-    pub diffuse_texture: Option<String>,
 }
 
 impl Model {

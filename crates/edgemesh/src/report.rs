@@ -59,7 +59,8 @@ pub enum WarningCode {
     NonManifold,
     /// A surface cannot be oriented, as a Möbius strip; it was cut.
     Orientation,
-    /// A material library is missing, unreadable, or outside the folder.
+    /// A material library or a texture is missing, unreadable, outside the
+    /// folder, or no PNG or JPEG picture.
     Material,
     /// Another file that the model names is missing, unreadable, or outside the
     /// folder.

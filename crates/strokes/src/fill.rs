@@ -182,7 +182,8 @@ fn depth_stencil(formats: &TargetFormats, kind: FillKind) -> wgpu::DepthStencilS
 /// from where the edge's depth was taken; the driver's slope is the larger of
 /// the two screen directions, so a slope across the diagonal counts as the root
 /// of two of it.
-const fn push_away() -> wgpu::DepthBiasState {
+#[must_use]
+pub const fn push_away() -> wgpu::DepthBiasState {
     wgpu::DepthBiasState {
         constant: -PUSH_STEPS,
         slope_scale: -std::f32::consts::SQRT_2,

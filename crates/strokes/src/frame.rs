@@ -3,6 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use edgemesh::camera::View;
 use edgemesh::edge_mesh::Bounds;
+use edgemesh::index::to_u32;
 use edgemesh::oracle::feature::eye_is_outside;
 use edgemesh::oracle::spine::to_pixels;
 use edgemesh::replicate::Quantization;
@@ -20,26 +21,84 @@ pub struct FrameUniform {
     pub viewport_px: [f32; 2],
     /// Pixels that a unit of the world has at w = 1.
     pub px_per_unit: f32,
-    /// Unused.
-    pub padding: f32,
+    /// How many of `clip_planes` there are.
+    pub clip_plane_count: u32,
     /// At a distance d along the line of sight, clip z is x d + y, and w is z d + w.
     pub projection: [f32; 4],
+    /// Takes points of clip space back to the world.
+    pub world_from_clip: [[f32; 4]; 4],
+    /// The eye with w = 1, or the direction to the viewer with w = 0.
+    pub eye: [f32; 4],
+    /// The distance from the eye along the line of sight is the product of a point of
+    /// the world with this.
+    pub sight: [f32; 4],
+    /// What is right in the picture, of unit length; w is 0.
+    pub right: [f32; 4],
+    /// What is up in the picture, of unit length; w is 0.
+    pub up: [f32; 4],
+    /// A light at a point with w = 1, or in a direction of unit length with w = 0.
+    pub light: [f32; 4],
+    /// Its colour.
+    pub light_color: [f32; 3],
+    /// Half the diagonal of the box around the scene.
+    pub scene_radius: f32,
+    /// A point of the world is drawn where its product with each of these is not
+    /// negative.
+    pub clip_planes: [[f32; 4]; MAX_CLIP_PLANES],
+}
+
+/// Clip planes that a view can have. WGSL twin: the constant of this name.
+pub const MAX_CLIP_PLANES: usize = 6;
+
+/// What belongs to a view besides the eye.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Surroundings {
+    /// A light at a point with w = 1, or in a direction of unit length with w = 0.
+    pub light: [f32; 4],
+    /// Its colour.
+    pub light_color: [f32; 3],
+    /// Half the diagonal of the box around the scene.
+    pub scene_radius: f32,
+    /// What is behind any of these planes is cut away; at most [`MAX_CLIP_PLANES`].
+    pub clip_planes: Vec<[f32; 4]>,
+}
+
+impl Default for Surroundings {
+    /// White light along z, and nothing cut away.
+    fn default() -> Self {
+        let light = [0.0, 0.0, 1.0, 0.0];
+        Self { light, light_color: [1.0; 3], scene_radius: 1.0, clip_planes: Vec::new() }
+    }
 }
 
 impl FrameUniform {
     /// The uniform of `view` on a picture of `viewport_px`.
     #[must_use]
-    pub fn new(view: &View, viewport_px: Vec2) -> Self {
+    pub fn new(view: &View, viewport_px: Vec2, around: &Surroundings) -> Self {
         // How long the row that makes y is, in units of the clip volume.
         let y_row = view.clip_from_world.row(1).truncate();
         let px_per_unit = y_row.length() * viewport_px.y * 0.5;
         let [[z_scale, z_offset], [w_scale, w_offset]] =
             [2, 3].map(|row| along_sight(view.clip_from_world.row(row), view.distance));
+        // Rows of the view's matrix, but for the projection's scale.
+        let axis = |row: usize| view.clip_from_world.row(row).truncate().normalize_or_zero();
+        let mut clip_planes = [[0.0; 4]; MAX_CLIP_PLANES];
+        clip_planes.iter_mut().zip(&around.clip_planes).for_each(|(plane, given)| *plane = *given);
+        let world_from_clip = view.clip_from_world.as_dmat4().inverse().as_mat4();
         Self {
             viewport_px: viewport_px.to_array(),
             px_per_unit,
-            padding: 0.0,
+            clip_plane_count: to_u32(around.clip_planes.len().min(MAX_CLIP_PLANES)),
             projection: [z_scale, z_offset, w_scale, w_offset],
+            world_from_clip: world_from_clip.to_cols_array_2d(),
+            eye: view.eye.to_array(),
+            sight: view.distance.to_array(),
+            right: axis(0).extend(0.0).to_array(),
+            up: axis(1).extend(0.0).to_array(),
+            light: around.light,
+            light_color: around.light_color,
+            scene_radius: around.scene_radius,
+            clip_planes,
         }
     }
 }
@@ -81,6 +140,10 @@ pub struct ObjectUniform {
     pub center: [f32; 3],
     /// Replicated at 16 bits: units a step.
     pub step: f32,
+    /// Takes the object's positions to the world.
+    pub world_from_object: [[f32; 4]; 4],
+    /// Takes its normals to the world, as directions of a unit of the world.
+    pub world_from_normal: [[f32; 4]; 4],
 }
 
 impl ObjectUniform {
@@ -127,6 +190,8 @@ impl ObjectUniform {
             eye_is_outside: u32::from(is_outside),
             center: quantization.center.as_vec3().to_array(),
             step,
+            world_from_object: world_from_object.as_mat4().to_cols_array_2d(),
+            world_from_normal: DMat4::from_mat3(normals).as_mat4().to_cols_array_2d(),
         })
     }
 
@@ -232,6 +297,12 @@ impl Frame {
         })
     }
 
+    /// `@group(0)`.
+    #[must_use]
+    pub const fn bind_group(&self) -> &wgpu::BindGroup {
+        &self.bind_group
+    }
+
     /// Replaces the view for the next submission.
     pub fn write(&self, queue: &wgpu::Queue, uniform: &FrameUniform) {
         queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(uniform));
@@ -327,10 +398,11 @@ mod tests {
     #[test]
     fn distances_come_back_from_depths() {
         let bounds = Bounds { min: [-1.0, -2.0, -3.0], max: [3.0, 2.0, 1.0] };
+        let around = Surroundings::default();
         for is_orthographic in [false, true] {
             let camera = Camera { is_orthographic, ..Camera::default_view(&bounds) };
             let view = camera.view(&bounds, 1.5);
-            let frame = FrameUniform::new(&view, Vec2::new(300.0, 200.0));
+            let frame = FrameUniform::new(&view, Vec2::new(300.0, 200.0), &around);
             for point in [DVec3::ZERO, DVec3::new(2.0, -1.0, -2.5), camera.target] {
                 let point = point.as_vec3().extend(1.0);
                 let clip = view.clip_from_world * point;

@@ -6,12 +6,12 @@ use std::sync::Arc;
 use edgemesh::oracle::stroke_segment::LineKind;
 
 use crate::fill::{FillKind, FillPipeline};
-use crate::gpu_time::GpuTimer;
+use crate::gpu_time::TimedPasses;
 use crate::graph::buffers::RIBBON_DRAWS;
 use crate::graph::coverage::CHANNELS;
 use crate::look::Visibility;
 use crate::object::{Object, ObjectPart, SeenBox};
-use crate::renderer::{DrawVertices, PASS_NAMES, PreparedDraw, Renderer};
+use crate::renderer::{DrawVertices, Fill, PASS_NAMES, PreparedDraw, Renderer};
 use crate::silhouette::{NO_OBJECT, StencilValues};
 use crate::stroke_indices::IndexKey;
 use crate::targets::Targets;
@@ -25,6 +25,8 @@ pub(crate) struct FrameEncoder<'a> {
     /// The frame with what was filled, where a draw asks for it.
     pub(crate) frame_fill: Option<wgpu::BindGroup>,
     pub(crate) steps: Vec<DrawStep>,
+    /// Whether the samples are averaged to the picture in the end.
+    pub(crate) resolves: bool,
 }
 
 /// What is drawn at once, in the order of a frame.
@@ -120,12 +122,20 @@ impl FrameEncoder<'_> {
     pub(crate) fn encode_fill(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        [r, g, b, a]: [f64; 4],
+        fill: Fill,
         batches: &StencilBatches,
-        timer: Option<&GpuTimer>,
+        timer: Option<TimedPasses>,
     ) {
-        let background = wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a });
-        let color = self.targets.color_attachment(background, false);
+        let load = match fill {
+            Fill::Clear([r, g, b, a]) => wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a }),
+            Fill::Depth => wgpu::LoadOp::Load,
+            Fill::Done => {
+                let timer = timer.map(|timer| timer.render(3));
+                let first = batches.ranges()[0].clone();
+                return self.encode_marks(encoder, first, &batches.values, timer);
+            }
+        };
+        let color = self.targets.color_attachment(load, false);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(PASS_NAMES[3]),
             color_attachments: &[Some(color)],
@@ -160,7 +170,7 @@ impl FrameEncoder<'_> {
     pub(crate) fn encode_paths(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        timer: Option<&GpuTimer>,
+        timer: Option<TimedPasses>,
     ) {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some(PASS_NAMES[4]),
@@ -185,7 +195,7 @@ impl FrameEncoder<'_> {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         textures: &[wgpu::TextureView],
-        timer: Option<&GpuTimer>,
+        timer: Option<TimedPasses>,
     ) {
         if textures.is_empty() {
             // The timer expects every pass.
@@ -300,16 +310,16 @@ impl FrameEncoder<'_> {
         encoder: &mut wgpu::CommandEncoder,
         batches: &StencilBatches,
         laid: &[wgpu::BindGroup],
-        timer: Option<&GpuTimer>,
+        timer: Option<TimedPasses>,
     ) {
         let ranges = batches.ranges();
         for (batch, range) in ranges.iter().enumerate() {
             let is_first = batch == 0;
             if !is_first {
-                self.encode_marks(encoder, range.clone(), &batches.values);
+                self.encode_marks(encoder, range.clone(), &batches.values, None);
             }
             let is_last = batch + 1 == ranges.len();
-            let color = self.targets.color_attachment(wgpu::LoadOp::Load, is_last);
+            let color = self.targets.color_attachment(wgpu::LoadOp::Load, is_last && self.resolves);
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some(PASS_NAMES[6]),
                 color_attachments: &[Some(color)],
@@ -332,21 +342,24 @@ impl FrameEncoder<'_> {
         }
     }
 
-    /// Clears the stencil and marks a further batch of objects in it.
+    /// Clears the stencil and marks a batch of objects in it where their own depth is
+    /// what is seen.
     fn encode_marks(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         range: std::ops::Range<usize>,
         values: &[u32],
+        timer: Option<wgpu::RenderPassTimestampWrites>,
     ) {
         let color = self.targets.color_attachment(wgpu::LoadOp::Load, false);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("marks"),
             color_attachments: &[Some(color)],
             depth_stencil_attachment: Some(self.targets.cleared_stencil()),
+            timestamp_writes: timer,
             ..Default::default()
         });
-        for index in range {
+        for index in range.filter(|&index| values[index] != NO_OBJECT) {
             self.fill(&mut pass, self.objects[index], FillKind::Mark, values[index]);
         }
     }

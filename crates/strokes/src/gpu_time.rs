@@ -37,8 +37,14 @@ impl GpuTimer {
         Some(Self { queries, resolved, pass_count })
     }
 
+    /// The passes from `first` on.
+    #[must_use]
+    pub const fn passes_from(&self, first: u32) -> TimedPasses<'_> {
+        TimedPasses { timer: self, first }
+    }
+
     /// The queries around compute pass `index`.
-    pub(crate) const fn compute(&self, index: u32) -> wgpu::ComputePassTimestampWrites<'_> {
+    const fn compute(&self, index: u32) -> wgpu::ComputePassTimestampWrites<'_> {
         wgpu::ComputePassTimestampWrites {
             query_set: &self.queries,
             beginning_of_pass_write_index: Some(2 * index),
@@ -47,7 +53,7 @@ impl GpuTimer {
     }
 
     /// The queries around render pass `index`.
-    pub(crate) const fn render(&self, index: u32) -> wgpu::RenderPassTimestampWrites<'_> {
+    const fn render(&self, index: u32) -> wgpu::RenderPassTimestampWrites<'_> {
         wgpu::RenderPassTimestampWrites {
             query_set: &self.queries,
             beginning_of_pass_write_index: Some(2 * index),
@@ -56,7 +62,7 @@ impl GpuTimer {
     }
 
     /// After the last pass, in the same submission.
-    pub(crate) fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
+    pub fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.resolve_query_set(&self.queries, 0..2 * self.pass_count, &self.resolved, 0);
     }
 
@@ -74,6 +80,33 @@ impl GpuTimer {
         let first = ticks.iter().min().copied().unwrap_or_default();
         let last = ticks.iter().max().copied().unwrap_or_default();
         Ok(GpuTimes { passes_ms: passes_ms.collect(), frame_ms: ms(first, last) })
+    }
+}
+
+/// A run of the passes of a timer.
+#[derive(Debug, Clone, Copy)]
+pub struct TimedPasses<'a> {
+    timer: &'a GpuTimer,
+    first: u32,
+}
+
+impl<'a> TimedPasses<'a> {
+    /// The passes from number `index` of the run on.
+    #[must_use]
+    pub const fn from(&self, index: u32) -> Self {
+        Self { timer: self.timer, first: self.first + index }
+    }
+
+    /// The queries around compute pass `index` of the run.
+    #[must_use]
+    pub const fn compute(&self, index: u32) -> wgpu::ComputePassTimestampWrites<'a> {
+        self.timer.compute(self.first + index)
+    }
+
+    /// The queries around render pass `index` of the run.
+    #[must_use]
+    pub const fn render(&self, index: u32) -> wgpu::RenderPassTimestampWrites<'a> {
+        self.timer.render(self.first + index)
     }
 }
 

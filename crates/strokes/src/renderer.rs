@@ -12,10 +12,10 @@ use edgemesh::oracle::stroke_segment::LineKind;
 use crate::detect::DetectPipeline;
 use crate::expand::ExpandPipeline;
 use crate::fill::{FillKind, FillPipeline};
-use crate::frame::{Frame, FrameUniform, frame_layout};
+use crate::frame::{Frame, FrameUniform, Surroundings, frame_layout};
 use crate::frame_encoder::{DrawStep, FrameEncoder};
 use crate::gpu::Gpu;
-use crate::gpu_time::GpuTimer;
+use crate::gpu_time::{GpuTimer, TimedPasses};
 use crate::graph::GraphPipelines;
 use crate::graph::link::LinkPipeline;
 use crate::look::{Look, Visibility};
@@ -67,6 +67,35 @@ pub struct Renderer {
     expand: HashMap<LineKind, Arc<ExpandPipeline>>,
     strokes: HashMap<StrokeVariant, wgpu::RenderPipeline>,
     indices: HashMap<IndexKey, IndexBuffer>,
+}
+
+/// What is done about the surface before strokes are drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Fill {
+    /// The picture is cleared to a premultiplied colour, and objects are filled.
+    Clear([f64; 4]),
+    /// The picture stays; its depth is made anew.
+    Depth,
+    /// Picture and depth are there, drawn with [`crate::fill::push_away`]; the stencil
+    /// is marked where it is needed.
+    Done,
+}
+
+/// A frame to be encoded.
+#[derive(Debug, Clone, Copy)]
+pub struct FrameRequest<'a> {
+    /// Where to.
+    pub targets: &'a Targets,
+    /// As who sees it.
+    pub view: &'a View,
+    /// The same for the shaders.
+    pub uniform: &'a FrameUniform,
+    /// What is under the strokes.
+    pub fill: Fill,
+    /// Whether the samples are averaged to the picture in the end.
+    pub resolves: bool,
+    /// [`PASS_NAMES`] passes of a timer.
+    pub timer: Option<TimedPasses<'a>>,
 }
 
 /// A look with its pipelines and its textures.
@@ -305,16 +334,41 @@ impl Renderer {
         objects: &mut [Object],
         timer: Option<&GpuTimer>,
     ) {
-        let viewport_px = targets.viewport_px();
-        self.frame.write(&gpu.queue, &FrameUniform::new(view, viewport_px));
+        let uniform = FrameUniform::new(view, targets.viewport_px(), &Surroundings::default());
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let frame = FrameRequest {
+            targets,
+            view,
+            uniform: &uniform,
+            fill: Fill::Clear(background),
+            resolves: true,
+            timer: timer.map(|timer| timer.passes_from(0)),
+        };
+        self.encode(gpu, &mut encoder, objects, &frame);
+        if let Some(timer) = timer {
+            timer.resolve(&mut encoder);
+        }
+        gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// Encodes a frame of `objects`, to be submitted before the next one is encoded.
+    pub fn encode(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        objects: &mut [Object],
+        frame: &FrameRequest,
+    ) {
+        let FrameRequest { targets, view, timer, .. } = *frame;
+        let viewport_px = targets.viewport_px();
+        self.frame.write(&gpu.queue, frame.uniform);
         for object in objects.iter_mut() {
             object.look_from(gpu, view, viewport_px);
         }
         let placed: Vec<&Object> = objects.iter().filter(|object| object.is_placed).collect();
-        self.encode_detect(&mut encoder, &placed, timer);
-        self.encode_link(&mut encoder, &placed, timer);
-        self.encode_expand(&mut encoder, &placed, timer);
+        self.encode_detect(encoder, &placed, timer);
+        self.encode_link(encoder, &placed, timer);
+        self.encode_expand(encoder, &placed, timer);
         let asks_for_fill = |object: &&Object| {
             object.look.draws.iter().any(|draw| draw.lies_over_surface || draw.is_linked)
         };
@@ -323,18 +377,16 @@ impl Renderer {
             .any(asks_for_fill)
             .then(|| self.frame.with_fill(&gpu.device, &self.layouts.frame_fill, targets));
         let steps = DrawStep::plan(&placed);
-        let frame = FrameEncoder { renderer: self, targets, objects: &placed, frame_fill, steps };
-        let values = frame.stencil_values();
-        frame.encode_fill(&mut encoder, background, &values, timer);
-        frame.encode_paths(&mut encoder, timer);
-        let coverage = targets.coverage(&gpu.device, frame.batches().count());
-        frame.encode_coverage(&mut encoder, &coverage, timer);
-        let laid = frame.composite_groups(&gpu.device, &coverage);
-        frame.encode_strokes(&mut encoder, &values, &laid, timer);
-        if let Some(timer) = timer {
-            timer.resolve(&mut encoder);
-        }
-        gpu.queue.submit([encoder.finish()]);
+        let resolves = frame.resolves;
+        let encode =
+            FrameEncoder { renderer: self, targets, objects: &placed, frame_fill, steps, resolves };
+        let values = encode.stencil_values();
+        encode.encode_fill(encoder, frame.fill, &values, timer);
+        encode.encode_paths(encoder, timer);
+        let coverage = targets.coverage(&gpu.device, encode.batches().count());
+        encode.encode_coverage(encoder, &coverage, timer);
+        let laid = encode.composite_groups(&gpu.device, &coverage);
+        encode.encode_strokes(encoder, &values, &laid, timer);
         for object in objects.iter_mut().filter(|object| object.is_placed) {
             object.is_stale = false;
         }
@@ -344,7 +396,7 @@ impl Renderer {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         objects: &[&Object],
-        timer: Option<&GpuTimer>,
+        timer: Option<TimedPasses>,
     ) {
         for object in objects {
             let tallies = &object.whole.tallies;
@@ -367,7 +419,7 @@ impl Renderer {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         objects: &[&Object],
-        timer: Option<&GpuTimer>,
+        timer: Option<TimedPasses>,
     ) {
         let graphs = || objects.iter().filter_map(|object| object.graph.as_ref());
         for graph in graphs() {
@@ -389,7 +441,7 @@ impl Renderer {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         objects: &[&Object],
-        timer: Option<&GpuTimer>,
+        timer: Option<TimedPasses>,
     ) {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some(PASS_NAMES[2]),

@@ -8,8 +8,6 @@
 //! Rejected: a preprocessor with definitions and conditions. `override`
 //! constants make variants, and really different shaders are different files.
 
-use std::fmt;
-
 use thiserror::Error;
 
 use crate::mesh_buffers::Layout;
@@ -27,6 +25,7 @@ pub const EMBEDDED: &[(&str, &str)] = &[
     embedded!("common/edges_indexed.wgsl"),
     embedded!("common/edges_replicated.wgsl"),
     embedded!("common/edges_replicated_16.wgsl"),
+    embedded!("common/encode.wgsl"),
     embedded!("common/faces_indexed.wgsl"),
     embedded!("common/faces_planes.wgsl"),
     embedded!("common/faces_replicated.wgsl"),
@@ -38,6 +37,7 @@ pub const EMBEDDED: &[(&str, &str)] = &[
     embedded!("common/fill_object_of_pixels.wgsl"),
     embedded!("common/fill_object_of_samples.wgsl"),
     embedded!("common/frame.wgsl"),
+    embedded!("common/light.wgsl"),
     embedded!("common/mesh.wgsl"),
     embedded!("common/noise.wgsl"),
     embedded!("common/normal_cone.wgsl"),
@@ -50,6 +50,7 @@ pub const EMBEDDED: &[(&str, &str)] = &[
     embedded!("common/path_wobble.wgsl"),
     embedded!("common/replicated_corner.wgsl"),
     embedded!("common/scan.wgsl"),
+    embedded!("common/screen.wgsl"),
     embedded!("common/silhouette.wgsl"),
     embedded!("common/spine.wgsl"),
     embedded!("common/stroke_cap.wgsl"),
@@ -60,6 +61,8 @@ pub const EMBEDDED: &[(&str, &str)] = &[
     embedded!("common/stroke_segment.wgsl"),
     embedded!("common/stroke_style.wgsl"),
     embedded!("common/stroke_vertex.wgsl"),
+    embedded!("common/surface.wgsl"),
+    embedded!("common/taps.wgsl"),
     embedded!("common/view_runs.wgsl"),
     embedded!("detect_edges.wgsl"),
     embedded!("detect_faces.wgsl"),
@@ -74,6 +77,21 @@ pub const EMBEDDED: &[(&str, &str)] = &[
     embedded!("graph/path_ribbons.wgsl"),
     embedded!("graph/path_strokes.wgsl"),
     embedded!("graph/ribbon.wgsl"),
+    embedded!("programs/composite.wgsl"),
+    embedded!("programs/copy.wgsl"),
+    embedded!("programs/copy_depth.wgsl"),
+    embedded!("programs/copy_depth_of_samples.wgsl"),
+    embedded!("programs/depth.wgsl"),
+    embedded!("programs/edge_depth.wgsl"),
+    embedded!("programs/edge_ids.wgsl"),
+    embedded!("programs/edge_normals.wgsl"),
+    embedded!("programs/flat.wgsl"),
+    embedded!("programs/ids.wgsl"),
+    embedded!("programs/normals.wgsl"),
+    embedded!("programs/phong.wgsl"),
+    embedded!("programs/scene_data.wgsl"),
+    embedded!("programs/screen.wgsl"),
+    embedded!("programs/surface.wgsl"),
     embedded!("stroke_all.wgsl"),
     embedded!("stroke_expanded.wgsl"),
     embedded!("stroke_face_normals.wgsl"),
@@ -108,6 +126,10 @@ pub struct ShaderError {
     pub file: String,
     /// The line in that file, counted from 1.
     pub line: usize,
+    /// The column in bytes, counted from 1.
+    pub column: usize,
+    /// How many bytes of the line it is about.
+    pub length: usize,
     /// What is wrong.
     pub message: String,
 }
@@ -123,6 +145,8 @@ impl ShaderSource {
         let missing = || ShaderError {
             file: root.into(),
             line: 1,
+            column: 1,
+            length: 0,
             message: "there is no such shader".into(),
         };
         let text = load(root).ok_or_else(missing)?;
@@ -176,8 +200,13 @@ impl ShaderSource {
         let mut body = Vec::new();
         let mut is_head = true;
         for (index, line) in text.lines().enumerate() {
-            let error =
-                |message: String| ShaderError { file: path.into(), line: index + 1, message };
+            let error = |message: String| ShaderError {
+                file: path.into(),
+                line: index + 1,
+                column: 1,
+                length: line.len(),
+                message,
+            };
             if !line.trim_start().starts_with("#import") {
                 is_head &= line.trim().is_empty() || line.trim_start().starts_with("//");
                 body.push((index + 1, line));
@@ -221,33 +250,51 @@ impl ShaderSource {
             .map_or(("", 0), |origin| (self.files[origin.file].as_str(), origin.line))
     }
 
+    /// The files that the text was joined from, each behind what it imports.
+    #[must_use]
+    pub fn files(&self) -> &[String] {
+        &self.files
+    }
+
     /// Parses and validates the module as wgpu will.
     ///
     /// # Errors
     /// The first mistake, at the file and line where it was written.
     pub fn validate(&self) -> Result<naga::Module, ShaderError> {
-        let module = naga::front::wgsl::parse_str(&self.text).map_err(|error| {
-            let line = error.location(&self.text).map_or(1, |at| at.line_number as usize);
-            self.error_at(line, &error.message())
-        })?;
+        self.reflect().map(|(module, _)| module)
+    }
+
+    /// As [`Self::validate`], with what is known of the functions.
+    ///
+    /// # Errors
+    /// As [`Self::validate`].
+    pub fn reflect(&self) -> Result<(naga::Module, naga::valid::ModuleInfo), ShaderError> {
+        let module = naga::front::wgsl::parse_str(&self.text)
+            .map_err(|error| self.error_at(error.location(&self.text), error.message()))?;
         let mut validator = naga::valid::Validator::new(
             naga::valid::ValidationFlags::all(),
             naga::valid::Capabilities::default(),
         );
-        validator.validate(&module).map_err(|error| {
-            let line = error.location(&self.text).map_or(1, |at| at.line_number as usize);
+        let info = validator.validate(&module).map_err(|error| {
+            let location = error.location(&self.text);
             let error = error.into_inner();
             let causes =
                 std::iter::successors(Some(&error as &dyn std::error::Error), |e| e.source());
             let causes: Vec<String> = causes.map(ToString::to_string).collect();
-            self.error_at(line, &causes.join(": "))
+            self.error_at(location, &causes.join(": "))
         })?;
-        Ok(module)
+        Ok((module, info))
     }
 
-    fn error_at(&self, line: usize, message: &dyn fmt::Display) -> ShaderError {
+    fn error_at(&self, at: Option<naga::SourceLocation>, message: &str) -> ShaderError {
+        let (line, column, length) = at.map_or((1, 1, 0), |at| {
+            (at.line_number as usize, at.line_position as usize, at.length as usize)
+        });
+        // Of what goes over several lines the first one is shown.
+        let rest = self.text.lines().nth(line.saturating_sub(1)).map_or(0, str::len);
+        let length = length.min((rest + 1).saturating_sub(column));
         let (file, line) = self.origin(line);
-        ShaderError { file: file.into(), line, message: message.to_string() }
+        ShaderError { file: file.into(), line, column, length, message: message.to_owned() }
     }
 
     /// Makes the module on a device.

@@ -143,12 +143,14 @@ impl Targets {
     }
 
     /// The depth, to be read.
-    pub(crate) const fn depth_texture(&self) -> &wgpu::TextureView {
+    #[must_use]
+    pub const fn depth_texture(&self) -> &wgpu::TextureView {
         &self.depth_texture
     }
 
     /// The values of the objects in the stencil, to be read.
-    pub(crate) const fn object_texture(&self) -> Option<&wgpu::TextureView> {
+    #[must_use]
+    pub const fn object_texture(&self) -> Option<&wgpu::TextureView> {
         self.object_texture.as_ref()
     }
 
@@ -176,7 +178,8 @@ impl Targets {
     }
 
     /// The colour attachment; resolved into the picture where `is_last`.
-    pub(crate) fn color_attachment(
+    #[must_use]
+    pub fn color_attachment(
         &self,
         load: wgpu::LoadOp<wgpu::Color>,
         is_last: bool,
@@ -194,19 +197,59 @@ impl Targets {
         }
     }
 
+    /// Copies the picture as it is, its samples averaged, to a texture of its size and
+    /// format.
+    pub fn copy_picture(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        to: &wgpu::TextureView,
+        texture: &wgpu::Texture,
+        timestamp_writes: Option<wgpu::RenderPassTimestampWrites>,
+    ) {
+        let view = self.sampled_view.as_ref().unwrap_or(&self.picture_view);
+        let store = wgpu::StoreOp::Store;
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("copy picture"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target: self.sampled_view.is_some().then_some(to),
+                ops: wgpu::Operations { load: wgpu::LoadOp::Load, store },
+            })],
+            timestamp_writes,
+            ..Default::default()
+        });
+        if self.sampled_view.is_none() {
+            encoder.copy_texture_to_texture(
+                self.picture.as_image_copy(),
+                texture.as_image_copy(),
+                self.picture.size(),
+            );
+        }
+    }
+
     /// Depth and stencil, cleared to nothing drawn.
-    pub(crate) fn cleared_depth(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    #[must_use]
+    pub fn cleared_depth(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
         // Reversed depth: 0 is the far plane.
         self.depth(wgpu::LoadOp::Clear(0.0), wgpu::LoadOp::Clear(NO_OBJECT))
     }
 
+    /// Depth and stencil as they are.
+    #[must_use]
+    pub fn kept_depth(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+        self.depth(wgpu::LoadOp::Load, wgpu::LoadOp::Load)
+    }
+
     /// Depth as it is, and the stencil cleared.
-    pub(crate) fn cleared_stencil(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    #[must_use]
+    pub fn cleared_stencil(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
         self.depth(wgpu::LoadOp::Load, wgpu::LoadOp::Clear(NO_OBJECT))
     }
 
     /// Depth and stencil as they are, to be tested against, and read meanwhile.
-    pub(crate) const fn read_depth(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    #[must_use]
+    pub const fn read_depth(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
         wgpu::RenderPassDepthStencilAttachment {
             view: &self.depth_view,
             depth_ops: None,

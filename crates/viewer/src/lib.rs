@@ -18,8 +18,9 @@
 pub mod animation;
 pub mod command;
 pub mod comparison;
+pub mod lighting;
+pub mod pass_graph;
 pub mod picture;
 pub mod render;
 pub mod scene_file;
-pub mod stroke_setting;
 pub mod technique;

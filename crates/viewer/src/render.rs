@@ -1,11 +1,9 @@
 //! A scene of edge meshes to pictures, without a window.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::Instant;
 
-use crate::scene_file::SceneObject;
-use edgemesh::build::Frame;
+use edgemesh::build::{BuildOptions, Frame};
 use edgemesh::camera::Camera;
 use edgemesh::command::input::{InputOptions, Loaded};
 use edgemesh::command::{ExitStatus, Failure};
@@ -14,14 +12,20 @@ use glam::DMat4;
 use image::RgbaImage;
 use strokes::gpu::{Gpu, GpuError, ResourceError};
 use strokes::gpu_time::GpuTimer;
-use strokes::look::Look;
-use strokes::mesh_buffers::{Layout, MeshBuffers};
-use strokes::object::{GraphReadback, Object};
+use strokes::mesh_buffers::Layout;
+use strokes::object::GraphReadback;
 use strokes::readback::{ReadbackError, read_picture};
-use strokes::renderer::{DetectionPath, PASS_NAMES, PreparedLook, Renderer, RendererOptions};
-use strokes::shader::ShaderError;
-use strokes::targets::{TargetFormats, Targets};
+use strokes::renderer::DetectionPath;
+use strokes::targets::Targets;
 use strokes::view_buffers::Tally;
+
+use crate::lighting::Lighting;
+use crate::pass_graph::{GraphOptions, PassGraph};
+use crate::scene_file::SceneObject;
+use crate::technique::Technique;
+use crate::technique::mistake::Mistakes;
+use crate::technique::plan::Plan;
+use crate::technique::program::ShaderFiles;
 
 /// Models in memory.
 #[derive(Debug)]
@@ -34,6 +38,8 @@ pub struct Scene {
     pub bounds: Bounds,
     /// Where the scene lies in the files, the same for all models.
     pub frame: Frame,
+    /// The angles in radians from which edges are ridges and valleys in the meshes.
+    pub thresholds: [f64; 2],
 }
 
 /// A model in its place.
@@ -41,7 +47,8 @@ pub struct Scene {
 pub struct PlacedObject {
     /// Index into [`Scene::models`].
     pub model: usize,
-    /// Index into the looks that a scene is drawn with.
+    /// Index into the techniques that objects have of their own; any other number for
+    /// that of the scene.
     pub look: usize,
     /// Takes the model to the scene.
     pub world_from_object: DMat4,
@@ -71,7 +78,11 @@ impl Scene {
         }
         // Transforms are in the numbers of the files.
         let is_moved = placed.iter().any(|object| object.world_from_object != DMat4::IDENTITY);
-        Ok(Self::placed(input.load_scene(&paths, is_moved, is_quiet)?, placed))
+        let built = input.creases.build_options();
+        Ok(Self {
+            thresholds: [built.ridge_angle_rad, built.valley_angle_rad],
+            ..Self::placed(input.load_scene(&paths, is_moved, is_quiet)?, placed)
+        })
     }
 
     /// A scene of models that are in one frame, each once where it is.
@@ -92,15 +103,15 @@ impl Scene {
         });
         let bounds = boxes.reduce(|bounds, other| bounds.union(&other)).unwrap_or_default();
         let frame = models.first().map(|model| model.mesh.frame).unwrap_or_default();
-        Self { models, objects, bounds, frame }
+        let built = BuildOptions::default();
+        let thresholds = [built.ridge_angle_rad, built.valley_angle_rad];
+        Self { models, objects, bounds, frame, thresholds }
     }
 }
 
 /// How a scene is drawn.
 #[derive(Debug, Clone)]
 pub struct PictureOptions {
-    /// Premultiplied colour behind everything.
-    pub background: [f64; 4],
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// Samples a pixel, 1 or 4.
@@ -109,17 +120,39 @@ pub struct PictureOptions {
     pub layout: Layout,
     /// Where features are detected.
     pub path: DetectionPath,
+    /// Whether there is no paper behind the scene.
+    pub is_transparent: bool,
+    /// The light, and what cuts the scene.
+    pub lighting: Lighting,
+    /// Where shaders are taken from instead of those that are shipped.
+    pub shaders: Option<PathBuf>,
+}
+
+impl Default for PictureOptions {
+    /// 1024 x 1024 pixels of 4 samples.
+    fn default() -> Self {
+        Self {
+            size: [1024; 2],
+            samples: 4,
+            layout: Layout::default(),
+            path: DetectionPath::default(),
+            is_transparent: false,
+            lighting: Lighting::default(),
+            shaders: None,
+        }
+    }
 }
 
 /// A scene on the GPU with everything that its pictures need.
 #[derive(Debug)]
 pub struct PictureRenderer<'a> {
     gpu: &'a Gpu,
-    renderer: Renderer,
-    targets: Targets,
-    objects: Vec<Object>,
+    graph: PassGraph,
+    plan: Plan,
     bounds: Bounds,
-    background: [f64; 4],
+    frame: Frame,
+    size: [u32; 2],
+    lighting: Lighting,
     timer: Option<GpuTimer>,
 }
 
@@ -130,97 +163,78 @@ pub struct FrameStatistics {
     pub tally: Option<Tally>,
     /// Each pass with its milliseconds on the GPU, where the adapter has
     /// timestamps.
-    pub passes: Vec<(&'static str, Option<f64>)>,
+    pub passes: Vec<(String, Option<f64>)>,
     /// From the submission until the GPU was done.
     pub frame_ms: f64,
 }
 
 impl<'a> PictureRenderer<'a> {
-    /// Uploads the scene, each object with its look, and builds the pipelines.
+    /// Checks `technique`, uploads the scene, and builds the pipelines. An object whose
+    /// look is a number of `looks` takes what is drawn object by object, its fill and
+    /// its strokes, from there.
     ///
     /// # Errors
-    /// Where the picture or a mesh is too large for the adapter, or a shader is
-    /// wrong.
+    /// Where something is wrong with the technique or its shaders, or the picture or a
+    /// mesh is too large for the adapter.
     pub fn new(
         gpu: &'a Gpu,
         scene: &Scene,
-        looks: &[Look],
+        technique: &Technique,
+        looks: &[Technique],
         options: &PictureOptions,
     ) -> Result<Self, Failure> {
         check_size(gpu, options.size)?;
-        let made = gpu.make(|| Self::make(gpu, scene, looks, options));
+        let shaders = ShaderFiles::new(&technique.folders, options.shaders.clone());
+        let plan =
+            Plan::of(technique, &shaders).map_err(|mistakes| technique_failure(&mistakes))?;
+        let made = gpu.make(|| Self::make(gpu, scene, technique, plan, looks, options));
         made.map_err(|error| resource_failure(&error, options.size, options.samples))?
     }
 
     fn make(
         gpu: &'a Gpu,
         scene: &Scene,
-        looks: &[Look],
+        technique: &Technique,
+        plan: Plan,
+        looks: &[Technique],
         options: &PictureOptions,
     ) -> Result<Self, Failure> {
-        let shader_failure =
-            |error: ShaderError| Failure { message: error.to_string(), status: ExitStatus::Shader };
-        let formats = if looks.iter().any(|look| look.silhouette.is_some()) {
-            TargetFormats::with_stencil(&gpu.device, options.samples)
-        } else {
-            TargetFormats::new(options.samples)
+        let graph_options = GraphOptions {
+            size: options.size,
+            samples: options.samples,
+            layout: options.layout,
+            path: options.path,
+            is_transparent: options.is_transparent,
         };
-        let PictureOptions { layout, path, .. } = *options;
-        let mut renderer = Renderer::new(gpu, RendererOptions { layout, path, formats })
-            .map_err(shader_failure)?;
-        // Objects that look alike share pipelines and textures.
-        let mut prepared: Vec<Arc<PreparedLook>> = Vec::with_capacity(looks.len());
-        for (at, look) in looks.iter().enumerate() {
-            let same = looks[..at].iter().position(|known| known == look);
-            prepared.push(match same {
-                Some(same) => prepared[same].clone(),
-                None => renderer.prepare(gpu, look).map_err(shader_failure)?,
-            });
-        }
-        let looks = prepared;
-        let is_linked = looks.iter().any(|look| look.is_linked());
-        let meshes = scene.models.iter().map(|model| {
-            let upload = if is_linked { MeshBuffers::with_links } else { MeshBuffers::new };
-            let buffers = upload(&gpu.device, &model.mesh, layout)
-                .map_err(|error| Failure::fault(format!("{}: {error}", model.name)))?;
-            Ok(Arc::new(buffers))
-        });
-        let meshes = meshes.collect::<Result<Vec<_>, Failure>>()?;
-        let objects = scene.objects.iter().map(|placed| {
-            let mut object = renderer.object(
-                gpu,
-                &meshes[placed.model],
-                &looks[placed.look.min(looks.len() - 1)],
-            );
-            object.world_from_object = placed.world_from_object;
-            object
-        });
+        let graph = PassGraph::new(gpu, scene, technique, &plan, looks, &graph_options)?;
+        let timer = GpuTimer::new(gpu, edgemesh::index::to_u32(graph.time_names().len()));
         Ok(Self {
-            objects: objects.collect(),
             gpu,
-            renderer,
-            targets: Targets::new(&gpu.device, options.size, formats),
+            graph,
+            plan,
             bounds: scene.bounds,
-            background: options.background,
-            timer: GpuTimer::new(gpu, edgemesh::index::to_u32(PASS_NAMES.len())),
+            frame: scene.frame,
+            size: options.size,
+            lighting: options.lighting.clone(),
+            timer,
         })
     }
 
     /// Draws one picture, with premultiplied alpha.
     ///
     /// # Errors
-    /// Where the device is lost.
+    /// Where the device is lost, or an image cannot be read.
     pub fn render(&mut self, camera: &Camera) -> Result<(RgbaImage, FrameStatistics), Failure> {
         let started = Instant::now();
-        self.submit(camera);
+        self.submit(camera)?;
         self.gpu
             .device
             .poll(wgpu::PollType::wait_indefinitely())
             .map_err(|error| Failure::fault(format!("the graphics adapter was lost: {error}")))?;
         let frame_ms = started.elapsed().as_secs_f64() * 1e3;
-        let picture = read_picture(self.gpu, self.targets.picture()).map_err(lost)?;
-        let statistics =
-            FrameStatistics { tally: self.read_tally()?, passes: self.read_passes()?, frame_ms };
+        let picture = read_picture(self.gpu, self.graph.picture()).map_err(lost)?;
+        let tally = self.graph.tally(self.gpu).map_err(lost)?;
+        let statistics = FrameStatistics { tally, passes: self.read_passes()?, frame_ms };
         Ok((picture, statistics))
     }
 
@@ -230,34 +244,48 @@ impl<'a> PictureRenderer<'a> {
     /// # Errors
     /// Where the device is lost.
     pub fn read_graph(&self, object: usize) -> Result<Option<GraphReadback>, Failure> {
-        let Some(object) = self.objects.get(object) else { return Ok(None) };
+        let group = self.graph.stroke_groups().next();
+        let Some(object) = group.and_then(|group| group.objects.get(object)) else {
+            return Ok(None);
+        };
         object.read_graph(self.gpu).map_err(lost)
     }
 
-    fn submit(&mut self, camera: &Camera) {
-        let [width, height] = self.targets.size;
+    /// The texture that passes call `<generated>:name`, as it is after the last picture.
+    #[must_use]
+    pub fn generated(&self, name: &str) -> Option<&wgpu::Texture> {
+        self.graph.generated(&self.plan, name)
+    }
+
+    fn submit(&mut self, camera: &Camera) -> Result<(), Failure> {
+        let [width, height] = self.size;
         let view = camera.view(&self.bounds, f64::from(width) / f64::from(height));
-        let timer = self.timer.as_ref();
-        let objects = &mut self.objects;
-        self.renderer.render(self.gpu, &self.targets, &view, self.background, objects, timer);
-    }
-
-    fn read_tally(&self) -> Result<Option<Tally>, Failure> {
-        if self.renderer.options().path == DetectionPath::Vertex {
-            return Ok(None);
+        let around = self.lighting.surroundings(&view, &self.bounds, &self.frame);
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        let timer = self.timer.as_ref().map(|timer| timer.passes_from(0));
+        self.graph.encode(self.gpu, &mut encoder, &view, &around, timer)?;
+        if let Some(timer) = &self.timer {
+            timer.resolve(&mut encoder);
         }
-        let sum = self.objects.iter().try_fold(Tally::default(), |sum, object| {
-            object.read_tally(self.gpu).map(|tally| sum.plus(&tally)).map_err(lost)
-        });
-        sum.map(Some)
+        self.gpu.queue.submit([encoder.finish()]);
+        Ok(())
     }
 
-    fn read_passes(&self) -> Result<Vec<(&'static str, Option<f64>)>, Failure> {
+    fn read_passes(&self) -> Result<Vec<(String, Option<f64>)>, Failure> {
         let times = self.timer.as_ref().map(|timer| timer.read(self.gpu)).transpose();
         let times = times.map_err(lost)?.map_or_else(Vec::new, |times| times.passes_ms);
         let times = times.into_iter().map(Some).chain(std::iter::repeat(None));
-        Ok(PASS_NAMES.into_iter().zip(times).collect())
+        Ok(self.graph.time_names().into_iter().zip(times).collect())
     }
+}
+
+/// The failure that mistakes in a technique are: exit status 4.
+#[must_use]
+pub fn technique_failure(mistakes: &Mistakes) -> Failure {
+    let text = mistakes.to_string();
+    // The first one is announced as an error by who prints it.
+    let message = text.strip_prefix("error: ").unwrap_or(&text).trim_end().to_owned();
+    Failure { message, status: ExitStatus::Shader }
 }
 
 fn lost(error: ReadbackError) -> Failure {

@@ -29,10 +29,9 @@ fn picture_on(
     technique: &Technique,
     (layout, path): (Layout, DetectionPath),
 ) -> RgbaImage {
-    let background = technique.background();
-    let options = PictureOptions { background, size: [256; 2], samples: 4, layout, path };
-    let look = technique.look(&mesh.frame);
-    let mut renderer = PictureRenderer::new(gpu, &scene_of(mesh), &[look], &options).unwrap();
+    let options = PictureOptions { size: [256; 2], layout, path, ..PictureOptions::default() };
+    let mut renderer =
+        PictureRenderer::new(gpu, &scene_of(mesh), technique, &[], &options).unwrap();
     renderer.render(&Camera::default_view(&mesh.bounds)).unwrap().0
 }
 
@@ -47,10 +46,16 @@ fn looks() -> Vec<Technique> {
         &[],
         &["strokes.ends=disks", "strokes.width=6", "ridge.placement=inside"],
         &["contour.placement=inside", "strokes.width=5"],
-        &["strokes.placement=centred", "strokes.width=7", "hidden.show=true"],
+        &["strokes.placement=centred", "strokes.width=7", "hidden.render=true"],
         &["strokes.kind=thin", "contour.kind=fin", "contour.width=5"],
-        &["hidden.show=true", "hidden.color=#0000ff", "boundary.color=#ff0000"],
-        &["creases.ridge=10", "creases.valley=60", "ridge.color=#00a000", "strokes.width=0.05u"],
+        &["hidden.render=true", "hidden.color=#0000ff", "boundary.color=#ff0000"],
+        &[
+            "strokes.ridge_angle=10",
+            "strokes.valley_angle=60",
+            "ridge.color=#00a000",
+            "strokes.width=0.05",
+            "strokes.width_unit=model",
+        ],
     ];
     settings.map(|settings| technique("ink", settings)).into()
 }
@@ -154,7 +159,7 @@ fn large_meshes_in_bindings_of_a_mebibyte() {
         let buffers = MeshBuffers::new(&small.device, &mesh, Layout::Indexed).unwrap();
         assert_eq!(buffers.chunk_count() > 1, mesh.triangles.len() > 32_768, "{name}");
         let how = (Layout::Indexed, DetectionPath::Compute);
-        for look in [technique("ink", &[]), technique("pen", &["hidden.show=true"])] {
+        for look in [technique("ink", &[]), technique("pen", &["hidden.render=true"])] {
             let whole = picture_on(gpu(), &mesh, &look, how);
             assert_eq!(difference(&whole, &picture_on(&small, &mesh, &look, how)), 0, "{name}");
         }
@@ -169,7 +174,7 @@ fn linked_strokes_are_the_same_in_every_layout_and_in_chunks() {
         technique("pen", &["strokes.linked=true", "strokes.width=5", "strokes.taper=20"]),
         technique(
             "charcoal",
-            &["strokes.linked=true", "ridge.width=3", "hidden.show=true", "hidden.linked=true"],
+            &["strokes.linked=true", "ridge.width=3", "hidden.render=true", "hidden.linked=true"],
         ),
     ];
     for (name, mesh) in own_models() {

@@ -1,5 +1,7 @@
 //! Pictures: goldens, and what can be said of them in closed form.
 
+use std::sync::LazyLock;
+
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::camera::Camera;
 use edgemesh::command::input::Loaded;
@@ -8,21 +10,29 @@ use edgemesh::model::Model;
 use edgemesh::report::Report;
 use glam::DVec3;
 use image::{GrayImage, Luma, RgbaImage};
-use strokes::mesh_buffers::Layout;
-use strokes::renderer::DetectionPath;
+use strokes::look::Look;
 use testkit::compare::Golden;
+use viewer::pass_graph::strokes_of;
 use viewer::render::{PictureOptions, PictureRenderer, Scene};
 use viewer::technique::Technique;
+use viewer::technique::library::Library;
 
 use crate::gpu_device::{gpu, is_pinned_driver};
 use crate::own_models::own_models;
 
 pub(crate) fn technique(name: &str, settings: &[&str]) -> Technique {
-    let mut technique = Technique::by_name(name).unwrap();
+    static LIBRARY: LazyLock<Library> = LazyLock::new(Library::shipped);
+    let mut technique = LIBRARY.technique(name).unwrap().0;
     for setting in settings {
         technique.set(setting).unwrap();
     }
     technique
+}
+
+/// The strokes of a technique over white.
+pub(crate) fn look_of(technique: &Technique, mesh: &EdgeMesh) -> Look {
+    let built = [30_f64.to_radians(); 2];
+    Look { fill_color: Some([1.0; 4]), ..strokes_of(technique, &mesh.frame, built).unwrap() }
 }
 
 pub(crate) fn picture(
@@ -32,15 +42,18 @@ pub(crate) fn picture(
     size_px: u32,
     samples: u32,
 ) -> RgbaImage {
-    let options = PictureOptions {
-        background: technique.background(),
-        size: [size_px; 2],
-        samples,
-        layout: Layout::Indexed,
-        path: DetectionPath::Compute,
-    };
-    let look = technique.look(&mesh.frame);
-    let mut renderer = PictureRenderer::new(gpu(), &scene_of(mesh), &[look], &options).unwrap();
+    let options = PictureOptions { size: [size_px; 2], samples, ..PictureOptions::default() };
+    picture_with(mesh, camera, technique, &options)
+}
+
+pub(crate) fn picture_with(
+    mesh: &EdgeMesh,
+    camera: &Camera,
+    technique: &Technique,
+    options: &PictureOptions,
+) -> RgbaImage {
+    let mut renderer =
+        PictureRenderer::new(gpu(), &scene_of(mesh), technique, &[], options).unwrap();
     renderer.render(camera).unwrap().0
 }
 
@@ -91,12 +104,17 @@ fn golden_models() {
 fn golden_linked() {
     for (golden, model, name, settings) in [
         ("torus_knot-linked", "torus_knot", "ink", &["strokes.width=5", "strokes.taper=25"][..]),
-        ("torus_knot-linked-watercolor", "torus_knot", "watercolor", &[]),
-        ("wave_blob-linked-charcoal", "wave_blob", "charcoal", &["strokes.wobble=3,40"]),
+        ("torus_knot-linked-watercolor", "torus_knot", "watercolour", &[]),
+        (
+            "wave_blob-linked-charcoal",
+            "wave_blob",
+            "charcoal",
+            &["strokes.wobble=3", "strokes.wobble_length=40"],
+        ),
         (
             "bracket-linked-dashes",
             "bracket",
-            "hidden-line",
+            "hidden_line",
             &["hidden.linked=true", "hidden.brush=none", "hidden.dash=8,5", "strokes.width=3"],
         ),
         (
@@ -107,7 +125,7 @@ fn golden_linked() {
                 "strokes.width=12",
                 "strokes.opacity=0.5",
                 "strokes.join=mitred",
-                "strokes.corner=none",
+                "strokes.corner=180",
                 "strokes.ends=flat",
             ],
         ),
@@ -141,9 +159,9 @@ fn golden_pen() {
 fn golden_styles() {
     for (golden, model, name, settings) in [
         ("torus_knot-charcoal", "torus_knot", "charcoal", &[][..]),
-        ("torus_knot-watercolor", "torus_knot", "watercolor", &[]),
+        ("torus_knot-watercolor", "torus_knot", "watercolour", &[]),
         ("torus_knot-fur", "torus_knot", "fur", &["contour.width=20"]),
-        ("plane_with_hole-watercolor", "plane_with_hole", "watercolor", &[]),
+        ("plane_with_hole-watercolor", "plane_with_hole", "watercolour", &[]),
         (
             "cylinder-inside",
             "cylinder",
@@ -155,7 +173,7 @@ fn golden_styles() {
             "torus_knot",
             "ink",
             &[
-                "silhouette.show=true",
+                "silhouette.render=true",
                 "silhouette.width=6",
                 "silhouette.placement=inside",
                 "silhouette.color=#c04000",
@@ -163,17 +181,22 @@ fn golden_styles() {
         ),
         ("torus_knot-centred", "torus_knot", "charcoal", &["contour.placement=centred"]),
         ("bracket-charcoal", "bracket", "charcoal", &["strokes.parameterization=screen"]),
-        ("bracket-hidden", "bracket", "hidden-line", &["hidden.color=#c04000", "hidden.width=3"]),
+        ("bracket-hidden", "bracket", "hidden_line", &["hidden.color=#c04000", "hidden.width=3"]),
         (
             "bracket-silhouette",
             "bracket",
             "ink",
-            &["silhouette.show=true", "silhouette.width=8", "silhouette.color=#2040c0"],
+            &["silhouette.render=true", "silhouette.width=8", "silhouette.color=#2040c0"],
         ),
         ("cylinder-disks", "cylinder", "ink", &["strokes.width=10", "strokes.ends=disks"]),
         ("wave_blob-fins", "wave_blob", "ink", &["strokes.width=8", "strokes.kind=fin"]),
         ("bracket-thin", "bracket", "ink", &["strokes.kind=thin", "ridge.color=#c00000"]),
-        ("torus_knot-world", "torus_knot", "ink", &["strokes.width=0.1u", "strokes.fade=2.5,5"]),
+        (
+            "torus_knot-world",
+            "torus_knot",
+            "ink",
+            &["strokes.width=0.1", "strokes.width_unit=model", "strokes.fade=2.5,5"],
+        ),
     ] {
         let mesh = own_model(model);
         let camera = from(&mesh, DVec3::new(0.9, 0.7, 1.0), 2.3);
@@ -374,9 +397,10 @@ fn one_triangle_front_edge_on_and_none() {
 #[test]
 fn transparency_leaves_the_paper_out() {
     let mesh = own_model("cube");
-    let mut look = technique("ink", &[]);
-    look.make_transparent();
-    let picture = picture(&mesh, &Camera::default_view(&mesh.bounds), &look, 64, 4);
+    let options =
+        PictureOptions { size: [64; 2], is_transparent: true, ..PictureOptions::default() };
+    let camera = Camera::default_view(&mesh.bounds);
+    let picture = picture_with(&mesh, &camera, &technique("ink", &[]), &options);
     assert_eq!(picture.get_pixel(0, 0).0[3], 0);
     assert_eq!(picture.get_pixel(32, 32).0[3], 255);
 }

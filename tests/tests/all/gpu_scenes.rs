@@ -11,14 +11,14 @@ use edgemesh::model::Model;
 use edgemesh::report::Report;
 use glam::{DMat4, DQuat, DVec3};
 use image::RgbaImage;
-use strokes::look::Look;
-use strokes::mesh_buffers::{Layout, MeshBuffers};
-use strokes::renderer::{DetectionPath, Renderer, RendererOptions};
+use strokes::mesh_buffers::MeshBuffers;
+use strokes::renderer::{Renderer, RendererOptions};
 use strokes::targets::{TargetFormats, Targets};
 use viewer::render::{PictureOptions, PictureRenderer, PlacedObject, Scene};
+use viewer::technique::Technique;
 
 use crate::gpu_device::gpu;
-use crate::gpu_render::{own_model, picture, technique};
+use crate::gpu_render::{look_of, own_model, picture, technique};
 
 /// A scene of one model many times.
 fn scene(mesh: &EdgeMesh, places: &[(DMat4, usize)]) -> Scene {
@@ -31,19 +31,15 @@ fn scene(mesh: &EdgeMesh, places: &[(DMat4, usize)]) -> Scene {
     Scene::placed(vec![loaded], placed.collect())
 }
 
-fn scene_picture(scene: &Scene, looks: &[Look], size_px: u32, camera: &Camera) -> RgbaImage {
-    let options = PictureOptions {
-        background: [1.0; 4],
-        size: [size_px; 2],
-        samples: 1,
-        layout: Layout::Indexed,
-        path: DetectionPath::Compute,
-    };
-    PictureRenderer::new(gpu(), scene, looks, &options).unwrap().render(camera).unwrap().0
+/// The scene with the look of each object from `looks`.
+fn scene_picture(scene: &Scene, looks: &[Technique], size_px: u32, camera: &Camera) -> RgbaImage {
+    let options = PictureOptions { size: [size_px; 2], samples: 1, ..PictureOptions::default() };
+    let mut renderer = PictureRenderer::new(gpu(), scene, &looks[0], looks, &options).unwrap();
+    renderer.render(camera).unwrap().0
 }
 
-fn look(settings: &[&str]) -> Look {
-    technique("ink", settings).look(&edgemesh::build::Frame::default())
+fn look(settings: &[&str]) -> Technique {
+    technique("ink", settings)
 }
 
 fn count(picture: &RgbaImage, is_meant: impl Fn([u8; 4]) -> bool) -> usize {
@@ -71,13 +67,13 @@ fn three_hundred_silhouettes() {
     camera.eye = camera.target + DVec3::new(0.5, 0.4, 1.0).normalize_or_zero() * 90.0;
     camera.is_orthographic = true;
     let looks = [look(&[
-        "strokes.show=false",
-        "silhouette.show=true",
+        "strokes.render=false",
+        "silhouette.render=true",
         "silhouette.width=2",
         "silhouette.color=#ff0000",
     ])];
     let picture = scene_picture(&scene, &looks, 1600, &camera);
-    let solid = [look(&["strokes.show=false", "fill.color=#00ff00"])];
+    let solid = [look(&["strokes.render=false", "fill.color=#00ff00"])];
     let bodies = scene_picture(&scene, &solid, 1600, &camera);
     let is_body = |x: u32, y: u32| bodies.get_pixel(x, y).0 == [0, 255, 0, 255];
     // Red beside a body, never on it.
@@ -106,7 +102,7 @@ fn silhouettes_lie_over_what_is_behind() {
         DQuat::IDENTITY,
         DVec3::new(0.0, 0.0, -8.0),
     );
-    let only_silhouette = ["strokes.show=false", "silhouette.show=true", "silhouette.width=3"];
+    let only_silhouette = ["strokes.render=false", "silhouette.render=true", "silhouette.width=3"];
     let red = look(&[&only_silhouette[..], &["silhouette.color=#ff0000"]].concat());
     let blue = look(&[&only_silhouette[..], &["silhouette.color=#0000ff"]].concat());
     for order in [[0, 1], [1, 0]] {
@@ -137,8 +133,8 @@ fn hidden_lines_are_what_visible_ones_leave() {
         let is_ink = |pixel: [u8; 4]| pixel[0] < 255;
         let all = ["strokes.kind=thin", "hidden.kind=thin", "hidden.color=#000000"];
         let visible = draw(&["strokes.kind=thin"]);
-        let hidden = draw(&[&all[..], &["hidden.show=true", "strokes.show=false"]].concat());
-        let both = draw(&[&all[..], &["hidden.show=true"]].concat());
+        let hidden = draw(&[&all[..], &["hidden.render=true", "strokes.render=false"]].concat());
+        let both = draw(&[&all[..], &["hidden.render=true"]].concat());
         let (mut missing, mut inked) = (0, 0);
         for ((visible, hidden), both) in visible.pixels().zip(hidden.pixels()).zip(both.pixels()) {
             let expected = is_ink(visible.0) || is_ink(hidden.0);
@@ -158,8 +154,8 @@ fn the_back_of_a_cube_is_drawn_as_hidden() {
     let mut camera = Camera::default_view(&cube.bounds);
     camera.eye = camera.target + DVec3::Z * 6.0;
     let settings = [
-        "strokes.show=false",
-        "hidden.show=true",
+        "strokes.render=false",
+        "hidden.render=true",
         "hidden.color=#0000ff",
         "hidden.width=2",
         "hidden.placement=centred",
@@ -258,7 +254,7 @@ fn zoomed(mesh: &EdgeMesh, placement: &str, radii: f64, is_orthographic: bool) -
     camera.eye = camera.target + direction * mesh.bounds.radius() * radii;
     camera.fov_y_rad = 2.0 * (0.8 / (radii - 0.2).max(0.9)).atan().min(1.2);
     camera.is_orthographic = is_orthographic;
-    let hidden = ["strokes.show=false", "hidden.show=true", "hidden.color=#000000"];
+    let hidden = ["strokes.render=false", "hidden.render=true", "hidden.color=#000000"];
     [&[][..], &hidden].map(|settings| {
         let [visible, hidden] =
             ["strokes", "hidden"].map(|pass| format!("{pass}.placement={placement}"));
@@ -278,11 +274,17 @@ fn no_view_draws_what_is_no_number() {
     let gpu = gpu();
     let targets = Targets::new(&gpu.device, [64; 2], formats);
     let settings: [&[&str]; 4] = [
-        &["strokes.width=9", "hidden.show=true"],
-        &["strokes.ends=disks", "strokes.width=0.4u", "strokes.fade=0.1,3"],
+        &["strokes.width=9", "hidden.render=true"],
+        &[
+            "strokes.ends=disks",
+            "strokes.width=0.4",
+            "strokes.width_unit=model",
+            "strokes.fade=0.1,3",
+        ],
         &[
             "strokes.kind=fin",
-            "strokes.width=0.5u",
+            "strokes.width=0.5",
+            "strokes.width_unit=model",
             "strokes.brush=pen",
             "strokes.parameterization=screen",
         ],
@@ -294,7 +296,7 @@ fn no_view_draws_what_is_no_number() {
             let mut renderer = Renderer::new(gpu, options).unwrap();
             let buffers = Arc::new(MeshBuffers::new(&gpu.device, &mesh, how.0).unwrap());
             for settings in settings {
-                let look = renderer.prepare(gpu, &look(settings)).unwrap();
+                let look = renderer.prepare(gpu, &look_of(&look(settings), &mesh)).unwrap();
                 let mut objects = [renderer.object(gpu, &buffers, &look)];
                 for (view_name, camera) in awkward_cameras(&mesh) {
                     let view = camera.view(&mesh.bounds, 1.0);

@@ -29,7 +29,7 @@ use testkit::wgsl_fn::run_wgsl;
 use viewer::technique::Technique;
 
 use crate::gpu_device::gpu;
-use crate::gpu_render::technique;
+use crate::gpu_render::{look_of, technique};
 use crate::own_models::own_models;
 use crate::random::Random;
 
@@ -508,7 +508,7 @@ pub(crate) fn detect(
     let formats = TargetFormats::new(1);
     let options = RendererOptions { layout, path: DetectionPath::Compute, formats };
     let mut renderer = Renderer::new(gpu, options).unwrap();
-    let look = renderer.prepare(gpu, &technique.look(&mesh.frame)).unwrap();
+    let look = renderer.prepare(gpu, &look_of(technique, mesh)).unwrap();
     let buffers = Arc::new(MeshBuffers::new(&gpu.device, mesh, layout).unwrap());
     let mut objects = [renderer.object(gpu, &buffers, &look)];
     let targets = Targets::new(&gpu.device, [16, 16], formats);
@@ -525,16 +525,16 @@ pub(crate) fn detect(
 fn live_edges_and_counts_equal_the_oracles() {
     let techniques: [&[&str]; 4] = [
         &[],
-        &["ridge.width=3", "boundary.show=false", "valley.color=#ff0000"],
-        &["hidden.show=true", "contour.width=4"],
-        &["creases.ridge=5", "creases.valley=70", "contour.show=false"],
+        &["ridge.width=3", "boundary.render=false", "valley.color=#ff0000"],
+        &["hidden.render=true", "contour.width=4"],
+        &["strokes.ridge_angle=5", "strokes.valley_angle=70", "contour.render=false"],
     ];
     for (name, mesh) in own_models() {
         let words = edge_words(&mesh);
         for (camera, settings) in cameras(&mesh).iter().zip(techniques.iter().cycle()) {
             let view = camera.view(&mesh.bounds, 1.0);
             let technique = technique("ink", settings);
-            let look = technique.look(&mesh.frame);
+            let look = look_of(&technique, &mesh);
             let outside = eye_is_outside(view.eye, mesh.bounds.min.into(), mesh.bounds.max.into());
             let lines = classify_lines(&mesh, &words, view.eye, &look.class_table(), outside);
             let (facing, tally, live) = detect(&mesh, &view, &technique, Layout::Indexed);

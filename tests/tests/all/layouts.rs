@@ -17,7 +17,7 @@ use edgemesh::oracle::stroke_vertex::{CAP_VERTICES, DISK_VERTICES, FOOT_PX};
 use edgemesh::record::{EdgeFlags, EdgeRecord, EdgeVertex, EdgeVertex16};
 use strokes::detect::DetectUniform;
 use strokes::fill::FillUniform;
-use strokes::frame::{FrameUniform, ObjectUniform};
+use strokes::frame::{FrameUniform, MAX_CLIP_PLANES, ObjectUniform};
 use strokes::graph::buffers::{
     ARC_PER_PX, BACKWARD, CUT_END, CUT_START, Chain, ChainState, Element, GraphHeader,
     GraphUniform, ITEMS_PER_SUM, Joint, LinkNode, NO_NODE, NOT_DRAWN, ON_LOOP, PathPoint, Ribbon,
@@ -33,6 +33,8 @@ use strokes::shader::ShaderSource;
 use strokes::silhouette::NO_OBJECT;
 use strokes::stroke::StrokeUniform;
 use strokes::view_buffers::{DrawArguments, RunState, Tally};
+use viewer::pass_graph::material::MaterialUniform;
+use viewer::pass_graph::surface::SurfacePart;
 
 use crate::shaders::shader_files;
 
@@ -53,16 +55,31 @@ macro_rules! layout {
 
 fn rust_layouts() -> BTreeMap<String, Layout> {
     let mut layouts = scene_layouts();
+    layouts.extend(mesh_layouts());
     layouts.extend(view_layouts());
     layouts.extend(graph_layouts());
     layouts.extend(path_layouts());
     layouts
 }
 
-/// What a scene and its styles are.
+/// What a scene and its surfaces are.
 fn scene_layouts() -> BTreeMap<String, Layout> {
     BTreeMap::from([
-        layout!(FrameUniform { viewport_px, px_per_unit, padding, projection }),
+        layout!(FrameUniform {
+            viewport_px,
+            px_per_unit,
+            clip_plane_count,
+            projection,
+            world_from_clip,
+            eye,
+            sight,
+            right,
+            up,
+            light,
+            light_color,
+            scene_radius,
+            clip_planes
+        }),
         layout!(ObjectUniform {
             clip_from_object,
             object_from_clip,
@@ -73,8 +90,26 @@ fn scene_layouts() -> BTreeMap<String, Layout> {
             mirror,
             eye_is_outside,
             center,
-            step
+            step,
+            world_from_object,
+            world_from_normal
         }),
+        layout!(SurfacePart {
+            material,
+            object_region,
+            material_region,
+            group_region,
+            has_texcoords,
+            padding
+        }),
+        layout!(MaterialUniform { ambient, diffuse, specular }),
+        layout!(FillUniform { color }),
+    ])
+}
+
+/// What meshes and styles are.
+fn mesh_layouts() -> BTreeMap<String, Layout> {
+    BTreeMap::from([
         layout!(ChunkUniform {
             face_count,
             edge_count,
@@ -88,7 +123,6 @@ fn scene_layouts() -> BTreeMap<String, Layout> {
         layout!(FacePlane { normal, point }),
         layout!(NormalCone { center, radius, axis, cosine }),
         layout!(EdgeRecord { v0, v1, face_a, face_b, flags }),
-        layout!(FillUniform { color }),
         layout!(StrokeUniform {
             color,
             fade,
@@ -278,6 +312,10 @@ fn structs_in_buffers_are_laid_out_alike_and_found_on_both_sides() {
     for (path, module) in modules() {
         for (_, variable) in module.global_variables.iter() {
             if let Some((name, layout)) = struct_in_buffer(&module, variable) {
+                // Parameters of techniques are bound by name and have no Rust twin.
+                if name == "Params" {
+                    continue;
+                }
                 let known = in_wgsl.entry(name).or_insert_with(|| layout.clone());
                 assert_eq!(*known, layout, "{path}");
             }
@@ -397,6 +435,7 @@ fn constants_are_equal_and_found_on_both_sides() {
     let mut expected = BTreeMap::from([
         ("NONE", u64::from(edgemesh::index::NONE)),
         ("EDGES_PER_RUN", EDGES_PER_RUN.into()),
+        ("MAX_CLIP_PLANES", MAX_CLIP_PLANES as u64),
         ("MAX_LAYERS", MAX_LAYERS as u64),
         ("MAX_DRAWS", MAX_DRAWS as u64),
         ("NO_LAYER", NO_LAYER.into()),

@@ -1,16 +1,21 @@
 //! Pipelines and limits on wgpu's noop device: all of its checks and no GPU.
 
-use std::sync::Arc;
-
 use edgemesh::build::{BuildOptions, build_edge_mesh};
+use edgemesh::command::input::Loaded;
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::model::Model;
 use edgemesh::report::Report;
 use strokes::gpu::Gpu;
 use strokes::mesh_buffers::{Layout, MeshBuffers};
-use strokes::renderer::{DetectionPath, Renderer, RendererOptions};
-use strokes::targets::TargetFormats;
-use viewer::technique::{TECHNIQUES, Technique};
+use strokes::renderer::DetectionPath;
+use viewer::render::{PictureOptions, PictureRenderer, Scene};
+use viewer::technique::library::Library;
+
+/// A scene of one mesh.
+fn scene_of(mesh: &EdgeMesh) -> Scene {
+    let (name, report) = ("test".into(), Report::default());
+    Scene::of(vec![Loaded { name, mesh: mesh.clone(), report }])
+}
 
 /// All ways in which edges lie in memory and are detected.
 pub(crate) fn layouts_and_paths() -> [(Layout, DetectionPath); 6] {
@@ -38,21 +43,27 @@ fn tetrahedron() -> EdgeMesh {
 #[test]
 fn every_technique_builds_its_pipelines_within_the_default_limits() {
     let gpu = noop(wgpu::Limits::default());
-    for (name, _) in TECHNIQUES {
+    let library = Library::shipped();
+    let scene = scene_of(&tetrahedron());
+    for name in library.technique_names() {
         for samples in [1, 4] {
-            let mut technique = Technique::by_name(name).unwrap();
-            for setting in ["hidden.show=true", "silhouette.show=true", "marked.kind=thin"] {
-                technique.set(setting).unwrap();
+            let mut technique = library.technique(name).unwrap().0;
+            for (pass, setting) in [
+                ("hidden", "hidden.render=true"),
+                ("silhouette", "silhouette.render=true"),
+                ("strokes", "strokes.ends=disks"),
+            ] {
+                if technique.pass(pass).is_some() {
+                    technique.set(setting).unwrap();
+                }
             }
-            let look = technique.look(&edgemesh::build::Frame::default());
             let fins = (Layout::FaceNormals, DetectionPath::Vertex);
             for (layout, path) in layouts_and_paths().into_iter().chain([fins]) {
-                let formats = TargetFormats::with_stencil(&gpu.device, samples);
-                let options = RendererOptions { layout, path, formats };
-                let mut renderer = Renderer::new(&gpu, options).unwrap();
-                let look = renderer.prepare(&gpu, &look).unwrap();
-                let buffers = MeshBuffers::with_links(&gpu.device, &tetrahedron(), layout).unwrap();
-                let _ = renderer.object(&gpu, &Arc::new(buffers), &look);
+                let size = [64, 32];
+                let options =
+                    PictureOptions { size, samples, layout, path, ..PictureOptions::default() };
+                PictureRenderer::new(&gpu, &scene, &technique, &[], &options)
+                    .unwrap_or_else(|failure| panic!("{name}: {}", failure.message));
             }
         }
     }

@@ -19,6 +19,7 @@ use super::components::Sets;
 use super::faces::FaceSources;
 use super::fans::angle;
 use super::planes::{corners_of, has_area};
+use super::runs::fill_runs;
 use crate::edge_mesh::{FacePlane, FillMesh, FillVertex};
 use crate::index::{NONE, to_u32};
 use crate::model::{Model, Smoothing};
@@ -43,7 +44,7 @@ pub(crate) struct CornerInput<'a> {
 /// Corners whose weighted normals are worked out side by side.
 const CORNERS_PER_BLOCK: usize = 1 << 18;
 
-/// Builds the fill's vertices and indices; none where none are wanted.
+/// Builds the fill; an empty one where none is wanted.
 pub(crate) fn build_fill(input: &CornerInput) -> FillMesh {
     if !input.is_wanted {
         return FillMesh::default();
@@ -67,7 +68,13 @@ pub(crate) fn build_fill(input: &CornerInput) -> FillMesh {
             indices.push(variants.index(vertex, FillVertex { position, normal, texcoord }));
         }
     }
-    FillMesh { vertices: variants.vertices, indices }
+    FillMesh {
+        vertices: variants.vertices,
+        indices,
+        runs: fill_runs(input.model, input.sources),
+        materials: input.model.materials.clone(),
+        groups: input.model.groups.clone(),
+    }
 }
 
 /// The fill's vertices, found again by the vertex of the mesh that they are at.

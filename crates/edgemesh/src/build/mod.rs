@@ -25,6 +25,7 @@ mod marks;
 mod orient;
 pub(crate) mod planes;
 mod records;
+mod runs;
 mod triangulate;
 mod weld;
 

@@ -6,6 +6,7 @@
 //! anything: they spoil a picture, not a program.
 
 use super::error::{FileError, FileErrorKind};
+use super::looks::StoredMaterial;
 use super::numbers::of_counts;
 use super::section::Tag;
 use super::stored::StoredMesh;
@@ -36,6 +37,7 @@ impl Flaw {
 pub(super) fn check(mesh: &StoredMesh<'_>) -> Result<(), Flaw> {
     check_lengths(mesh)?;
     check_counts(mesh)?;
+    check_runs(mesh)?;
     let vertices = ("vertex", mesh.positions.len());
     let welded = ("welded vertex", mesh.positions.len() - mesh.split_from.len());
     let fill_vertices = ("fill vertex", mesh.fill_vertices.len());
@@ -71,6 +73,64 @@ fn check_lengths(mesh: &StoredMesh<'_>) -> Result<(), Flaw> {
         }
     }
     Ok(())
+}
+
+/// Checks that runs ascend from triangle 0 on and name what is there.
+fn check_runs(mesh: &StoredMesh<'_>) -> Result<(), Flaw> {
+    let runs = &*mesh.fill_runs;
+    let flaw = |element: usize, what: String| Flaw { tag: Tag::FILL_RUNS, element, what };
+    if runs.is_empty() != mesh.fill_indices.is_empty() {
+        let what = format!("{} runs for a fill of {} indices", runs.len(), mesh.fill_indices.len());
+        return Err(flaw(0, what));
+    }
+    let mut least = 0;
+    for (element, run) in runs.iter().enumerate() {
+        let first = run.first_triangle;
+        if first < least || element == 0 && first > 0 {
+            return Err(flaw(element, format!("begins at triangle {first}, out of its order")));
+        }
+        least = first.saturating_add(1);
+    }
+    let names = |list: &str, index: u32, count: usize| {
+        let is_wrong = index != NONE && index as usize >= count;
+        is_wrong.then(|| format!("names {list} {index}, and there are {count}"))
+    };
+    let triangles = ("triangle", mesh.triangles.len());
+    all_below(Tag::FILL_RUNS, runs, triangles, |run| [run.first_triangle])?;
+    none_has_a_fault(Tag::FILL_RUNS, runs, |run| {
+        names("material", run.material, mesh.materials.len())
+            .or_else(|| names("group", run.group, mesh.groups.len()))
+            .or_else(|| {
+                let flag = run.has_texcoords;
+                (flag > 1).then(|| format!("has {flag} where 0 or 1 stands for no or yes"))
+            })
+    })
+}
+
+/// Checks materials of `names` names, over `picture_bytes` bytes of pictures.
+pub(super) fn check_looks(
+    materials: &[StoredMaterial],
+    picture_ends: &[u64],
+    picture_bytes: usize,
+    names: usize,
+) -> Result<(), Flaw> {
+    if materials.len() != names {
+        let what = format!("there are {}, and META has names for {names}", materials.len());
+        return Err(Flaw { tag: Tag::MATERIALS, element: 0, what });
+    }
+    let mut start = 0;
+    for (element, &end) in picture_ends.iter().enumerate() {
+        if end < start || end > picture_bytes as u64 {
+            let what = format!("takes bytes {start} to {end} of {picture_bytes}");
+            return Err(Flaw { tag: Tag::PICTURE_ENDS, element, what });
+        }
+        start = end;
+    }
+    let pictures = picture_ends.len();
+    none_has_a_fault(Tag::MATERIALS, materials, |&StoredMaterial { picture, .. }| {
+        let is_wrong = picture != NONE && picture as usize >= pictures;
+        is_wrong.then(|| format!("names picture {picture}, and there are {pictures}"))
+    })
 }
 
 /// Counts that 32 bits hold can be added up without a thought; the largest is
@@ -143,7 +203,10 @@ mod tests {
     /// The error of a file of one triangle that was changed, with a checksum
     /// that is right.
     fn error(change: impl FnOnce(&mut Draft)) -> String {
-        let mut draft = Draft::triangle();
+        error_of(Draft::triangle(), change)
+    }
+
+    fn error_of(mut draft: Draft, change: impl FnOnce(&mut Draft)) -> String {
         change(&mut draft);
         let bytes = draft.to_bytes();
         let error = parse(&bytes).unwrap_err();
@@ -206,6 +269,82 @@ mod tests {
             let what = error(|draft| draft.set(tag, number, NONE));
             assert!(what.contains("names"), "only a face may be none: {what}");
         }
+    }
+
+    #[test]
+    fn runs_ascend_and_name_what_is_there() {
+        for (number, value, what) in [
+            (0, 1, "begins at triangle 1, out of its order"),
+            (1, 2, "names material 2, and there are 2"),
+            (1, NONE - 1, "names material 4294967294, and there are 2"),
+            (2, 1, "names group 1, and there are 1"),
+            (3, 2, "has 2 where 0 or 1 stands for no or yes"),
+        ] {
+            let found = error_of(Draft::looks(), |draft| draft.set("FRUN", number, value));
+            assert_eq!(found, format!("FRUN, element 0: {what}"));
+        }
+        let with_second = |first: u32| {
+            error_of(Draft::looks(), |draft| {
+                draft.resize("FRUN", 2);
+                draft.set("FRUN", 4, first);
+            })
+        };
+        assert_eq!(with_second(0), "FRUN, element 1: begins at triangle 0, out of its order");
+        assert_eq!(with_second(1), "FRUN, element 1: names triangle 1, and there are 1");
+        assert_eq!(
+            with_second(NONE),
+            "FRUN, element 1: names triangle 4294967295, and there are 1"
+        );
+        let what = error_of(Draft::looks(), |draft| draft.resize("FRUN", 0));
+        assert_eq!(what, "FRUN, element 0: 0 runs for a fill of 3 indices");
+        let what = error_of(Draft::looks(), |draft| {
+            draft.remove("FVTX");
+            draft.remove("FIDX");
+        });
+        assert_eq!(what, "FRUN, element 0: 1 runs for a fill of 0 indices");
+        let mut plain = Draft::looks();
+        plain.set("FRUN", 1, NONE);
+        plain.set("FRUN", 2, NONE);
+        assert!(parse(&plain.to_bytes()).is_ok(), "both may be missing");
+    }
+
+    #[test]
+    fn pictures_lie_in_a_row_within_their_section() {
+        for (number, value, element, what) in [
+            (0, 11, 0, "takes bytes 0 to 11 of 10"),
+            (1, 1, 0, "takes bytes 0 to 4294967299 of 10"),
+            (2, 2, 1, "takes bytes 3 to 2 of 10"),
+            (2, 11, 1, "takes bytes 3 to 11 of 10"),
+            (3, NONE, 1, "takes bytes 3 to 18446744069414584330 of 10"),
+        ] {
+            let found = error_of(Draft::looks(), |draft| draft.set("PEND", number, value));
+            assert_eq!(found, format!("PEND, element {element}: {what}"));
+        }
+        let what = error_of(Draft::looks(), |draft| draft.resize("PICT", 9));
+        assert_eq!(what, "PEND, element 1: takes bytes 3 to 10 of 9");
+        let what = error_of(Draft::looks(), |draft| draft.resize("PEND", 1));
+        assert_eq!(what, "MTRL, element 1: names picture 1, and there are 1");
+        for wrong in [2, NONE - 1] {
+            let what = error_of(Draft::looks(), |draft| draft.set("MTRL", 25, wrong));
+            assert_eq!(what, format!("MTRL, element 1: names picture {wrong}, and there are 2"));
+        }
+        let mut longer = Draft::looks();
+        longer.resize("PICT", 20);
+        assert!(parse(&longer.to_bytes()).is_ok(), "bytes of no picture are no fault");
+    }
+
+    #[test]
+    fn materials_have_their_names() {
+        for count in [1, 3] {
+            let what = error_of(Draft::looks(), |draft| draft.resize("MTRL", count));
+            let expected = format!("there are {count}, and META has names for 2");
+            assert_eq!(what, format!("MTRL, element 0: {expected}"));
+        }
+        let names = error(|draft| {
+            draft.section("META").bytes = br#"{"name": "", "materials": [{"name": ""}]}"#.to_vec();
+            draft.push("MTRL", 52, &[]);
+        });
+        assert_eq!(names, "MTRL, element 0: there are 0, and META has names for 1");
     }
 
     #[test]
@@ -276,10 +415,11 @@ mod tests {
 
     #[test]
     fn floats_may_be_anything() {
-        let mut draft = Draft::triangle();
+        let mut draft = Draft::looks();
         for tag in ["POSI", "NORM", "PLAN", "FVTX", "FRAM", "BNDS"] {
             draft.section(tag).bytes.fill(255);
         }
+        draft.section("MTRL").bytes[..48].fill(255);
         assert!(parse(&draft.to_bytes()).is_ok());
     }
     /// Does with a mesh of a file all that later code does with its indices.
@@ -292,12 +432,16 @@ mod tests {
         }
         let vertices = to_u32(mesh.positions.len());
         assert!((0..vertices).all(|vertex| mesh.welded_vertex(vertex) < vertices));
+        let runs = mesh.fill.runs.iter();
+        let known = |index: u32, count| index == NONE || (index as usize) < count;
+        assert!(runs.clone().all(|run| known(run.material, mesh.fill.materials.len())));
+        assert!(runs.clone().all(|run| known(run.group, mesh.fill.groups.len())));
         reclassify(&mut mesh, &BuildOptions::default());
     }
 
     #[test]
     fn whatever_is_accepted_can_be_used() {
-        let small = ["triangle", "bow tie", "lines.obj"];
+        let small = ["triangle", "bow tie", "lines.obj", "looks"];
         let (mut accepted, mut refused) = (0, 0);
         for sample in samples().iter().filter(|sample| small.contains(&sample.name)) {
             let whole = to_bytes(&sample.mesh, "", &sample.report, &Layout::ALL).unwrap();

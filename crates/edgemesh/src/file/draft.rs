@@ -35,6 +35,29 @@ impl Draft {
         Self { version: number(8), sections }
     }
 
+    /// The triangle with two materials, of which the second has a picture, and a
+    /// group.
+    pub(super) fn looks() -> Self {
+        let mut draft = Self::triangle();
+        let numbers = |numbers: &[u32]| -> Vec<u8> {
+            numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
+        };
+        draft.push("FRUN", 16, &numbers(&[0, 1, 0, 1]));
+        let mut materials = [0; 26];
+        materials[12] = u32::MAX;
+        // A diffuse colour of 1, 0.5, 0 and an opacity of 0.25.
+        materials[13 + 3..13 + 5].copy_from_slice(&[0x3f80_0000, 0x3f00_0000]);
+        materials[13 + 10] = 0x3e80_0000;
+        materials[13 + 11..].copy_from_slice(&[0b1_0010, 1]);
+        draft.push("MTRL", 52, &numbers(&materials));
+        draft.push("PEND", 8, &numbers(&[3, 0, 10, 0]));
+        draft.push("PICT", 1, b"onepicture");
+        draft.section("META").bytes = br#"{"name": "looks", "groups": ["g"], "materials":
+            [{"name": "plain"}, {"name": "m", "texture": "m.png"}]}"#
+            .to_vec();
+        draft
+    }
+
     /// The file, with a checksum of what is in it.
     pub(super) fn to_bytes(&self) -> Vec<u8> {
         let count = u32::try_from(self.sections.len()).unwrap();

@@ -8,7 +8,8 @@ use std::borrow::Cow;
 
 use bytemuck::Pod;
 
-use crate::edge_mesh::{Chain, ChainLink, FacePlane, FillVertex};
+use super::looks::StoredMaterial;
+use crate::edge_mesh::{Chain, ChainLink, FacePlane, FillRun, FillVertex};
 use crate::record::{EdgeRecord, EdgeVertex, EdgeVertex16};
 
 /// An element of a section: numbers of one size, perhaps with single bytes
@@ -28,7 +29,8 @@ macro_rules! elements {
 
 elements! {
     1: u8;
-    4: u32, [u32; 3], [f32; 3], FacePlane, EdgeRecord, Chain, ChainLink, FillVertex, EdgeVertex;
+    4: u32, [u32; 3], [f32; 3], FacePlane, EdgeRecord, Chain, ChainLink, FillVertex, FillRun,
+        StoredMaterial, EdgeVertex;
     8: u64, f64;
 }
 

@@ -26,6 +26,8 @@ pub enum FileErrorKind {
     Meta,
     /// There is no memory for so large a file.
     Size,
+    /// The picture of a texture, which becomes part of the file, cannot be read.
+    Texture,
 }
 
 /// Why an edge mesh file was not read or written: what is wrong, where, and

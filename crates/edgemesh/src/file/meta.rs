@@ -1,4 +1,5 @@
-//! The JSON of a file: the model's name, and the report of its build.
+//! The JSON of a file: the model's name, the report of its build, and the names of
+//! materials and groups.
 //!
 //! JSON, because a report is text of any length and grows kinds: a reader keeps
 //! what it knows. A warning of a kind that is not known stays a warning, that
@@ -7,6 +8,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::error::{FileError, FileErrorKind};
+use super::stored::StoredMesh;
+use crate::model::Material;
 use crate::report::{Place, Repair, RepairKind, Report, Warning, WarningCode};
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -16,6 +19,34 @@ struct StoredMeta {
     warnings: Vec<StoredWarning>,
     #[serde(default)]
     repairs: Vec<StoredRepair>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    materials: Vec<MaterialNames>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    groups: Vec<String>,
+}
+
+/// What a material is called, and its texture.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct MaterialNames {
+    pub(super) name: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) texture: Option<String>,
+}
+
+impl MaterialNames {
+    pub(super) fn of(material: &Material) -> Self {
+        let texture = material.diffuse_texture.as_ref().map(|texture| texture.name.clone());
+        Self { name: material.name.clone(), texture }
+    }
+}
+
+/// All that the JSON says.
+#[derive(Debug, PartialEq)]
+pub(super) struct Meta {
+    pub(super) name: String,
+    pub(super) report: Report,
+    pub(super) materials: Vec<MaterialNames>,
+    pub(super) groups: Vec<String>,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -73,8 +104,8 @@ impl StoredPlace {
     }
 }
 
-/// The JSON of a model's name and its report.
-pub(super) fn to_json(name: &str, report: &Report) -> Result<Vec<u8>, FileError> {
+/// The JSON of a mesh.
+pub(super) fn to_json(mesh: &StoredMesh<'_>) -> Result<Vec<u8>, FileError> {
     let warning = |warning: &Warning| StoredWarning {
         code: warning.code.as_str().into(),
         count: warning.count,
@@ -87,19 +118,21 @@ pub(super) fn to_json(name: &str, report: &Report) -> Result<Vec<u8>, FileError>
         place: repair.place.as_ref().map(StoredPlace::of),
     };
     let meta = StoredMeta {
-        name: name.into(),
-        warnings: report.warnings().iter().map(warning).collect(),
-        repairs: report.repairs().iter().map(repair).collect(),
+        name: mesh.name.to_string(),
+        warnings: mesh.report.warnings().iter().map(warning).collect(),
+        repairs: mesh.report.repairs().iter().map(repair).collect(),
+        materials: mesh.materials.iter().map(MaterialNames::of).collect(),
+        groups: mesh.groups.to_vec(),
     };
     serde_json::to_vec(&meta)
         .map_err(|error| FileError::new(FileErrorKind::Meta, format!("no JSON of it: {error}")))
 }
 
-/// The model's name and its report.
+/// What the JSON of a file says.
 ///
 /// # Errors
 /// What is wrong with the JSON.
-pub(super) fn from_json(json: &[u8]) -> Result<(String, Report), serde_json::Error> {
+pub(super) fn from_json(json: &[u8]) -> Result<Meta, serde_json::Error> {
     let meta: StoredMeta = serde_json::from_slice(json)?;
     let warning = |stored: StoredWarning| Warning {
         code: WarningCode::from_word(&stored.code).unwrap_or(WarningCode::Unsupported),
@@ -114,12 +147,26 @@ pub(super) fn from_json(json: &[u8]) -> Result<(String, Report), serde_json::Err
     };
     let warnings = meta.warnings.into_iter().map(warning);
     let repairs = meta.repairs.into_iter().filter_map(repair);
-    Ok((meta.name, Report::from_parts(warnings, repairs)))
+    Ok(Meta {
+        name: meta.name,
+        report: Report::from_parts(warnings, repairs),
+        materials: meta.materials,
+        groups: meta.groups,
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::edge_mesh::EdgeMesh;
+    use crate::model::{Texture, TextureSource};
+
+    /// The JSON of a mesh of nothing, and what it says.
+    fn there_and_back(name: &str, mesh: &EdgeMesh, report: &Report) -> (String, Meta) {
+        let json = to_json(&StoredMesh::of(mesh, name, report)).unwrap();
+        let meta = from_json(&json).unwrap();
+        (String::from_utf8(json).unwrap(), meta)
+    }
 
     #[test]
     fn a_report_comes_back_with_every_kind_of_place() {
@@ -138,8 +185,8 @@ mod tests {
         for (kind, place) in RepairKind::ALL.into_iter().zip(places.iter().cycle()) {
             report.repair(kind, 3, place.clone());
         }
-        let json = to_json("möbel.obj", &report).unwrap();
-        assert_eq!(from_json(&json).unwrap(), ("möbel.obj".into(), report));
+        let (_, meta) = there_and_back("möbel.obj", &EdgeMesh::default(), &report);
+        assert_eq!((meta.name.as_str(), meta.report), ("möbel.obj", report));
     }
 
     #[test]
@@ -150,8 +197,30 @@ mod tests {
         let expected = "{\"name\":\"a\",\"warnings\":[{\"code\":\"degenerate\",\"count\":1,\
              \"place\":{\"line\":5},\"message\":\"flat\"}],\
              \"repairs\":[{\"kind\":\"split_edges\",\"count\":2}]}";
-        let json = to_json("a", &report).unwrap();
-        assert_eq!(String::from_utf8(json).unwrap(), expected);
+        assert_eq!(there_and_back("a", &EdgeMesh::default(), &report).0, expected);
+    }
+
+    #[test]
+    fn names_of_materials_and_groups_are_there_where_there_are_any() {
+        let mut mesh = EdgeMesh::default();
+        let texture = Texture {
+            name: "bark.png".into(),
+            source: TextureSource::Bytes(b"picture".as_slice().into()),
+        };
+        let named = |name: &str, diffuse_texture| Material {
+            name: name.into(),
+            diffuse_texture,
+            ..Material::default()
+        };
+        mesh.fill.materials = vec![named("", None), named("tree", Some(texture))];
+        mesh.fill.groups = vec!["trunk".into(), String::new()];
+        let (json, meta) = there_and_back("a", &mesh, &Report::default());
+        let expected = "{\"name\":\"a\",\"warnings\":[],\"repairs\":[],\
+             \"materials\":[{\"name\":\"\"},{\"name\":\"tree\",\"texture\":\"bark.png\"}],\
+             \"groups\":[\"trunk\",\"\"]}";
+        assert_eq!(json, expected);
+        let names: Vec<MaterialNames> = mesh.fill.materials.iter().map(MaterialNames::of).collect();
+        assert_eq!((meta.materials, meta.groups), (names, mesh.fill.groups));
     }
 
     #[test]
@@ -161,13 +230,15 @@ mod tests {
             {"code": "degenerate", "count": 1, "message": "old", "place": {"line": 4}},
             {"code": "folded", "count": 18446744073709551615, "message": "newer"}],
             "repairs": [{"kind": "ironed", "count": 9}]}"#;
-        let (_, report) = from_json(json).unwrap();
+        let Meta { report, .. } = from_json(json).unwrap();
         let [old, new] = report.warnings() else { panic!("{report:?}") };
         assert_eq!((old.code, old.place.clone()), (WarningCode::Degenerate, Some(Place::Line(4))));
         assert_eq!((new.code, &*new.message), (WarningCode::Unsupported, "new"));
         assert_eq!((new.count, new.place.clone()), (usize::MAX, None), "no overflow");
         assert!(report.repairs().is_empty());
-        assert_eq!(from_json(br#"{"name": "b"}"#).unwrap(), ("b".into(), Report::default()));
+        let (materials, groups) = (Vec::new(), Vec::new());
+        let plain = Meta { name: "b".into(), report: Report::default(), materials, groups };
+        assert_eq!(from_json(br#"{"name": "b"}"#).unwrap(), plain);
     }
 
     #[test]

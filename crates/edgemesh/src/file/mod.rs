@@ -49,6 +49,15 @@
 //!                       f32, 1 where it runs from v1 to v0 u32
 //!  FVTX    32   W       fill vertex, 8 f32: position, normal, texture (optional)
 //!  FIDX     4   3 F     its triangles in the order of TRIS, u32 (optional)
+//!  FRUN    16   R       what triangles from one on share, 4 u32: first triangle,
+//!                       material, group, 1 where all corners have texture
+//!                       coordinates of the model (optional)
+//!  MTRL    52   M       material: ambient, diffuse, specular colour, 3 f32 each;
+//!                       shininess, opacity, f32; which of these five it states,
+//!                       from bit 0 on, u32; its picture, u32 (optional)
+//!  PEND     8   P       end of a picture in PICT, which begins where the one
+//!                       before it ends, u64 (optional)
+//!  PICT     1           the pictures in a row, PNG or JPEG (optional)
 //!  RF32    80   4 E     edge vertex in floats (optional)
 //!  RI16    40   4 E     edge vertex at 16 bits (optional)
 //!  FRAM     8   4       origin x, y, z and scale s, f64:
@@ -60,6 +69,12 @@
 //!
 //! - A face that is missing is `0xFFFFFFFF`; face B may be missing, or both.
 //!   Every face of a record has a vertex that is not on the edge.
+//! - Runs ascend by their first triangles, the first one from 0 on; with FIDX
+//!   there is at least one. Where FRUN is missing, all triangles are one run of no
+//!   material, no group, and 0. A material, group or picture that is missing is
+//!   `0xFFFFFFFF`.
+//! - Colours are display values, coded as sRGB, 0 to 1. A texture is multiplied by
+//!   the diffuse colour; (0, 0) is the lower left corner of its picture.
 //! - Classes, from bit 0: boundary, ridge, valley, marked, material,
 //!   non-manifold, diagonal, clash, solid, smoothing
 //!   ([`crate::record::EdgeFlags`]).
@@ -75,9 +90,10 @@
 //!   triangles, edges, boundary, non-manifold and inconsistent ones. All are
 //!   below 2^32 - 1.
 //! - `META`: `name` (of the model), `warnings` (`code`, `count`, `place`,
-//!   `message`), `repairs` (`kind`, `count`, `place`). A place is missing or has
-//!   one key of `line`, `byte`, `face`, `vertex`, `part`. Keys, codes and kinds
-//!   that are not known may come.
+//!   `message`), `repairs` (`kind`, `count`, `place`); where there are any,
+//!   `materials`, as many as in `MTRL` (`name`, and the name of its `texture`),
+//!   and `groups` (names). A place is missing or has one key of `line`, `byte`,
+//!   `face`, `vertex`, `part`. Keys, codes and kinds that are not known may come.
 
 mod check;
 #[cfg(test)]
@@ -85,6 +101,7 @@ mod draft;
 mod element;
 mod error;
 mod header;
+mod looks;
 mod meta;
 mod numbers;
 mod read;

@@ -3,14 +3,16 @@
 
 use std::borrow::Cow;
 
-use super::check::check;
+use super::check::{Flaw, check, check_looks};
 use super::error::{FileError, FileErrorKind};
 use super::header::{Header, Version};
-use super::meta::from_json;
+use super::looks::to_materials;
+use super::meta::{MaterialNames, from_json};
 use super::numbers::{to_counts, to_frame};
 use super::section::{Sections, Tag};
 use super::stored::StoredMesh;
-use crate::edge_mesh::Bounds;
+use crate::edge_mesh::{Bounds, FillRun};
+use crate::model::Material;
 
 /// Reads the bytes of a file, all of it.
 ///
@@ -24,23 +26,30 @@ pub fn parse(bytes: &[u8]) -> Result<StoredMesh<'_>, FileError> {
     let mesh = match header.version {
         Version::V1 => version_1(&sections)?,
     };
-    check(&mesh).map_err(|flaw| {
-        let place = sections.place(flaw.tag, flaw.element);
-        flaw.at(place)
-    })?;
+    check(&mesh).map_err(|flaw| placed(flaw, &sections))?;
     Ok(mesh)
+}
+
+/// The error of a flaw, with its place in the file.
+fn placed(flaw: Flaw, sections: &Sections) -> FileError {
+    let place = sections.place(flaw.tag, flaw.element);
+    flaw.at(place)
 }
 
 fn version_1<'a>(sections: &Sections<'a>) -> Result<StoredMesh<'a>, FileError> {
     let [min, max] = sections.array(Tag::BOUNDS)?;
     let json = sections.list::<u8>(Tag::META)?;
-    let (name, report) = from_json(&json).map_err(|error| FileError {
+    let meta = from_json(&json).map_err(|error| FileError {
         kind: FileErrorKind::Meta,
         place: sections.place(Tag::META, 0),
         what: format!("section META: {error}; build the file again"),
     })?;
+    let fill_indices: Cow<[u32]> = sections.optional(Tag::FILL_INDICES)?.unwrap_or_default();
+    // Files from before there were runs.
+    let plain_run = || if fill_indices.is_empty() { vec![] } else { vec![FillRun::PLAIN] };
+    let fill_runs = sections.optional(Tag::FILL_RUNS)?.unwrap_or_else(|| plain_run().into());
     Ok(StoredMesh {
-        name: name.into(),
+        name: meta.name.into(),
         frame: to_frame(sections.array(Tag::FRAME)?),
         positions: sections.list(Tag::POSITIONS)?,
         split_from: sections.list(Tag::SPLIT_FROM)?,
@@ -51,13 +60,26 @@ fn version_1<'a>(sections: &Sections<'a>) -> Result<StoredMesh<'a>, FileError> {
         chains: sections.list(Tag::CHAINS)?,
         links: sections.list(Tag::LINKS)?,
         fill_vertices: sections.optional(Tag::FILL_VERTICES)?.unwrap_or_default(),
-        fill_indices: sections.optional(Tag::FILL_INDICES)?.unwrap_or_default(),
+        fill_indices,
+        fill_runs,
+        materials: materials(sections, meta.materials)?.into(),
+        groups: meta.groups.into(),
         bounds: Bounds { min, max },
         counts: to_counts(sections.array(Tag::COUNTS)?),
         replicated_f32: sections.optional(Tag::REPLICATED_F32)?,
         replicated_i16: sections.optional(Tag::REPLICATED_I16)?,
-        report: Cow::Owned(report),
+        report: Cow::Owned(meta.report),
     })
+}
+
+/// The materials, which are called `names`.
+fn materials(sections: &Sections, names: Vec<MaterialNames>) -> Result<Vec<Material>, FileError> {
+    let stored = sections.optional(Tag::MATERIALS)?.unwrap_or_default();
+    let picture_ends = sections.optional(Tag::PICTURE_ENDS)?.unwrap_or_default();
+    let pictures = sections.optional(Tag::PICTURES)?.unwrap_or_default();
+    check_looks(&stored, &picture_ends, pictures.len(), names.len())
+        .map_err(|flaw| placed(flaw, sections))?;
+    Ok(to_materials(&stored, &picture_ends, &pictures, names))
 }
 
 #[cfg(test)]
@@ -69,9 +91,10 @@ mod tests {
         SourceCounts,
     };
     use crate::file::draft::{Draft, TRIANGLE};
-    use crate::file::samples::{samples, sheet, triangle};
+    use crate::file::samples::{looks, samples, sheet};
     use crate::file::{Layout, to_bytes};
     use crate::index::NONE;
+    use crate::model::{Texture, TextureSource};
     use crate::record::{EdgeFlags, EdgeRecord};
     use crate::report::{Place, Report};
     use crate::topology::EdgeCounts;
@@ -134,6 +157,8 @@ mod tests {
             fill: FillMesh {
                 vertices: positions.iter().map(fill).collect(),
                 indices: vec![0, 1, 2],
+                runs: vec![FillRun::PLAIN],
+                ..FillMesh::default()
             },
             bounds: Bounds { min: [0., 0., 0.], max: [1., 1., 0.] },
             counts: triangle_counts(),
@@ -168,6 +193,33 @@ mod tests {
     }
 
     #[test]
+    fn looks_are_read_from_their_sections() {
+        let mut expected = triangle_mesh();
+        expected.fill.runs =
+            vec![FillRun { first_triangle: 0, material: 1, group: 0, has_texcoords: 1 }];
+        expected.fill.groups = vec!["g".into()];
+        let texture = Texture {
+            name: "m.png".into(),
+            source: TextureSource::Bytes(b"picture".as_slice().into()),
+        };
+        expected.fill.materials = vec![
+            Material { name: "plain".into(), ..Material::default() },
+            Material {
+                name: "m".into(),
+                diffuse: Some([1.0, 0.5, 0.0]),
+                opacity: Some(0.25),
+                diffuse_texture: Some(texture),
+                ..Material::default()
+            },
+        ];
+        let bytes = Draft::looks().to_bytes();
+        let stored = parse(&bytes).unwrap();
+        assert_eq!(stored.to_mesh(), expected);
+        let again = to_bytes(&expected, "looks", stored.report(), &[]).unwrap();
+        assert_eq!(parse(&again).unwrap().to_mesh(), expected);
+    }
+
+    #[test]
     fn a_mesh_without_fill_is_whole() {
         let mut draft = Draft::triangle();
         draft.remove("FVTX");
@@ -184,7 +236,7 @@ mod tests {
             (error.kind, error.place)
         };
         let at = |index: usize| (FileErrorKind::Section, Some(Place::Byte(56 + 24 * index as u64)));
-        let whole = Draft::triangle();
+        let whole = Draft::looks();
         for (index, section) in whole.sections.iter().enumerate() {
             let tag = std::str::from_utf8(&section.tag).unwrap();
             let mut draft = whole.clone();
@@ -196,7 +248,9 @@ mod tests {
             draft = whole.clone();
             draft.remove(tag);
             match tag {
-                "FVTX" | "FIDX" => {
+                // Without runs all triangles are one.
+                "FRUN" => assert!(parse(&draft.to_bytes()).is_ok(), "{tag} missing"),
+                "FVTX" | "FIDX" | "MTRL" | "PEND" | "PICT" => {
                     assert_eq!(kind_and_place(&draft).0, FileErrorKind::Inconsistent)
                 }
                 _ => assert_eq!(kind_and_place(&draft), at(0), "{tag} missing"),
@@ -236,7 +290,7 @@ mod tests {
 
     /// A small file with every section.
     fn small_file() -> Vec<u8> {
-        let sample = triangle();
+        let sample = looks();
         to_bytes(&sample.mesh, sample.name, &sample.report, &Layout::ALL).unwrap()
     }
 

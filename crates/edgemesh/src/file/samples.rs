@@ -2,7 +2,8 @@
 
 use crate::build::{BuildOptions, build_edge_mesh};
 use crate::edge_mesh::EdgeMesh;
-use crate::model::Model;
+use crate::index::NONE;
+use crate::model::{Attributes, Corner, Material, Model, Texture, TextureSource};
 use crate::read::{Format, read_model_bytes};
 use crate::report::Report;
 
@@ -103,6 +104,46 @@ fn lines() -> Sample {
     Sample::of_obj("lines.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\n")
 }
 
+/// Two materials with pictures, one of them twice, and one of nothing; two
+/// groups; texture coordinates in a part of it.
+pub(super) fn looks() -> Sample {
+    let positions = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.], [0., 0., 1.]];
+    let mut model = Model::from_polygons(&positions, &[]);
+    model.texcoords = vec![[0.25, 0.75]];
+    model.groups = vec!["a".into(), "ö\n".into()];
+    let picture = |name: &str, bytes: &[u8]| {
+        Some(Texture { name: name.into(), source: TextureSource::Bytes(bytes.into()) })
+    };
+    let bark = Material {
+        name: "bark".into(),
+        ambient: Some([0.1, 0.2, 0.3]),
+        diffuse: Some([0.1, 1.0 / 3.0, 1e-40]),
+        specular: Some([f32::MAX, -0.0, 1.0]),
+        shininess: Some(f32::INFINITY),
+        opacity: Some(0.7),
+        diffuse_texture: picture("bark.png", b"\x89PNG\r\n\x1a\nbark"),
+    };
+    let leaf = Material {
+        diffuse: None,
+        opacity: None,
+        diffuse_texture: picture("leaf.jpg", b"\xff\xd8\xffleaf"),
+        ..bark.clone()
+    };
+    let twig = Material { name: "twig".into(), ..bark.clone() };
+    model.materials = vec![Material::default(), bark, leaf, twig];
+    for (corners, material, group, texcoord) in [
+        ([0, 1, 2], NONE, NONE, NONE),
+        ([0, 2, 3], 1, 0, 0),
+        ([1, 0, 4], 1, 0, NONE),
+        ([2, 1, 4], 3, 1, 0),
+    ] {
+        model.set_attributes(Attributes { material, group, ..Attributes::default() });
+        let corners = corners.map(|corner| Corner { texcoord, ..Corner::at(corner) });
+        model.push_polygon(&corners, 0);
+    }
+    Sample::of_model("looks", &model, Report::default())
+}
+
 /// All of them.
 pub(super) fn samples() -> Vec<Sample> {
     vec![
@@ -115,5 +156,6 @@ pub(super) fn samples() -> Vec<Sample> {
         soup(),
         materials(),
         lines(),
+        looks(),
     ]
 }

@@ -32,6 +32,10 @@ impl Tag {
     pub(super) const LINKS: Self = Self(*b"LNKS");
     pub(super) const FILL_VERTICES: Self = Self(*b"FVTX");
     pub(super) const FILL_INDICES: Self = Self(*b"FIDX");
+    pub(super) const FILL_RUNS: Self = Self(*b"FRUN");
+    pub(super) const MATERIALS: Self = Self(*b"MTRL");
+    pub(super) const PICTURE_ENDS: Self = Self(*b"PEND");
+    pub(super) const PICTURES: Self = Self(*b"PICT");
     pub(super) const REPLICATED_F32: Self = Self(*b"RF32");
     pub(super) const REPLICATED_I16: Self = Self(*b"RI16");
     pub(super) const FRAME: Self = Self(*b"FRAM");

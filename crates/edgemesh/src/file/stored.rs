@@ -8,15 +8,18 @@ use std::borrow::Cow;
 use super::Layout;
 use crate::build::Frame;
 use crate::edge_mesh::{
-    Bounds, Chain, ChainLink, Chains, EdgeMesh, FacePlane, FillMesh, FillVertex, MeshCounts,
+    Bounds, Chain, ChainLink, Chains, EdgeMesh, FacePlane, FillMesh, FillRun, FillVertex,
+    MeshCounts,
 };
+use crate::model::Material;
 use crate::record::{EdgeRecord, EdgeVertex, EdgeVertex16};
 use crate::report::Report;
 
 /// The content of an edge mesh file; every index in it leads somewhere.
 ///
 /// Lists are views of the file's bytes where these lie at a multiple of the size
-/// of their numbers on a little-endian machine, and copies elsewhere.
+/// of their numbers on a little-endian machine, and copies elsewhere. Materials
+/// and groups are copies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredMesh<'a> {
     /// How the model is called in messages: the path it was read from.
@@ -43,6 +46,12 @@ pub struct StoredMesh<'a> {
     pub fill_vertices: Cow<'a, [FillVertex]>,
     /// As [`FillMesh::indices`].
     pub fill_indices: Cow<'a, [u32]>,
+    /// As [`FillMesh::runs`].
+    pub fill_runs: Cow<'a, [FillRun]>,
+    /// As [`FillMesh::materials`], all pictures with their bytes.
+    pub materials: Cow<'a, [Material]>,
+    /// As [`FillMesh::groups`].
+    pub groups: Cow<'a, [String]>,
     /// As [`EdgeMesh::bounds`].
     pub bounds: Bounds,
     /// As [`EdgeMesh::counts`].
@@ -72,6 +81,9 @@ impl<'a> StoredMesh<'a> {
             links: borrowed(&mesh.chains.links),
             fill_vertices: borrowed(&mesh.fill.vertices),
             fill_indices: borrowed(&mesh.fill.indices),
+            fill_runs: borrowed(&mesh.fill.runs),
+            materials: borrowed(&mesh.fill.materials),
+            groups: borrowed(&mesh.fill.groups),
             bounds: mesh.bounds,
             counts: mesh.counts,
             replicated_f32: None,
@@ -95,6 +107,9 @@ impl<'a> StoredMesh<'a> {
             fill: FillMesh {
                 vertices: self.fill_vertices.to_vec(),
                 indices: self.fill_indices.to_vec(),
+                runs: self.fill_runs.to_vec(),
+                materials: self.materials.to_vec(),
+                groups: self.groups.to_vec(),
             },
             bounds: self.bounds,
             counts: self.counts,

@@ -8,6 +8,7 @@ use super::check::check;
 use super::element::{self, Element};
 use super::error::{FileError, FileErrorKind};
 use super::header::write_header;
+use super::looks::{Looks, embedded};
 use super::meta::to_json;
 use super::numbers::{of_counts, of_frame};
 use super::section::{ALIGNMENT, ENTRY_BYTES, Section, TABLE_START, Tag};
@@ -18,12 +19,14 @@ use crate::replicate::{replicate, replicate_16};
 use crate::report::Report;
 
 /// The bytes of a file of `mesh`, made of the model that is called `name`, with
-/// the report of its build. The indexed layout is always in it.
+/// the report of its build. The indexed layout is always in it. Pictures that lie
+/// in files are read and become part of it.
 ///
 /// # Errors
 /// [`FileErrorKind::Inconsistent`] where an index of the mesh leads nowhere,
-/// which none does that [`crate::build`] made; [`FileErrorKind::Size`] where
-/// there is no memory for the file.
+/// which none does that [`crate::build`] made; [`FileErrorKind::Texture`] where a
+/// picture cannot be read; [`FileErrorKind::Size`] where there is no memory for
+/// the file.
 pub fn to_bytes(
     mesh: &EdgeMesh,
     name: &str,
@@ -32,14 +35,17 @@ pub fn to_bytes(
 ) -> Result<Vec<u8>, FileError> {
     let mut stored = StoredMesh::of(mesh, name, report);
     check(&stored).map_err(|flaw| flaw.at(None))?;
+    stored.materials = embedded(&mesh.fill.materials)?;
+    let looks = Looks::of(&stored.materials);
     stored.replicated_f32 =
         layouts.contains(&Layout::ReplicatedF32).then(|| replicate(mesh).into());
     stored.replicated_i16 =
         layouts.contains(&Layout::ReplicatedI16).then(|| replicate_16(mesh).into());
     let (frame, counts) = (of_frame(&stored.frame), of_counts(&stored.counts));
     let bounds = [stored.bounds.min, stored.bounds.max];
-    let json = to_json(&stored.name, &stored.report)?;
+    let json = to_json(&stored)?;
     let mut parts = parts_of(&stored);
+    parts.extend(parts_of_looks(&looks));
     parts.push(Part::new(Tag::FRAME, &frame));
     parts.push(Part::new(Tag::BOUNDS, &bounds));
     parts.push(Part::new(Tag::COUNTS, &counts));
@@ -75,6 +81,9 @@ fn parts_of<'a>(mesh: &'a StoredMesh<'_>) -> Vec<Part<'a>> {
         parts.push(Part::new(Tag::FILL_VERTICES, &mesh.fill_vertices));
         parts.push(Part::new(Tag::FILL_INDICES, &mesh.fill_indices));
     }
+    if !mesh.fill_runs.is_empty() {
+        parts.push(Part::new(Tag::FILL_RUNS, &mesh.fill_runs));
+    }
     if let Some(vertices) = &mesh.replicated_f32 {
         parts.push(Part::new(Tag::REPLICATED_F32, vertices));
     }
@@ -82,6 +91,16 @@ fn parts_of<'a>(mesh: &'a StoredMesh<'_>) -> Vec<Part<'a>> {
         parts.push(Part::new(Tag::REPLICATED_I16, vertices));
     }
     parts
+}
+
+/// Those sections of materials that have anything in them.
+fn parts_of_looks(looks: &Looks) -> impl Iterator<Item = Part<'_>> {
+    let parts = [
+        Part::new(Tag::MATERIALS, &looks.materials),
+        Part::new(Tag::PICTURE_ENDS, &looks.picture_ends),
+        Part::new(Tag::PICTURES, &looks.pictures),
+    ];
+    parts.into_iter().filter(|part| !part.bytes.is_empty())
 }
 
 /// Puts header, table and sections in a row.
@@ -118,7 +137,8 @@ fn assemble(parts: &[Part<'_>]) -> Result<Vec<u8>, FileError> {
 mod tests {
     use super::*;
     use crate::file::parse;
-    use crate::file::samples::{Sample, samples, sheet, triangle};
+    use crate::file::samples::{Sample, looks, samples, sheet, triangle};
+    use crate::model::{Texture, TextureSource};
     use crate::record::EdgeFlags;
     use crate::report::{RepairKind, WarningCode};
 
@@ -154,6 +174,28 @@ mod tests {
         }
     }
 
+    /// The picture of the file is the only difference.
+    #[test]
+    fn pictures_of_files_become_part_of_the_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("bark.png");
+        std::fs::write(&path, b"\x89PNG\r\n\x1a\nbark").unwrap();
+        let embedded = looks();
+        let mut beside = looks();
+        for material in &mut beside.mesh.fill.materials {
+            if let Some(Texture { name, source }) = &mut material.diffuse_texture
+                && name == "bark.png"
+            {
+                *source = TextureSource::File(path.clone());
+            }
+        }
+        assert_ne!(beside.mesh, embedded.mesh);
+        assert!(written(&beside, &[]) == written(&embedded, &[]), "the same bytes");
+        drop(folder);
+        let error = to_bytes(&beside.mesh, "", &beside.report, &[]).unwrap_err();
+        assert_eq!(error.kind, FileErrorKind::Texture);
+    }
+
     /// The samples are what they are meant to be.
     #[test]
     fn between_them_the_samples_fill_every_field() {
@@ -167,6 +209,8 @@ mod tests {
         assert!(some(&|s| !s.mesh.frame.is_identity()));
         assert!(some(&|s| s.mesh.triangles.is_empty() && !s.mesh.records.is_empty()));
         assert!(some(&|s| !s.mesh.fill.indices.is_empty()));
+        assert!(some(&|s| s.mesh.fill.runs.len() > 2 && s.mesh.fill.groups.len() > 1));
+        assert!(some(&|s| s.mesh.fill.materials.iter().any(|m| m.diffuse_texture.is_some())));
         for code in [WarningCode::NonFinite, WarningCode::Material, WarningCode::Orientation] {
             assert!(some(&|s| s.report.count(code) > 0), "{code}");
         }
@@ -212,6 +256,11 @@ mod tests {
         let error = to_bytes(&sample.mesh, "", &sample.report, &Layout::ALL).unwrap_err();
         assert_eq!((error.kind, error.place), (FileErrorKind::Inconsistent, None));
         let expected = "section EDGE, element 2: names vertex 3, and there are 3";
+        assert!(error.what.starts_with(expected), "{}", error.what);
+        let mut sample = looks();
+        sample.mesh.fill.runs[1].material = 4;
+        let error = to_bytes(&sample.mesh, "", &sample.report, &[]).unwrap_err();
+        let expected = "section FRUN, element 1: names material 4, and there are 4";
         assert!(error.what.starts_with(expected), "{}", error.what);
     }
 }

@@ -17,6 +17,7 @@ mod gltf;
 mod mtl;
 mod number;
 mod obj;
+mod picture;
 mod ply;
 mod sniff;
 mod source;

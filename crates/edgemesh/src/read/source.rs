@@ -66,17 +66,26 @@ impl Source<'_> {
         Ok(target)
     }
 
+    /// Where a file of at most `max_bytes` that the model names lies.
+    ///
+    /// # Errors
+    /// As [`Self::sidecar_path`], and where it is no such file.
+    pub(crate) fn sidecar_file(&self, relative: &str, max_bytes: u64) -> Result<PathBuf, String> {
+        let target = self.sidecar_path(relative)?;
+        let metadata = fs::metadata(&target).map_err(|error| error.to_string())?;
+        if !metadata.is_file() || metadata.len() > max_bytes {
+            return Err("is no file of a sensible size".into());
+        }
+        Ok(target)
+    }
+
     /// Reads a file that the model names, which must lie in the model's folder
     /// or below.
     ///
     /// # Errors
-    /// As [`Self::sidecar_path`], and where the file cannot be read.
+    /// As [`Self::sidecar_file`], and where the file cannot be read.
     pub(crate) fn sidecar(&self, relative: &str) -> Result<Vec<u8>, String> {
-        let target = self.sidecar_path(relative)?;
-        let metadata = fs::metadata(&target).map_err(|error| error.to_string())?;
-        if !metadata.is_file() || metadata.len() > MAX_FILE_BYTES {
-            return Err("is no file of a sensible size".into());
-        }
+        let target = self.sidecar_file(relative, MAX_FILE_BYTES)?;
         fs::read(&target).map_err(|error| error.to_string())
     }
 }

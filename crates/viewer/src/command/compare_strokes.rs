@@ -13,20 +13,18 @@ use glam::Vec2;
 use image::{Rgba, RgbaImage, imageops};
 use strokes::brush::Brush;
 use strokes::gpu::{self, Gpu};
-use strokes::look::{Layer, Look};
-use strokes::mesh_buffers::Layout;
 use strokes::object::GraphReadback;
-use strokes::renderer::DetectionPath;
 
 use crate::comparison::measure::Sums;
 use crate::comparison::page::{Row, Sheet, csv, html};
 use crate::comparison::samples::{FrameLines, FrameSource};
 use crate::comparison::{CameraPath, Way};
 use crate::picture::encode_png;
-use crate::render::{PictureOptions, PictureRenderer, Scene, adapter_failure};
+use crate::render::{PictureOptions, PictureRenderer, Scene, adapter_failure, technique_failure};
 use crate::scene_file::SceneObject;
-use crate::technique::Technique;
+use crate::technique::library::Library;
 
+use super::options::set;
 use super::render::{parse_size, show_progress};
 
 const EXAMPLES: &str = "Examples:\n  \
@@ -138,22 +136,26 @@ impl CompareStrokesCommand {
         scene: &'a Scene,
         brush: &str,
     ) -> Result<Comparison<'a>, Failure> {
+        let library = Library::shipped();
         let renderer = |way: Way| {
-            let mut technique = Technique::by_name("ink")?;
-            technique.set(&format!("strokes.brush={brush}"))?;
-            technique.set(&format!("strokes.width={}", self.width))?;
-            for setting in way.settings() {
-                technique.set(setting)?;
+            let found = library.technique("ink").map_err(|mistakes| technique_failure(&mistakes));
+            let mut technique = found?.0;
+            let width = format!("strokes.width={}", self.width);
+            for setting in [&format!("strokes.brush={brush}"), &width] {
+                set(&mut technique, setting, true)?;
             }
-            let options = PictureOptions {
-                background: technique.background(),
-                size: self.size,
-                samples: 4,
-                layout: Layout::Indexed,
-                path: DetectionPath::Compute,
-            };
-            let look = by_class(&technique.look(&scene.frame));
-            PictureRenderer::new(gpu, scene, &[look], &options)
+            for setting in way.settings() {
+                set(&mut technique, setting, true)?;
+            }
+            if way == Way::Chained {
+                // Each class in a layer of its own, in their order: another seed is
+                // another look.
+                for (seed, class) in EdgeClass::ALL.into_iter().enumerate() {
+                    set(&mut technique, &format!("{}.seed={seed}", class.name()), true)?;
+                }
+            }
+            let options = PictureOptions { size: self.size, ..PictureOptions::default() };
+            PictureRenderer::new(gpu, scene, &technique, &[], &options)
         };
         let [object_space, screen_space, chained] = Way::ALL.map(renderer);
         let texture = Brush::named(brush).transpose().ok().flatten();
@@ -165,13 +167,6 @@ impl CompareStrokesCommand {
             renderers: [object_space?, screen_space?, chained?],
         })
     }
-}
-
-/// Each class in a layer of its own, in their order.
-fn by_class(look: &Look) -> Look {
-    let style = look.layers.first().and_then(|layer| layer.visible.clone());
-    let layer = |class| Layer { classes: vec![class], visible: style.clone(), hidden: None };
-    Look { layers: EdgeClass::ALL.into_iter().map(layer).collect(), ..look.clone() }
 }
 
 impl Comparison<'_> {

@@ -2,7 +2,10 @@
 
 mod adapters;
 mod compare_strokes;
+mod components;
+mod options;
 mod render;
+mod techniques;
 
 use std::process::ExitCode;
 
@@ -26,6 +29,8 @@ enum Command {
     // Boxed: these have far more options than the others.
     Render(Box<render::RenderCommand>),
     CompareStrokes(Box<compare_strokes::CompareStrokesCommand>),
+    Components(components::ComponentsCommand),
+    Techniques(techniques::TechniquesCommand),
     Adapters(adapters::AdaptersCommand),
     #[command(hide = true)]
     Completions(CompletionsCommand),
@@ -41,6 +46,8 @@ pub fn main() -> ExitCode {
     run(move || match arguments.command {
         Command::Render(command) => command.run(arguments.messages.quiet),
         Command::CompareStrokes(command) => command.run(arguments.messages.quiet),
+        Command::Components(command) => command.run(arguments.messages.quiet),
+        Command::Techniques(command) => command.run(arguments.messages.quiet),
         Command::Adapters(command) => command.run(),
         Command::Completions(command) => command.run(Viewer::command()),
         Command::Man(command) => command.run(Viewer::command()),

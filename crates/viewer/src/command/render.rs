@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 use std::ffi::OsStr;
+use std::fmt::Write as _;
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 use std::thread;
@@ -16,7 +17,6 @@ use glam::DQuat;
 use image::RgbaImage;
 use serde::Serialize;
 use strokes::gpu::{self, Gpu};
-use strokes::look::Look;
 use strokes::mesh_buffers::Layout;
 use strokes::renderer::DetectionPath;
 
@@ -24,8 +24,10 @@ use crate::animation::{AnimationKind, encode_animation};
 use crate::picture::{DEFAULT_REFERENCE_THRESHOLD, compare, encode_png, read_png, straight_alpha};
 use crate::render::{FrameStatistics, PictureOptions, PictureRenderer, Scene, adapter_failure};
 use crate::scene_file::{SceneObject, is_scene_file, read_scene_file};
-use crate::stroke_setting::STROKE_VARIABLES;
-use crate::technique::{PASSES, TECHNIQUES, Technique};
+use crate::technique::Technique;
+use crate::technique::library::Library;
+
+use super::options::{LibraryOptions, LightingOptions, set};
 
 /// Renders models to a PNG, without a window
 #[derive(Debug, Clone, Args)]
@@ -41,9 +43,9 @@ pub(super) struct RenderCommand {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = parse_size)]
     size: [u32; 2],
-    /// How it looks: ink, pen, charcoal, watercolor, fur, hidden-line
-    /// or linked
-    #[arg(long, value_name = "NAME", default_value = "ink")]
+    /// How it looks: a technique by its name, or a file that describes one; see
+    /// viewer techniques list
+    #[arg(long, value_name = "NAME|FILE", default_value = "ink")]
     technique: String,
     /// Set a variable of the technique; repeatable
     #[arg(long, value_name = "PASS.VARIABLE=VALUE")]
@@ -52,6 +54,10 @@ pub(super) struct RenderCommand {
     /// fur, dash, none
     #[arg(long, value_name = "FILE")]
     brush: Option<String>,
+    #[command(flatten)]
+    library: LibraryOptions,
+    #[command(flatten)]
+    lighting: LightingOptions,
     /// How the edges lie in memory; the replicated layouts are the paper's
     #[arg(long, value_name = "LAYOUT", default_value = "indexed")]
     layout: LayoutName,
@@ -129,25 +135,28 @@ impl From<PathName> for DetectionPath {
     }
 }
 
-const EXAMPLES: &str = "Examples:\n  \
+pub(super) const EXAMPLES: &str = "Examples:\n  \
     viewer render bunny.obj -o bunny.png\n  \
     viewer render bunny.obj -o bunny.png --technique pen --set strokes.width=4 --size 2048x1024\n  \
-    viewer render part.obj -o part.png --technique hidden-line --set hidden.color=#c04000\n  \
+    viewer render part.obj -o part.png --technique hidden_line --set hidden.color=#c04000\n  \
     viewer render scene.toml -o scene.png --technique pen\n  \
     viewer render bunny.obj -o fur.png --technique fur --set contour.width=40\n  \
-    viewer render bunny.obj -o bunny.png --technique linked --set strokes.wobble=3,60\n  \
+    viewer render bunny.obj -o bunny.png --technique linked --set strokes.wobble=3\n  \
     viewer render part.obj -o part.png --eye 3,2,5 --ortho --crease 20 --stats -\n  \
     viewer render part.obj -o turn.gif --turntable 72 --size 512x512";
 
 fn long_help() -> String {
-    let list = |rows: &[(&str, &str)]| {
-        rows.iter().map(|(name, what)| format!("  {name:<18} {what}\n")).collect::<String>()
-    };
+    let library = Library::shipped();
+    let mut techniques = String::new();
+    for name in library.technique_names() {
+        let about = library.technique(name).map(|(technique, _)| technique.about);
+        let _ = writeln!(techniques, "  {name:<18} {}", about.unwrap_or_default());
+    }
     format!(
-        "Techniques:\n{}\nPasses, for --set PASS.VARIABLE=VALUE:\n{}\nVariables of strokes:\n{}\n{EXAMPLES}",
-        list(&TECHNIQUES),
-        list(&PASSES),
-        list(&STROKE_VARIABLES)
+        "Techniques:\n{techniques}\nTheir passes: viewer techniques print NAME. The variables of a \
+         pass: viewer components print COMPONENT.\n--set CLASS.VARIABLE=VALUE gives a class of edges \
+         (contour, marked, boundary, material, smoothing, ridge, valley; hidden-ridge and so on for \
+         what is hidden) a pass of its own.\n\n{EXAMPLES}"
     )
 }
 
@@ -168,28 +177,24 @@ struct Statistics {
 
 #[derive(Debug, Serialize)]
 struct PassTime {
-    name: &'static str,
+    name: String,
     gpu_ms: Option<f64>,
 }
 
 impl RenderCommand {
     pub(super) fn run(&self, is_quiet: bool) -> Result<(), Failure> {
         self.check_outputs()?;
-        let mut technique = Technique::by_name(&self.technique)?;
-        let built = self.input.creases.build_options();
-        technique.set_built_thresholds([built.ridge_angle_rad, built.valley_angle_rad]);
+        let library = self.library.load();
+        let mut technique = self.library.technique(&library, &self.technique, is_quiet)?;
         if let Some(brush) = &self.brush {
-            technique.set(&format!("strokes.brush={brush}"))?;
+            set(&mut technique, &format!("strokes.brush={brush}"), is_quiet)?;
         }
         for assignment in &self.set {
-            technique.set(assignment)?;
-        }
-        if self.transparent {
-            technique.make_transparent();
+            set(&mut technique, assignment, is_quiet)?;
         }
         let reference = self.reference.as_deref().map(read_png).transpose()?;
         let objects = self.objects()?;
-        let looks = self.object_techniques(&objects, &technique)?;
+        let looks = self.object_techniques(&objects, &library, &technique, is_quiet)?;
         let (gpu, scene) = self.open_and_load(&objects, is_quiet)?;
         if !is_quiet {
             for model in &scene.models {
@@ -200,14 +205,15 @@ impl RenderCommand {
         let camera = self.camera.camera(&scene.bounds, &scene.frame)?;
         let samples = if self.samples == "1" { 1 } else { 4 };
         let options = PictureOptions {
-            background: technique.background(),
             size: self.size,
             samples,
             layout: self.layout.into(),
             path: self.detection.into(),
+            is_transparent: self.transparent,
+            lighting: self.lighting.lighting()?,
+            shaders: self.library.shaders.clone(),
         };
-        let looks: Vec<Look> = looks.iter().map(|look| look.look(&scene.frame)).collect();
-        let mut renderer = PictureRenderer::new(&gpu, &scene, &looks, &options)?;
+        let mut renderer = PictureRenderer::new(&gpu, &scene, &technique, &looks, &options)?;
         let statistics = match self.turntable {
             Some(steps) => self.write_turntable(&mut renderer, &camera, steps)?,
             None => self.write_picture(&mut renderer, &camera, reference.as_ref())?,
@@ -232,23 +238,26 @@ impl RenderCommand {
     fn object_techniques(
         &self,
         objects: &[SceneObject],
+        library: &Library,
         default: &Technique,
+        is_quiet: bool,
     ) -> Result<Vec<Technique>, Failure> {
         let of_object = |object: &SceneObject| {
             let mut technique = match &object.technique {
-                Some(name) => Technique::by_name(name)?,
+                Some(name) => self.library.technique(library, name, is_quiet)?,
                 None => default.clone(),
             };
-            let built = self.input.creases.build_options();
-            technique.set_built_thresholds([built.ridge_angle_rad, built.valley_angle_rad]);
             for setting in &object.settings {
-                technique.set(setting).map_err(|failure| Failure {
+                set(&mut technique, setting, is_quiet).map_err(|failure| Failure {
                     message: format!("{}: {}", object.model.display(), failure.message),
                     ..failure
                 })?;
             }
             Ok(technique)
         };
+        if objects.iter().all(|object| object.technique.is_none() && object.settings.is_empty()) {
+            return Ok(Vec::new());
+        }
         objects.iter().map(of_object).collect()
     }
 
@@ -397,7 +406,9 @@ impl RenderCommand {
             edges: sum(|counts| counts.edges.edges),
             features: statistics.tally.map(|tally| tally.features()),
             strokes: statistics.tally.map(|tally| tally.stroke_count),
-            passes: passes.map(|&(name, gpu_ms)| PassTime { name, gpu_ms }).collect(),
+            passes: passes
+                .map(|(name, gpu_ms)| PassTime { name: name.clone(), gpu_ms: *gpu_ms })
+                .collect(),
             frame_ms: statistics.frame_ms,
         };
         let json = serde_json::to_string_pretty(&statistics);

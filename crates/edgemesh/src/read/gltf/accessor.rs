@@ -150,6 +150,24 @@ impl Asset<'_> {
         }
     }
 
+    /// The bytes of a view that `part` names by its index.
+    ///
+    /// # Errors
+    /// `Bounds` where it leaves its buffer, those of that buffer, `Syntax` where
+    /// there is no such view.
+    pub(super) fn view(&self, index: usize, part: &dyn Fn() -> String) -> Result<&[u8], ReadError> {
+        let view = self.get(&self.document.buffer_views, index, "bufferViews", part)?;
+        let view_part = || format!("bufferViews[{index}]");
+        let buffer = self.buffer(view.buffer.value(), view_part)?;
+        let start = view.byte_offset.unwrap_or_default().0;
+        let length = view.byte_length.0;
+        slice(buffer, start, length).ok_or_else(|| {
+            let what =
+                format!("takes {length} bytes from byte {start} of a buffer of {}", buffer.len());
+            self.error(ReadErrorKind::Bounds, view_part(), what)
+        })
+    }
+
     /// The bytes that elements take; `part` names their accessor.
     fn elements(
         &self,
@@ -164,17 +182,8 @@ impl Asset<'_> {
             let what = format!("has elements of {size} bytes, {stride} apart");
             return Err(self.error(ReadErrorKind::Syntax, part(), what));
         }
-        let view_part = || format!("bufferViews[{index}]");
-        let buffer = self.buffer(view.buffer.value(), view_part)?;
-        let view_start = view.byte_offset.unwrap_or_default().0;
-        let length = view.byte_length.0;
-        let Some(in_view) = slice(buffer, view_start, length) else {
-            let what = format!(
-                "takes {length} bytes from byte {view_start} of a buffer of {}",
-                buffer.len()
-            );
-            return Err(self.error(ReadErrorKind::Bounds, view_part(), what));
-        };
+        let in_view = self.view(index, part)?;
+        let length = in_view.len();
         let needed = match count {
             0 => Some(0),
             _ => (count - 1).checked_mul(stride).and_then(|bytes| bytes.checked_add(size)),

@@ -68,18 +68,37 @@ impl Asset<'_> {
     }
 
     fn load(&self, uri: &str, index: usize) -> Result<Vec<u8>, ReadError> {
-        let bytes = match scheme(uri) {
-            Some(name) if name.eq_ignore_ascii_case("data") => data_uri(uri),
-            Some(_) => Err("is elsewhere and was not opened; put the file beside the model and \
-                            name it alone"
-                .into()),
-            None => unescape(uri).and_then(|path| {
+        let bytes = target(uri).and_then(|target| match target {
+            Target::Bytes(bytes) => Ok(bytes),
+            Target::Path(path) => {
                 self.source.sidecar(&path).map_err(|why| format!("names '{path}', which {why}"))
-            }),
-        };
+            }
+        });
         bytes
             .inspect(|bytes| self.budget.add_bytes(bytes.len()))
             .map_err(|what| self.error(ReadErrorKind::Uri, format!("buffers[{index}].uri"), what))
+    }
+}
+
+/// Where a URI leads.
+pub(super) enum Target {
+    /// Nowhere: the bytes are in the URI itself.
+    Bytes(Vec<u8>),
+    /// To a file, by a path from the model's folder on.
+    Path(String),
+}
+
+/// Finds out where a URI leads, without a look at any file.
+///
+/// # Errors
+/// Why it leads nowhere, to go behind the name of the URI.
+pub(super) fn target(uri: &str) -> Result<Target, String> {
+    match scheme(uri) {
+        Some(name) if name.eq_ignore_ascii_case("data") => data_uri(uri).map(Target::Bytes),
+        Some(_) => Err("is elsewhere and was not opened; put the file beside the model and name \
+                        it alone"
+            .into()),
+        None => unescape(uri).map(Target::Path),
     }
 }
 

@@ -25,6 +25,7 @@ use super::edge_extensions::edges;
 use super::extension::check_uncompressed;
 use super::material::material;
 use super::scene::Graph;
+use super::texture::Textures;
 use super::topology::{Shapes, shapes};
 use super::vertices::{Looks, Site, positions};
 use crate::index::{NONE, to_u32};
@@ -43,6 +44,7 @@ pub(super) struct ModelBuilder<'a> {
     model: Model,
     /// The index into the model's materials of each of the file's, or [`NONE`].
     materials: Vec<u32>,
+    textures: Textures,
 }
 
 /// What primitives of a mesh must have in common to share vertices.
@@ -76,7 +78,8 @@ impl<'a> ModelBuilder<'a> {
         let rig = new_rig(asset, graph)?;
         let rest = rig.rest_pose();
         let materials = vec![NONE; asset.document.materials.len()];
-        Ok(Self { asset, report, rig, rest, model: Model::default(), materials })
+        let (model, textures) = (Model::default(), Textures::default());
+        Ok(Self { asset, report, rig, rest, model, materials, textures })
     }
 
     /// Adds what the mesh of a node draws.
@@ -129,7 +132,12 @@ impl<'a> ModelBuilder<'a> {
         };
         if *known == NONE {
             *known = to_u32(self.model.materials.len());
-            self.model.materials.push(material(json));
+            let mut material = material(json);
+            if let Some(info) = &json.pbr_metallic_roughness.base_color_texture {
+                material.diffuse_texture =
+                    self.textures.of_base_color(self.asset, index, info, self.report);
+            }
+            self.model.materials.push(material);
         }
         *known
     }

@@ -1,7 +1,8 @@
-//! The JSON of a file, as far as geometry needs it.
+//! The JSON of a file, as far as geometry and its looks need it.
 //!
-//! Pictures, textures, cameras and animations are not even looked at, so that
-//! no fault of theirs stops a model; `lint` tells of them. The elements are
+//! Cameras and animations are not even looked at, textures and pictures only one
+//! by one where a material shows them, so that no fault of theirs stops a model;
+//! `lint` tells of them. The elements are
 //! those of `gltf-json`, except where it demands more than the specification
 //! does.
 
@@ -34,6 +35,12 @@ pub(super) struct Document {
     pub(super) accessors: Vec<json::Accessor>,
     #[serde(default)]
     pub(super) materials: Vec<json::Material>,
+    /// A list, if anybody looks into it.
+    #[serde(default)]
+    pub(super) textures: serde_json::Value,
+    /// A list, if anybody looks into it.
+    #[serde(default)]
+    pub(super) images: serde_json::Value,
     #[serde(default)]
     pub(super) meshes: Vec<json::Mesh>,
     #[serde(default)]

@@ -31,6 +31,7 @@ mod material;
 #[cfg(test)]
 mod sample;
 mod scene;
+mod texture;
 mod topology;
 mod vertices;
 

@@ -95,7 +95,7 @@ pub(super) fn read(json: &Value) -> Result<(Model, Report), ReadError> {
 }
 
 /// The members of both; those of `more` win.
-fn joined(mut object: Value, more: &Value) -> Value {
+pub(super) fn joined(mut object: Value, more: &Value) -> Value {
     for (name, value) in more.as_object().into_iter().flatten() {
         object[name] = value.clone();
     }

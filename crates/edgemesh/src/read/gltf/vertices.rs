@@ -55,7 +55,7 @@ impl Looks {
         let mut attributes = Attributes { asset, primitive, site, count, report };
         Self {
             normals: attributes.optional(Semantic::Normals, |accessor| accessor.numbers()),
-            texcoords: attributes.optional(Semantic::TexCoords(0), |accessor| accessor.numbers()),
+            texcoords: attributes.optional(Semantic::TexCoords(0), texcoords),
             colors: attributes.optional(Semantic::Colors(0), colors),
         }
     }
@@ -177,6 +177,13 @@ impl Attributes<'_> {
     }
 }
 
+/// Texture coordinates from the lower left corner of a picture on, as a model has
+/// them; glTF counts from the upper left one.
+fn texcoords(accessor: Accessor) -> Result<Vec<[f32; 2]>, ReadError> {
+    let texcoords: Vec<[f32; 2]> = accessor.numbers()?;
+    Ok(texcoords.into_iter().map(|[u, v]| [u, 1.0 - v]).collect())
+}
+
 /// Colours without their alpha; whole numbers are always 0 to 1 here.
 fn colors(accessor: Accessor) -> Result<Vec<[f32; 3]>, ReadError> {
     let accessor = accessor.normalized();
@@ -210,7 +217,7 @@ mod tests {
         assert_eq!(model.corner_normals, [0, 1, 2]);
         assert_eq!(model.corner_texcoords, [0, 1, 2]);
         assert_eq!(model.normals, [[0.0, 0.0, 1.0]; 3]);
-        assert_eq!(model.texcoords, [[0.0, 0.25]; 3]);
+        assert_eq!(model.texcoords, [[0.0, 0.75]; 3], "from the lower left corner on");
         assert_eq!(model.colors, [[1.0, 0.0, 0.2]; 3], "bytes are 0 to 1, flag or not");
     }
 

@@ -105,9 +105,13 @@ fn chunk_end(text: &[u8], from: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
+    use crate::build::{BuildOptions, build_edge_mesh};
     use crate::index::NONE;
-    use crate::model::{Segment, Smoothing};
+    use crate::model::{Material, Segment, Smoothing, Texture, TextureSource};
+    use crate::read::{picture, read_model};
     use crate::report::{Place, WarningCode};
 
     fn try_read(text: &[u8], chunk_bytes: usize) -> (Result<Model, ReadError>, Report) {
@@ -199,6 +203,50 @@ mod tests {
         let model = read(&format!("{THREE}f 1 2 3\ns 1\nf 3 2 1\n"));
         let smoothing = model.per_polygon(|run| run.smoothing);
         assert_eq!(smoothing, [Smoothing::Group(0), Smoothing::Group(1)], "off before the first");
+    }
+
+    /// From the files to the fill of the edge mesh.
+    #[test]
+    fn materials_groups_and_textures_reach_the_fill() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).unwrap();
+        write("bark.png", picture::SAMPLES[0]);
+        write(
+            "tree.mtl",
+            b"newmtl bark\nKa 0.1 0.1 0.1\nKd 0.8 0.5 0.2\nNs 12\n\
+              map_Kd -s 2 2 1 -clamp on bark.png\nnewmtl leaf\nKd 0 1 0\nTr 0.5\n",
+        );
+        write(
+            "tree.obj",
+            b"mtllib tree.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\n\
+              vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\ng trunk\nusemtl bark\nf 1/1 2/2 3/3 4/4\n\
+              g crown\nf 2/1 1/2 5/3\nusemtl leaf\nf 2 5 6\nusemtl leaf\nf 2 6 3\n",
+        );
+        let (model, mut report) = read_model(&folder.path().join("tree.obj")).unwrap();
+        let fill = build_edge_mesh(&model, &BuildOptions::default(), &mut report).fill;
+        assert!(report.warnings().is_empty(), "{report:?}");
+        let runs: Vec<[u32; 4]> = fill.runs.into_iter().map(bytemuck::cast).collect();
+        assert_eq!(runs, [[0, 0, 0, 1], [2, 0, 1, 1], [3, 1, 1, 0]]);
+        assert_eq!(fill.groups, ["trunk", "crown"]);
+        let texture = Texture {
+            name: "bark.png".into(),
+            source: TextureSource::File(folder.path().canonicalize().unwrap().join("bark.png")),
+        };
+        let bark = Material {
+            name: "bark".into(),
+            ambient: Some([0.1; 3]),
+            diffuse: Some([0.8, 0.5, 0.2]),
+            shininess: Some(12.0),
+            diffuse_texture: Some(texture),
+            ..Material::default()
+        };
+        let leaf = Material {
+            name: "leaf".into(),
+            diffuse: Some([0.0, 1.0, 0.0]),
+            opacity: Some(0.5),
+            ..Material::default()
+        };
+        assert_eq!(fill.materials, [bark, leaf]);
     }
 
     #[test]

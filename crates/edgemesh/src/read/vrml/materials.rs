@@ -3,15 +3,16 @@
 //! Exporters write one material for each shape; those of equal names and values
 //! are one here, since a border between materials is a line of the drawing.
 //!
-//! VRML has no linear and no sRGB colours; its numbers are kept. A shininess of
-//! 1 stands for the exponent 128 (VRML 97 4.14.4), and the ambient colour of
-//! VRML 97 is a part of the diffuse one.
+//! VRML does not say how its colours are coded, and programs show its numbers as
+//! they are: they are display values, and kept. A shininess of 1 stands for the
+//! exponent 128 (VRML 97 4.14.4), and the ambient colour of VRML 97 is a part of
+//! the diffuse one.
 
 use super::document::{NodeRef, Numbers};
 use super::lists::to_f32;
 use super::scene::Scene;
 use crate::index::to_u32;
-use crate::model::Material;
+use crate::model::{Material, Texture};
 
 /// The specular exponent at a shininess of 1.
 const FULL_SHININESS: f64 = 128.0;
@@ -21,7 +22,7 @@ const FULL_SHININESS: f64 = 128.0;
 #[derive(Debug, PartialEq, Eq, Hash)]
 pub(super) struct MaterialKey {
     name: String,
-    texture: Option<String>,
+    texture: Option<Texture>,
     colors: [Option<[u32; 3]>; 3],
     numbers: [Option<u32>; 2],
 }
@@ -50,12 +51,17 @@ impl Scene<'_> {
 }
 
 /// What a VRML 97 `Appearance` says; `None` where it says nothing.
-pub(super) fn of_appearance(appearance: NodeRef) -> Option<Material> {
-    let texture = appearance.node_of("texture").and_then(|texture| texture.word("url"));
-    let diffuse_texture = texture.map(str::to_owned);
+pub(super) fn of_appearance(scene: &mut Scene, appearance: NodeRef) -> Option<Material> {
+    let texture = appearance.node_of("texture");
+    let diffuse_texture = texture.and_then(|node| scene.texture(node, "url"));
+    if diffuse_texture.is_some()
+        && let Some(transform) = appearance.node_of("textureTransform")
+    {
+        scene.warn_unread(transform);
+    }
     let Some(node) = appearance.node_of("material") else {
         return diffuse_texture
-            .map(|file| Material { diffuse_texture: Some(file), ..Material::default() });
+            .map(|texture| Material { diffuse_texture: Some(texture), ..Material::default() });
     };
     let diffuse = node.vector("diffuseColor", [0.8; 3]);
     let ambient = node.number("ambientIntensity", 0.2);
@@ -72,8 +78,8 @@ pub(super) fn of_appearance(appearance: NodeRef) -> Option<Material> {
 
 /// The material number `at` of a VRML 1.0 `Material`, whose fields are lists.
 /// Where a list is shorter it begins again.
-pub(super) fn of_lists(node: Option<NodeRef>, texture: Option<NodeRef>, at: usize) -> Material {
-    let diffuse_texture = texture.and_then(|texture| texture.word("filename")).map(str::to_owned);
+pub(super) fn of_lists(node: Option<NodeRef>, texture: Option<&Texture>, at: usize) -> Material {
+    let diffuse_texture = texture.cloned();
     let Some(node) = node else { return Material { diffuse_texture, ..Material::default() } };
     let color = |field, default: f64| {
         let found = repeated(node.numbers(field).chunks::<3>(), at);
@@ -122,12 +128,10 @@ mod tests {
             Shape { appearance Appearance { } geometry Box { } }
             Shape { appearance Appearance { material DEF M Material { } } geometry Box { } }
             Shape { appearance Appearance { material Material { diffuseColor 1 0.5 0
-            ambientIntensity 0.5 specularColor 0 0 1 shininess 0.5 transparency 0.25 }
-            texture ImageTexture { url [ \"a.png\" \"b.png\" ] } } geometry Box { } }
-            Shape { appearance Appearance { texture ImageTexture { url \"a.png\" } }
+            ambientIntensity 0.5 specularColor 0 0 1 shininess 0.5 transparency 0.25 } }
             geometry Box { } }";
         let (materials, indices) = indices(text);
-        assert_eq!(indices, [NONE, 0, 1, 2]);
+        assert_eq!(indices, [NONE, 0, 1]);
         let expected = Material {
             name: "M".into(),
             ambient: Some([0.16; 3]),
@@ -145,10 +149,9 @@ mod tests {
             specular: Some([0.0, 0.0, 1.0]),
             shininess: Some(64.0),
             opacity: Some(0.75),
-            diffuse_texture: Some("a.png".into()),
+            diffuse_texture: None,
         };
         assert_eq!(materials[1], expected);
-        assert_eq!((materials[2].diffuse, materials[2].diffuse_texture.is_some()), (None, true));
     }
 
     #[test]
@@ -164,7 +167,6 @@ mod tests {
         let scene = |binding: &str, index: &str| {
             indices(&format!(
                 "#VRML V1.0 ascii\nMaterial {{ diffuseColor [ 1 0 0, 0 1 0 ] transparency 0.5 }}
-                 Texture2 {{ filename \"a.png\" }}
                  MaterialBinding {{ value {binding} }}
                  Coordinate3 {{ point [ 0 0 0, 1 0 0, 0 1 0 ] }}
                  IndexedFaceSet {{ coordIndex [ 0,1,2,-1, 0,1,2,-1, 0,1,2 ] {index} }}"
@@ -174,7 +176,6 @@ mod tests {
         assert_eq!(numbers, [0, 1, 0], "the list begins again");
         assert_eq!(materials[1].diffuse, Some([0.0, 1.0, 0.0]));
         assert_eq!((materials[1].opacity, materials[1].ambient), (Some(0.5), Some([0.2; 3])));
-        assert_eq!(materials[1].diffuse_texture.as_deref(), Some("a.png"));
         assert_eq!(scene("OVERALL", "").1, [0]);
         let (materials, _) = scene("PER_FACE_INDEXED", "materialIndex [ 1, 1, 0 ]");
         assert_eq!(materials[0].diffuse, Some([0.0, 1.0, 0.0]));

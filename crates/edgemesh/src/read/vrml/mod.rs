@@ -33,6 +33,7 @@ mod scene;
 mod shapes_v1;
 mod shapes_v2;
 mod solids;
+mod textures;
 mod transforms;
 mod traversal;
 mod unpack;

@@ -19,9 +19,10 @@ use glam::DAffine3;
 use super::document::{Document, NodeRef};
 use super::lists::ListKey;
 use super::materials::MaterialKey;
+use super::textures::TextureKey;
 use super::{Version, walk_v1, walk_v2};
 use crate::index::{NONE, to_u32};
-use crate::model::{Attributes, Model, Smoothing};
+use crate::model::{Attributes, Model, Smoothing, Texture};
 use crate::read::error::{ReadError, ReadErrorKind};
 use crate::report::{Report, WarningCode};
 
@@ -66,6 +67,8 @@ pub(super) struct Scene<'r> {
     pub(super) lists: HashMap<ListKey, u32>,
     /// The materials that are in the model already.
     pub(super) materials: HashMap<MaterialKey, u32>,
+    /// The textures that were looked for, found or not.
+    pub(super) textures: HashMap<TextureKey, Option<Texture>>,
     groups: HashMap<Rc<str>, u32>,
     /// The files that were inlined, by path; each is parsed once.
     pub(super) documents: HashMap<PathBuf, Rc<Document>>,
@@ -84,6 +87,7 @@ impl<'r> Scene<'r> {
             report,
             lists: HashMap::new(),
             materials: HashMap::new(),
+            textures: HashMap::new(),
             groups: HashMap::new(),
             documents: HashMap::new(),
             open: path.into_iter().collect(),

@@ -7,7 +7,7 @@ use super::materials::of_lists;
 use super::scene::Scene;
 use super::solids::{Parts, Surface, cone, cuboid, cylinder, sphere};
 use super::walk_v1::State;
-use crate::model::{Material, Smoothing};
+use crate::model::{Material, Smoothing, Texture};
 use crate::read::error::ReadError;
 use crate::report::WarningCode;
 
@@ -59,7 +59,7 @@ fn add_solid(
     let line = node.line();
     let points = List::made(node, Numbers::made(&surface.points, line));
     let indices = Numbers::made(&surface.indices, line);
-    let material = first_material(state);
+    let material = first_material(state, texture(scene, state).as_ref());
     let set = FaceSet::bare(node, points, indices, material, surface.smoothing);
     scene.add_faces(&set, &state.placement.named(node))
 }
@@ -69,9 +69,14 @@ fn material_count(state: &State) -> usize {
     state.material.map_or(0, |node| node.numbers("diffuseColor").chunks::<3>().len())
 }
 
+/// The texture in force.
+fn texture(scene: &mut Scene, state: &State) -> Option<Texture> {
+    state.texture.and_then(|node| scene.texture(node, "filename"))
+}
+
 /// The material for all faces.
-fn first_material(state: &State) -> Option<Material> {
-    match (state.material, state.texture) {
+fn first_material(state: &State, texture: Option<&Texture>) -> Option<Material> {
+    match (state.material, texture) {
         (None, None) => None,
         (material, texture) => Some(of_lists(material, texture, 0)),
     }
@@ -91,7 +96,8 @@ fn points<'d>(scene: &mut Scene, node: NodeRef, state: &State<'d>) -> Option<Lis
 
 fn add_face_set(scene: &mut Scene, node: NodeRef, state: &State) -> Result<(), ReadError> {
     let Some(points) = points(scene, node, state) else { return Ok(()) };
-    let material = first_material(state);
+    let texture = texture(scene, state);
+    let material = first_material(state, texture.as_ref());
     let smoothing = Smoothing::Angle(to_f32(state.crease_angle));
     let indices = node.numbers("coordIndex");
     let mut set = FaceSet::bare(node, points, indices, material, smoothing);
@@ -107,7 +113,8 @@ fn add_face_set(scene: &mut Scene, node: NodeRef, state: &State) -> Result<(), R
             set.colors = List::if_any(state.material, "diffuseColor").map(|list| (materials, list));
         }
         Binding::Face | Binding::FaceIndexed if state.material.is_some() => {
-            let material = Box::new(|at| Some(of_lists(state.material, state.texture, at)));
+            let texture = texture.as_ref();
+            let material = Box::new(move |at| Some(of_lists(state.material, texture, at)));
             set.face_materials = Some(FaceMaterials { bound: materials, material });
         }
         _ => {}

@@ -24,7 +24,7 @@ pub(super) fn add_shape(
 ) -> Result<(), ReadError> {
     let Some(geometry) = node.node_of("geometry") else { return Ok(()) };
     scene.visit(geometry)?;
-    let material = node.node_of("appearance").and_then(of_appearance);
+    let material = node.node_of("appearance").and_then(|looks| of_appearance(scene, looks));
     let shape = Shape { node: geometry, material };
     match geometry.kind() {
         "IndexedFaceSet" => shape.add_face_set(scene, placement),

@@ -26,7 +26,7 @@ use super::traversal::{Step, Traversal, nth};
 use crate::read::error::ReadError;
 
 /// Nodes that are neither drawn nor change how others are drawn here.
-const NOT_DRAWN: [&str; 8] = [
+const NOT_DRAWN: [&str; 7] = [
     "DirectionalLight",
     "FontStyle",
     "Info",
@@ -34,7 +34,6 @@ const NOT_DRAWN: [&str; 8] = [
     "PerspectiveCamera",
     "PointLight",
     "SpotLight",
-    "Texture2Transform",
 ];
 
 /// `whichChild` for all children.

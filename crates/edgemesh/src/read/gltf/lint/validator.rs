@@ -23,11 +23,11 @@ const ACCEPTED: [(&str, &str); 15] = [
     ("ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_FORMAT", "animations are not read"),
     ("BUFFER_VIEW_INVALID_BYTE_STRIDE", "what a view is for does not matter here"),
     ("BUFFER_VIEW_TARGET_OVERRIDE", "what a view is for does not matter here"),
-    ("IMAGE_DATA_INVALID", "pictures are not opened"),
-    ("INVALID_URI", "pictures, and buffers that nothing draws, are not opened"),
-    ("IO_ERROR", "pictures, and buffers that nothing draws, are not opened"),
-    ("MESH_PRIMITIVE_NO_TANGENT_SPACE", "pictures are not opened"),
-    ("MESH_PRIMITIVE_TOO_FEW_TEXCOORDS", "pictures are not opened"),
+    ("IMAGE_DATA_INVALID", "pictures are not decoded"),
+    ("INVALID_URI", "pictures and buffers that nothing draws are not opened"),
+    ("IO_ERROR", "pictures and buffers that nothing draws are not opened"),
+    ("MESH_PRIMITIVE_NO_TANGENT_SPACE", "pictures of normals are not read"),
+    ("MESH_PRIMITIVE_TOO_FEW_TEXCOORDS", "a picture without coordinates is not shown"),
     ("SKIN_NO_COMMON_ROOT", "joints are where their nodes are"),
 ];
 

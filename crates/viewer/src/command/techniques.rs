@@ -1,0 +1,103 @@
+//! `viewer techniques`: what pictures can look like.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+use edgemesh::command::{ExitStatus, Failure, print_to_stdout};
+
+use super::options::{LibraryOptions, print_mistakes};
+use crate::render::technique_failure;
+use crate::technique::library::Library;
+use crate::technique::mistake::Mistakes;
+use crate::technique::plan::Plan;
+use crate::technique::print::printed;
+use crate::technique::program::ShaderFiles;
+
+const EXAMPLES: &str = "Examples:\n  \
+    viewer techniques list\n  \
+    viewer techniques print toon\n  \
+    viewer techniques check mine.toml";
+
+/// Lists techniques, checks technique files, and shows their passes
+#[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct TechniquesCommand {
+    #[command(subcommand)]
+    verb: Verb,
+    #[command(flatten)]
+    library: LibraryOptions,
+}
+
+#[derive(Debug, Clone, Subcommand)]
+enum Verb {
+    /// All techniques, with what each shows
+    List,
+    /// Say everything that is wrong with technique files and their shaders
+    Check {
+        /// The files
+        #[arg(value_name = "FILE", required = true)]
+        files: Vec<PathBuf>,
+    },
+    /// The passes of a technique with their variables, and the textures between them
+    Print {
+        /// The technique, or a file that describes one
+        #[arg(value_name = "NAME|FILE")]
+        name: String,
+    },
+}
+
+impl TechniquesCommand {
+    pub(super) fn run(&self, is_quiet: bool) -> Result<(), Failure> {
+        let library = self.library.load();
+        match &self.verb {
+            Verb::List => {
+                print_mistakes(library.mistakes(), is_quiet);
+                print_to_stdout(list(&library).as_bytes())
+            }
+            Verb::Check { files } => self.check(&library, files, is_quiet),
+            Verb::Print { name } => {
+                let technique = self.library.technique(&library, name, is_quiet)?;
+                let shaders = ShaderFiles::new(&technique.folders, self.library.shaders.clone());
+                let plan = Plan::of(&technique, &shaders)
+                    .map_err(|mistakes| technique_failure(&mistakes))?;
+                print_to_stdout(printed(&technique, &plan).as_bytes())
+            }
+        }
+    }
+
+    /// Every mistake of every file.
+    fn check(&self, library: &Library, files: &[PathBuf], is_quiet: bool) -> Result<(), Failure> {
+        let mut all = Mistakes::default();
+        let mut wrong_files = 0;
+        for file in files {
+            let checked = library.technique_file(file).and_then(|(technique, warnings)| {
+                print_mistakes(&warnings, is_quiet);
+                let shaders = ShaderFiles::new(&technique.folders, self.library.shaders.clone());
+                Plan::of(&technique, &shaders)
+            });
+            if let Err(mistakes) = checked {
+                all.append(mistakes);
+                wrong_files += 1;
+            }
+        }
+        if wrong_files == 0 {
+            return Ok(());
+        }
+        let count = all.list.len();
+        let plural = if count == 1 { "mistake" } else { "mistakes" };
+        let message = format!("{all}\n{count} {plural} in {wrong_files} of {} files", files.len());
+        Err(Failure { message, status: ExitStatus::Shader })
+    }
+}
+
+fn list(library: &Library) -> String {
+    let width = library.technique_names().map(str::len).max().unwrap_or_default();
+    let line = |name: &str| {
+        let about = match library.technique(name) {
+            Ok((technique, _)) => technique.about,
+            Err(_) => "has mistakes; see viewer techniques print".to_owned(),
+        };
+        format!("{name:<width$}  {about}\n")
+    };
+    library.technique_names().map(line).collect()
+}

@@ -1,0 +1,79 @@
+//! Materials as shaders see them, and what a model leaves open.
+
+use bytemuck::{Pod, Zeroable};
+use edgemesh::model::Material;
+
+/// A material for the Phong model. WGSL twin: `Material` in
+/// `shaders/common/surface.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct MaterialUniform {
+    /// Ambient colour; w is 0.
+    pub ambient: [f32; 4],
+    /// Diffuse colour and opacity.
+    pub diffuse: [f32; 4],
+    /// Specular colour and shininess.
+    pub specular: [f32; 4],
+}
+
+/// The part of the diffuse colour that is ambient where a material says nothing.
+const AMBIENT_SHARE: f32 = 0.2;
+
+/// The specular exponent where a material has a specular colour and no exponent.
+const DEFAULT_SHININESS: f32 = 32.0;
+
+impl Default for MaterialUniform {
+    /// Of surfaces without a material: light grey, with a soft highlight.
+    fn default() -> Self {
+        Self {
+            ambient: [0.15, 0.15, 0.15, 0.0],
+            diffuse: [0.75, 0.75, 0.75, 1.0],
+            specular: [0.3, 0.3, 0.3, DEFAULT_SHININESS],
+        }
+    }
+}
+
+impl MaterialUniform {
+    /// A material with defaults for what it leaves open: light grey (white under a
+    /// texture), a fifth of the diffuse colour as ambient, no highlight.
+    ///
+    /// An ambient colour of pure white is what exporters write that know none, so it
+    /// counts as left open.
+    #[must_use]
+    pub fn of(material: &Material) -> Self {
+        let default = Self::default();
+        let [r, g, b, _] = match material.diffuse_texture {
+            Some(_) => [1.0; 4],
+            None => default.diffuse,
+        };
+        let diffuse = material.diffuse.unwrap_or([r, g, b]);
+        let is_said = |ambient: &[f32; 3]| *ambient != [1.0; 3];
+        let ambient =
+            material.ambient.filter(is_said).unwrap_or(diffuse.map(|value| value * AMBIENT_SHARE));
+        let specular = material.specular.unwrap_or([0.0; 3]);
+        let shininess = material.shininess.unwrap_or(DEFAULT_SHININESS);
+        let with = |[r, g, b]: [f32; 3], w| [r, g, b, w];
+        Self {
+            ambient: with(ambient, 0.0),
+            diffuse: with(diffuse, material.opacity.unwrap_or(1.0)),
+            specular: with(specular, shininess),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_material_leaves_open_has_a_default() {
+        let red = Material { diffuse: Some([1.0, 0.0, 0.0]), ..Material::default() };
+        let uniform = MaterialUniform::of(&red);
+        assert_eq!(uniform.ambient, [0.2, 0.0, 0.0, 0.0]);
+        assert_eq!(uniform.specular, [0.0, 0.0, 0.0, DEFAULT_SHININESS]);
+        let white = Material { ambient: Some([1.0; 3]), ..red.clone() };
+        assert_eq!(MaterialUniform::of(&white), uniform, "white says nothing");
+        let dark = Material { ambient: Some([0.0; 3]), ..red };
+        assert_eq!(MaterialUniform::of(&dark).ambient, [0.0; 4]);
+    }
+}

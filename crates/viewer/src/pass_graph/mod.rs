@@ -1,0 +1,585 @@
+//! Techniques on the GPU: each pass of the plan as pipelines and textures, done in
+//! order, one command buffer a frame.
+//!
+//! ```text
+//!   Plan, Technique --build--> steps --encode--> framebuffer --> picture
+//!                                ^   |
+//!            surfaces, meshes ---+   +--> generated textures, kept from frame to frame
+//! ```
+//!
+//! Only this module knows wgpu; what can be wrong with a technique was found before.
+//!
+//! - `scene_pass`, `screen_pass`, `ping_pong`, `copy_pass`, `stroke_pass`: the core
+//!   components. Who adds one: a variant of `CoreComponent`, its descriptor in
+//!   `techniques/components/core.toml`, a file here, a step below (thesis, section 2.3).
+//! - `surface`, `material`, `textures`: what they draw and read.
+//! - `bindings`, `params`, `pipeline`, `blend`: how programs are given what they want.
+
+mod bindings;
+mod blend;
+mod copy_pass;
+pub mod material;
+mod params;
+mod ping_pong;
+mod pipeline;
+mod scene_pass;
+mod screen_pass;
+mod stroke_pass;
+mod stroke_style;
+pub mod surface;
+mod textures;
+
+use std::sync::Arc;
+
+use edgemesh::camera::View;
+use edgemesh::command::Failure;
+use glam::Vec2;
+use strokes::frame::{Frame, FrameUniform, ObjectUniform, Surroundings, frame_layout};
+use strokes::gpu::Gpu;
+use strokes::gpu_time::TimedPasses;
+use strokes::look::Look;
+use strokes::mesh_buffers::{Layout, MeshBuffers};
+use strokes::renderer::{DetectionPath, PASS_NAMES};
+use strokes::targets::{TargetFormats, Targets};
+use strokes::view_buffers::Tally;
+
+use self::bindings::{Samplers, Sources};
+use self::copy_pass::CopyPass;
+use self::ping_pong::PingPong;
+use self::scene_pass::ScenePass;
+use self::screen_pass::ScreenPass;
+use self::stroke_pass::{StrokeGroup, StrokePasses};
+use self::surface::Surfaces;
+use self::textures::{GeneratedTexture, Images};
+use crate::render::Scene;
+use crate::technique::Technique;
+use crate::technique::core::CoreComponent;
+use crate::technique::pass::Pass;
+use crate::technique::plan::{PassPlan, Plan, Target, TexturePlan};
+use crate::technique::value::Value;
+
+/// How a technique is drawn, whatever it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct GraphOptions {
+    /// Width and height of the picture in pixels.
+    pub size: [u32; 2],
+    /// Samples a pixel, 1 or 4.
+    pub samples: u32,
+    /// How the edges lie in memory.
+    pub layout: Layout,
+    /// Where features are detected.
+    pub path: DetectionPath,
+    /// Whether there is no paper behind the scene.
+    pub is_transparent: bool,
+}
+
+/// A technique and a scene, ready to be drawn.
+#[derive(Debug)]
+pub struct PassGraph {
+    framebuffer: Targets,
+    frame: Frame,
+    sources: Sources,
+    surfaces: Option<Surfaces>,
+    strokes: Option<StrokePasses>,
+    steps: Vec<Step>,
+}
+
+/// One or several passes, done at once.
+#[derive(Debug)]
+struct Step {
+    /// Its name among the times.
+    name: String,
+    kind: StepKind,
+    plan: PassPlan,
+    run: Run,
+}
+
+#[derive(Debug)]
+enum StepKind {
+    Scene(ScenePass),
+    Screen(ScreenPass),
+    PingPong(PingPong),
+    Copy(CopyPass),
+    Strokes(StrokeGroup),
+}
+
+/// When a step is done.
+#[derive(Debug)]
+struct Run {
+    when: When,
+    /// The values of the pass and the text of its program.
+    key: (Vec<Value>, String),
+    /// Whether what it makes is there.
+    is_done: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum When {
+    Always,
+    Once,
+    /// Where a variable or the program has changed.
+    Changed,
+}
+
+/// What steps share while a frame is encoded.
+struct Encoding<'a> {
+    gpu: &'a Gpu,
+    framebuffer: &'a Targets,
+    frame: &'a Frame,
+    surfaces: Option<&'a Surfaces>,
+    view: &'a View,
+    uniform: &'a FrameUniform,
+    /// Whether nothing was drawn to the framebuffer yet.
+    is_fresh: bool,
+    /// Whether the framebuffer's depth is that of the scene.
+    has_depth: bool,
+}
+
+impl PassGraph {
+    /// Builds the graph of `technique`, whose plan is `plan`. Objects of the scene whose
+    /// look has a number in `looks` take the values of their passes from there.
+    ///
+    /// # Errors
+    /// Where a mesh or texture is too large for the adapter, an image cannot be read, or
+    /// programs do not fit together.
+    pub fn new(
+        gpu: &Gpu,
+        scene: &Scene,
+        technique: &Technique,
+        plan: &Plan,
+        looks: &[Technique],
+        options: &GraphOptions,
+    ) -> Result<Self, Failure> {
+        Self::build(gpu, (scene, options), (technique, plan, looks), None)
+    }
+
+    /// As [`Self::new`], taking from `before`, a graph of the same scene, options and
+    /// looks, what is still good: surfaces, meshes, and textures with what is in them.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn rebuilt(
+        self,
+        gpu: &Gpu,
+        scene: &Scene,
+        technique: &Technique,
+        plan: &Plan,
+        looks: &[Technique],
+        options: &GraphOptions,
+    ) -> Result<Self, Failure> {
+        Self::build(gpu, (scene, options), (technique, plan, looks), Some(self))
+    }
+
+    fn build(
+        gpu: &Gpu,
+        (scene, options): (&Scene, &GraphOptions),
+        (technique, plan, looks): (&Technique, &Plan, &[Technique]),
+        before: Option<Self>,
+    ) -> Result<Self, Failure> {
+        let device = &gpu.device;
+        let groups = groups_of(technique, looks);
+        let needs_stencil = stroke_pass::needs_stencil(technique, looks);
+        let formats = match needs_stencil {
+            true => TargetFormats::with_stencil(device, options.samples),
+            false => TargetFormats::new(options.samples),
+        };
+        let mut before = before.map_or_else(Before::default, Before::of);
+        let framebuffer = before
+            .framebuffer
+            .take()
+            .filter(|known| known.size == options.size && *known.formats() == formats)
+            .unwrap_or_else(|| Targets::new(device, options.size, formats));
+        let in_place = |texture: usize| {
+            plan.passes
+                .iter()
+                .any(|pass| pass.is_in_place && pass.target.textures().contains(&texture))
+        };
+        let generated: Vec<GeneratedTexture> = plan
+            .textures
+            .iter()
+            .enumerate()
+            .map(|(at, texture)| {
+                before.texture(texture, options.size, in_place(at)).unwrap_or_else(|| {
+                    GeneratedTexture::new(device, texture, options.size, in_place(at))
+                })
+            })
+            .collect();
+        let mut sources =
+            Sources { generated, images: Images::default(), samplers: Samplers::new(device) };
+        let has =
+            |core| groups.iter().any(|group| technique.passes[group[0]].component.core == core);
+        let surfaces = has(CoreComponent::SimpleRender)
+            .then(|| match before.surfaces.take() {
+                Some(surfaces) => Ok(surfaces),
+                None => {
+                    let sampler = sources.samplers.linear_image.clone();
+                    Surfaces::new(gpu, scene, options.layout, &mut sources.images, &sampler)
+                }
+            })
+            .transpose()?;
+        let mut strokes = has(CoreComponent::Strokes)
+            .then(|| {
+                let meshes = std::mem::take(&mut before.meshes);
+                StrokePasses::new(gpu, scene, options, formats, (&technique.folders, meshes))
+            })
+            .transpose()?;
+        let layout = frame_layout(device);
+        let frame = Frame::new(device, &layout, &bytemuck::Zeroable::zeroed());
+        let mut steps = Vec::new();
+        for group in groups {
+            let builder = Builder { gpu, scene, technique, plan, looks, options, formats };
+            let context = (&layout, surfaces.as_ref(), strokes.as_mut());
+            let mut step = builder.step(&group, context)?;
+            let mut written = step.plan.target.textures().into_iter();
+            if written.all(|texture| sources.generated[texture].is_kept) {
+                let same = before.runs.iter().find(|(name, _)| *name == step.name);
+                same.iter().for_each(|(_, run)| step.run.go_on_from(run));
+            }
+            steps.push(step);
+        }
+        Ok(Self { framebuffer, frame, sources, surfaces, strokes, steps })
+    }
+
+    /// The picture, once a frame was encoded and submitted.
+    #[must_use]
+    pub const fn picture(&self) -> &wgpu::Texture {
+        self.framebuffer.picture()
+    }
+
+    /// The texture that passes call `<generated>:name`.
+    #[must_use]
+    pub fn generated(&self, plan: &Plan, name: &str) -> Option<&wgpu::Texture> {
+        let at = plan.textures.iter().position(|texture| texture.name == name)?;
+        Some(self.sources.generated.get(at)?.read_texture())
+    }
+
+    /// The names of everything that is timed, in order.
+    #[must_use]
+    pub fn time_names(&self) -> Vec<String> {
+        let mut names = Vec::new();
+        for step in &self.steps {
+            match step.kind {
+                StepKind::Strokes(_) => {
+                    names.extend(PASS_NAMES.map(|name| format!("{}.{name}", step.name)));
+                }
+                _ => names.push(step.name.clone()),
+            }
+        }
+        names
+    }
+
+    /// The groups of strokes and their objects.
+    pub(crate) fn stroke_groups(&self) -> impl Iterator<Item = &StrokeGroup> {
+        self.steps.iter().filter_map(|step| match &step.kind {
+            StepKind::Strokes(group) => Some(group),
+            _ => None,
+        })
+    }
+
+    /// The counts of the last frame; none where vertex shaders detect.
+    ///
+    /// # Errors
+    /// Where the device is lost.
+    pub fn tally(&self, gpu: &Gpu) -> Result<Option<Tally>, strokes::readback::ReadbackError> {
+        let Some(group) = self.stroke_groups().next() else { return Ok(Some(Tally::default())) };
+        if self.strokes.as_ref().is_some_and(StrokePasses::counts_nothing) {
+            return Ok(None);
+        }
+        let tallies = group.objects.iter().map(|object| object.read_tally(gpu));
+        tallies.sum_tallies().map(Some)
+    }
+
+    /// Encodes a frame, to be submitted before the next one is encoded.
+    ///
+    /// # Errors
+    /// Where an image cannot be read.
+    pub fn encode(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        view: &View,
+        around: &Surroundings,
+        timer: Option<TimedPasses>,
+    ) -> Result<(), Failure> {
+        let viewport_px = self.framebuffer.viewport_px();
+        let uniform = FrameUniform::new(view, viewport_px, around);
+        self.frame.write(&gpu.queue, &uniform);
+        if let Some(surfaces) = &mut self.surfaces {
+            place(gpu, surfaces, view, viewport_px);
+        }
+        let mut encoding = Encoding {
+            gpu,
+            framebuffer: &self.framebuffer,
+            frame: &self.frame,
+            surfaces: self.surfaces.as_ref(),
+            view,
+            uniform: &uniform,
+            is_fresh: true,
+            has_depth: false,
+        };
+        let mut timed = 0;
+        for step in &mut self.steps {
+            let timer = timer.map(|timer| timer.from(timed));
+            timed += match step.kind {
+                StepKind::Strokes(_) => edgemesh::index::to_u32(PASS_NAMES.len()),
+                _ => 1,
+            };
+            if step.run.is_due() {
+                let strokes = self.strokes.as_ref();
+                step.encode(encoder, &mut encoding, &mut self.sources, strokes, timer)?;
+            } else if let Some(timer) = timer {
+                // The timer expects every pass.
+                encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                    label: Some("not due"),
+                    timestamp_writes: Some(timer.compute(0)),
+                });
+            }
+        }
+        resolve(encoder, &self.framebuffer, encoding.is_fresh);
+        Ok(())
+    }
+}
+
+/// What a graph leaves to the one that comes after it.
+#[derive(Default)]
+struct Before {
+    framebuffer: Option<Targets>,
+    surfaces: Option<Surfaces>,
+    meshes: Vec<Option<Arc<MeshBuffers>>>,
+    textures: Vec<GeneratedTexture>,
+    runs: Vec<(String, Run)>,
+}
+
+impl Before {
+    fn of(graph: PassGraph) -> Self {
+        Self {
+            framebuffer: Some(graph.framebuffer),
+            surfaces: graph.surfaces,
+            meshes: graph.strokes.map_or_else(Vec::new, StrokePasses::into_meshes),
+            textures: graph.sources.generated,
+            runs: graph.steps.into_iter().map(|step| (step.name, step.run)).collect(),
+        }
+    }
+
+    /// A texture of the same name, size and format, with what is in it.
+    fn texture(
+        &mut self,
+        plan: &TexturePlan,
+        picture: [u32; 2],
+        is_double: bool,
+    ) -> Option<GeneratedTexture> {
+        let is_same = |known: &GeneratedTexture| known.is_for(plan, picture, is_double);
+        let at = self.textures.iter().position(is_same)?;
+        let mut texture = self.textures.swap_remove(at);
+        texture.is_kept = true;
+        Some(texture)
+    }
+}
+
+/// The samples of the framebuffer, averaged to the picture.
+fn resolve(encoder: &mut wgpu::CommandEncoder, framebuffer: &Targets, is_fresh: bool) {
+    let load = match is_fresh {
+        true => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+        false => wgpu::LoadOp::Load,
+    };
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("resolve"),
+        color_attachments: &[Some(framebuffer.color_attachment(load, true))],
+        ..Default::default()
+    });
+}
+
+/// Sets what the next submission sees of the surfaces.
+fn place(gpu: &Gpu, surfaces: &mut Surfaces, view: &View, viewport_px: Vec2) {
+    for object in &mut surfaces.objects {
+        let uniform =
+            ObjectUniform::new(view, viewport_px, object.world_from_object, &object.bounds);
+        object.is_placed = uniform.is_some();
+        if let Some(uniform) = uniform {
+            gpu.queue.write_buffer(&object.uniform, 0, bytemuck::bytes_of(&uniform));
+        }
+    }
+}
+
+/// The passes that are done, for the scene or for an object with a look of its own;
+/// those of strokes that follow each other together.
+fn groups_of(technique: &Technique, looks: &[Technique]) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    let is_stroke = |at: usize| technique.passes[at].component.core == CoreComponent::Strokes;
+    let own_strokes = looks
+        .iter()
+        .flat_map(|look| &look.passes)
+        .any(|pass| pass.is_rendered() && pass.component.core == CoreComponent::Strokes);
+    for (at, pass) in technique.passes.iter().enumerate() {
+        let of_look = |look: &Technique| look.pass(&pass.name).is_some_and(Pass::is_rendered);
+        let is_done = pass.is_rendered()
+            || match pass.component.core {
+                CoreComponent::Strokes => own_strokes,
+                CoreComponent::SimpleRender => looks.iter().any(of_look),
+                _ => false,
+            };
+        match groups.last_mut() {
+            _ if !is_done => {}
+            Some(last) if is_stroke(at) && is_stroke(last[0]) => last.push(at),
+            _ => groups.push(vec![at]),
+        }
+    }
+    groups
+}
+
+/// Builds steps.
+struct Builder<'a> {
+    gpu: &'a Gpu,
+    scene: &'a Scene,
+    technique: &'a Technique,
+    plan: &'a Plan,
+    looks: &'a [Technique],
+    options: &'a GraphOptions,
+    formats: TargetFormats,
+}
+
+impl Builder<'_> {
+    fn step(
+        &self,
+        group: &[usize],
+        (frame, surfaces, strokes): (
+            &wgpu::BindGroupLayout,
+            Option<&Surfaces>,
+            Option<&mut StrokePasses>,
+        ),
+    ) -> Result<Step, Failure> {
+        let pass = &self.technique.passes[group[0]];
+        let plan = &self.plan.passes[group[0]];
+        let kind = match (pass.component.core, surfaces, strokes) {
+            (CoreComponent::Strokes, _, Some(strokes)) => {
+                let passes = group.iter().map(|&at| &self.technique.passes[at]);
+                let passes: Vec<&Pass> = passes.filter(|pass| pass.is_rendered()).collect();
+                StepKind::Strokes(strokes.group(self.gpu, self.scene, &passes, self.looks)?)
+            }
+            (CoreComponent::SimpleRender, Some(surfaces), _) => {
+                StepKind::Scene(ScenePass::new(self, pass, plan, frame, surfaces)?)
+            }
+            (CoreComponent::CopyToTexture, ..) => {
+                StepKind::Copy(CopyPass::new(self.gpu, pass, &self.formats)?)
+            }
+            (CoreComponent::PingPong, ..) => {
+                StepKind::PingPong(PingPong::new(self, pass, plan, frame)?)
+            }
+            _ => StepKind::Screen(ScreenPass::new(self, pass, plan, frame)?),
+        };
+        let run = Run::of(pass, plan);
+        Ok(Step { name: pass.name.clone(), kind, plan: plan.clone(), run })
+    }
+
+    /// Formats and blending of what a pass draws into.
+    fn target(&self, pass: &Pass, plan: &PassPlan) -> pipeline::PipelineTarget {
+        let blend = blend::blend_state(pass.string("blend"));
+        match &plan.target {
+            Target::Framebuffer => pipeline::PipelineTarget::framebuffer(&self.formats, blend),
+            Target::Textures { colors, depth } => pipeline::PipelineTarget {
+                colors: colors.iter().map(|&at| self.plan.textures[at].format).collect(),
+                depth: depth.map(|at| self.plan.textures[at].format),
+                samples: 1,
+                blend,
+                is_pushed: false,
+                writes_depth: false,
+            },
+        }
+    }
+}
+
+/// The look of all passes of strokes of a technique, for a mesh in `frame` whose crease
+/// thresholds are `built`, in radians.
+///
+/// # Errors
+/// Where a brush cannot be read or a curve is wrong.
+pub fn strokes_of(
+    technique: &Technique,
+    frame: &edgemesh::build::Frame,
+    built: [f64; 2],
+) -> Result<Look, Failure> {
+    let is_drawn =
+        |pass: &&Pass| pass.is_rendered() && pass.component.core == CoreComponent::Strokes;
+    let passes: Vec<&Pass> = technique.passes.iter().filter(is_drawn).collect();
+    stroke_style::look_of(&passes, &technique.folders, frame, built)
+}
+
+impl Run {
+    fn of(pass: &Pass, plan: &PassPlan) -> Self {
+        let when = match pass.string("run") {
+            "once" => When::Once,
+            "changed" => When::Changed,
+            _ => When::Always,
+        };
+        let program = plan.fragment.as_ref().map(|program| program.source.text.clone());
+        let key = (pass.values().to_vec(), program.unwrap_or_default());
+        Self { when, key, is_done: false }
+    }
+
+    /// Whether the step is to be done now.
+    fn is_due(&self) -> bool {
+        self.when == When::Always || !self.is_done
+    }
+
+    /// Takes over that it was done before, as far as that still counts.
+    fn go_on_from(&mut self, before: &Self) {
+        let is_same = self.when == When::Once || self.key == before.key;
+        self.is_done = before.is_done && is_same;
+    }
+}
+
+impl Step {
+    fn encode(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        encoding: &mut Encoding,
+        sources: &mut Sources,
+        strokes: Option<&StrokePasses>,
+        timer: Option<TimedPasses>,
+    ) -> Result<(), Failure> {
+        match &mut self.kind {
+            StepKind::Scene(pass) => pass.encode(encoder, encoding, &self.plan, sources, timer)?,
+            StepKind::Screen(pass) => pass.encode(encoder, encoding, &self.plan, sources, timer)?,
+            StepKind::PingPong(pass) => {
+                pass.encode(encoder, encoding, &self.plan, sources, timer)?;
+            }
+            StepKind::Copy(pass) => pass.encode(encoder, encoding, &self.plan, sources, timer),
+            StepKind::Strokes(group) => {
+                if let Some(strokes) = strokes {
+                    strokes.encode(encoder, encoding, group, timer);
+                }
+            }
+        }
+        if self.plan.is_in_place {
+            for texture in self.plan.target.textures() {
+                sources.generated[texture].swap();
+            }
+        }
+        self.run.is_done = true;
+        Ok(())
+    }
+}
+
+/// Sums of counts.
+trait SumTallies {
+    fn sum_tallies(self) -> Result<Tally, strokes::readback::ReadbackError>;
+}
+
+impl<I> SumTallies for I
+where
+    I: Iterator<Item = Result<Tally, strokes::readback::ReadbackError>>,
+{
+    fn sum_tallies(mut self) -> Result<Tally, strokes::readback::ReadbackError> {
+        self.try_fold(Tally::default(), |sum, tally| Ok(sum.plus(&tally?)))
+    }
+}
+
+impl Encoding<'_> {
+    /// How the framebuffer's colour is loaded: cleared where nothing was drawn yet.
+    const fn load(&self) -> wgpu::LoadOp<wgpu::Color> {
+        match self.is_fresh {
+            true => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+            false => wgpu::LoadOp::Load,
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! The pipeline of a pass: its programs, what they are given, and what is drawn into.
+
+use edgemesh::command::{ExitStatus, Failure};
+use strokes::fill::push_away;
+use strokes::gpu::Gpu;
+use strokes::targets::TargetFormats;
+
+use super::bindings::{GroupPlan, PASS_GROUP, VERTEX_GROUP};
+use super::surface::VERTEX_ATTRIBUTES;
+use crate::technique::plan::Read;
+use crate::technique::program::Program;
+
+/// A pipeline with the layouts of its own groups.
+#[derive(Debug)]
+pub(crate) struct PassPipeline {
+    pub(crate) pipeline: wgpu::RenderPipeline,
+    pub(crate) groups: Vec<PassGroup>,
+}
+
+/// One of the groups that the pass fills.
+#[derive(Debug)]
+pub(crate) struct PassGroup {
+    pub(crate) index: u32,
+    pub(crate) plan: GroupPlan,
+    pub(crate) layout: wgpu::BindGroupLayout,
+}
+
+/// What a pipeline draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Geometry {
+    /// The surfaces of the scene.
+    Surfaces,
+    /// One triangle over the whole target, behind everything.
+    Screen,
+}
+
+/// What a pipeline draws into.
+#[derive(Debug, Clone)]
+pub(crate) struct PipelineTarget {
+    pub(crate) colors: Vec<wgpu::TextureFormat>,
+    pub(crate) depth: Option<wgpu::TextureFormat>,
+    pub(crate) samples: u32,
+    pub(crate) blend: Option<wgpu::BlendState>,
+    /// Whether the surface is pushed back, so that strokes lie over it.
+    pub(crate) is_pushed: bool,
+    /// Whether the program writes the depth itself.
+    pub(crate) writes_depth: bool,
+}
+
+impl PipelineTarget {
+    /// The picture.
+    pub(crate) fn framebuffer(formats: &TargetFormats, blend: Option<wgpu::BlendState>) -> Self {
+        Self {
+            colors: vec![formats.color],
+            depth: Some(formats.depth),
+            samples: formats.samples,
+            blend,
+            is_pushed: true,
+            writes_depth: false,
+        }
+    }
+}
+
+/// The programs of a pipeline and what they read.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Programs<'a> {
+    pub(crate) label: &'a str,
+    pub(crate) vertex: &'a Program,
+    pub(crate) fragment: &'a Program,
+    pub(crate) reads: &'a [Read],
+}
+
+impl PassPipeline {
+    /// Builds the pipeline.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        frame: &wgpu::BindGroupLayout,
+        surface: &wgpu::BindGroupLayout,
+        programs: Programs,
+        geometry: Geometry,
+        target: &PipelineTarget,
+    ) -> Result<Self, Failure> {
+        let device = &gpu.device;
+        let own = |group| {
+            let both = [programs.vertex, programs.fragment];
+            let plan = GroupPlan::new(group, &both, programs.reads);
+            (!plan.is_empty()).then(|| PassGroup {
+                index: group,
+                layout: plan.layout(device),
+                plan,
+            })
+        };
+        let [pass, vertex] = [own(PASS_GROUP), own(VERTEX_GROUP)];
+        let layouts = [
+            Some(frame),
+            pass.as_ref().map(|group| &group.layout),
+            (geometry == Geometry::Surfaces).then_some(surface),
+            vertex.as_ref().map(|group| &group.layout),
+        ];
+        let used = layouts.iter().rposition(Option::is_some).map_or(0, |last| last + 1);
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(programs.label),
+            bind_group_layouts: &layouts[..used],
+            immediate_size: 0,
+        });
+        let pipeline = render_pipeline(gpu, &layout, programs, geometry, target)?;
+        Ok(Self { pipeline, groups: [pass, vertex].into_iter().flatten().collect() })
+    }
+}
+
+fn render_pipeline(
+    gpu: &Gpu,
+    layout: &wgpu::PipelineLayout,
+    Programs { label, vertex, fragment, .. }: Programs,
+    geometry: Geometry,
+    target: &PipelineTarget,
+) -> Result<wgpu::RenderPipeline, Failure> {
+    let device = &gpu.device;
+    // Two programs that do not fit each other are found only here.
+    let faults = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let modules = [vertex, fragment].map(|program| program.source.module(device, label));
+    let buffers = [Some(wgpu::VertexBufferLayout {
+        array_stride: 32,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &VERTEX_ATTRIBUTES,
+    })];
+    let targets: Vec<Option<wgpu::ColorTargetState>> = target
+        .colors
+        .iter()
+        .map(|&format| {
+            Some(wgpu::ColorTargetState {
+                format,
+                blend: target.blend,
+                write_mask: wgpu::ColorWrites::ALL,
+            })
+        })
+        .collect();
+    let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(label),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module: &modules[0],
+            entry_point: Some(&vertex.function),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: if geometry == Geometry::Surfaces { &buffers } else { &[] },
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: target.depth.map(|format| depth_state(format, geometry, target)),
+        multisample: wgpu::MultisampleState { count: target.samples, ..Default::default() },
+        fragment: Some(wgpu::FragmentState {
+            module: &modules[1],
+            entry_point: Some(&fragment.function),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &targets,
+        }),
+        multiview_mask: None,
+        cache: None,
+    });
+    match pollster::block_on(faults.pop()) {
+        None => Ok(pipeline),
+        Some(error) => {
+            let causes = std::iter::successors(Some(&error as &dyn std::error::Error), |error| {
+                error.source()
+            });
+            let causes: Vec<String> =
+                causes.map(|cause| cause.to_string().trim().to_owned()).collect();
+            let message = format!(
+                "the pass '{label}' cannot be built: its programs do not fit together: {}",
+                causes.last().map_or("", String::as_str)
+            );
+            Err(Failure { message, status: ExitStatus::Shader })
+        }
+    }
+}
+
+fn depth_state(
+    format: wgpu::TextureFormat,
+    geometry: Geometry,
+    target: &PipelineTarget,
+) -> wgpu::DepthStencilState {
+    let is_surface = geometry == Geometry::Surfaces;
+    let compare = if is_surface {
+        // A second pass over the same scene is not hidden by the first.
+        wgpu::CompareFunction::GreaterEqual
+    } else {
+        wgpu::CompareFunction::Always
+    };
+    wgpu::DepthStencilState {
+        format,
+        depth_write_enabled: Some(is_surface || target.writes_depth),
+        depth_compare: Some(compare),
+        stencil: wgpu::StencilState::default(),
+        bias: if is_surface && target.is_pushed {
+            push_away()
+        } else {
+            wgpu::DepthBiasState::default()
+        },
+    }
+}

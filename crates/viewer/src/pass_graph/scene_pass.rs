@@ -1,0 +1,200 @@
+//! `simple_render`: the surfaces of the scene with a vertex and a fragment program.
+
+use edgemesh::command::Failure;
+use strokes::gpu_time::TimedPasses;
+use strokes::targets::Targets;
+
+use super::bindings::Sources;
+use super::params::Iteration;
+use super::pipeline::{Geometry, PassPipeline, Programs};
+use super::screen_pass::{color_attachment, screen_vertex};
+use super::surface::Surfaces;
+use super::{Builder, Encoding};
+use crate::technique::pass::Pass;
+use crate::technique::plan::{PassPlan, Target};
+
+/// The surfaces of the scene, drawn.
+#[derive(Debug)]
+pub(crate) struct ScenePass {
+    surfaces: PassPipeline,
+    /// What is behind them, where a program draws it.
+    background: Option<(PassPipeline, Vec<Vec<wgpu::Buffer>>)>,
+    /// Parameters by look: the first ones are those of objects without a look of their
+    /// own.
+    buffers: Vec<Vec<Vec<wgpu::Buffer>>>,
+    /// The look of each object, as a number among `buffers`; none for objects that are
+    /// not drawn.
+    looks: Vec<Option<usize>>,
+    clears: bool,
+    clear_color: wgpu::Color,
+}
+
+impl ScenePass {
+    pub(crate) fn new(
+        builder: &Builder,
+        pass: &Pass,
+        plan: &PassPlan,
+        frame: &wgpu::BindGroupLayout,
+        surfaces: &Surfaces,
+    ) -> Result<Self, Failure> {
+        let missing = || Failure::fault(format!("the pass '{}' has no program", pass.name));
+        let (gpu, device) = (builder.gpu, &builder.gpu.device);
+        let target = builder.target(pass, plan);
+        let vertex = plan.vertex.as_ref().ok_or_else(missing)?;
+        let fragment = plan.fragment.as_ref().ok_or_else(missing)?;
+        let programs = Programs { label: &pass.name, vertex, fragment, reads: &plan.reads };
+        let group = &surfaces.layout;
+        let pipeline = PassPipeline::new(gpu, frame, group, programs, Geometry::Surfaces, &target)?;
+        let is_paper = plan.target == Target::Framebuffer;
+        let background = match &plan.background {
+            Some(fragment) if !(is_paper && builder.options.is_transparent) => {
+                let vertex = screen_vertex()?;
+                let programs = Programs { vertex: &vertex, fragment, ..programs };
+                let pipeline =
+                    PassPipeline::new(gpu, frame, group, programs, Geometry::Screen, &target)?;
+                let buffers = buffers_of(&pipeline, device, pass);
+                Some((pipeline, buffers))
+            }
+            _ => None,
+        };
+        let mut buffers = vec![buffers_of(&pipeline, device, pass)];
+        let of_scene = pass.is_rendered().then_some(0);
+        let mut of_look = vec![of_scene; builder.looks.len()];
+        for (at, look) in builder.looks.iter().enumerate() {
+            let own = look.pass(&pass.name).filter(|own| own.component == pass.component);
+            if let Some(own) = own {
+                of_look[at] = own.is_rendered().then_some(buffers.len());
+                buffers.push(buffers_of(&pipeline, device, own));
+            }
+        }
+        let objects = builder.scene.objects.iter();
+        let looks = objects.map(|object| of_look.get(object.look).copied().unwrap_or(of_scene));
+        let looks = looks.collect();
+        let [r, g, b, a] = match is_paper && builder.options.is_transparent {
+            true => [0.0; 4],
+            false => pass.numbers::<4>("clear_color").map(f64::from),
+        };
+        let clear_color = wgpu::Color { r: r * a, g: g * a, b: b * a, a };
+        let clears = pass.bool("clear");
+        Ok(Self { surfaces: pipeline, background, buffers, looks, clears, clear_color })
+    }
+
+    pub(crate) fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        encoding: &mut Encoding,
+        plan: &PassPlan,
+        sources: &mut Sources,
+        timer: Option<TimedPasses>,
+    ) -> Result<(), Failure> {
+        let gpu = encoding.gpu;
+        let mut bind = |pipeline: &PassPipeline, buffers: &[Vec<wgpu::Buffer>]| {
+            let groups = pipeline.groups.iter().zip(buffers);
+            let bound = groups.map(|(group, buffers)| {
+                let bound = group.plan.group(gpu, &group.layout, buffers, sources, None)?;
+                Ok((group.index, bound))
+            });
+            bound.collect::<Result<Vec<(u32, wgpu::BindGroup)>, Failure>>()
+        };
+        let background = self.background.as_ref();
+        let background =
+            background.map(|(pipeline, buffers)| bind(pipeline, buffers)).transpose()?;
+        let of_looks = self.buffers.iter().map(|buffers| bind(&self.surfaces, buffers));
+        let of_looks = of_looks.collect::<Result<Vec<_>, Failure>>()?;
+        let (colors, depth) =
+            self.attachments(encoding.framebuffer, encoding.is_fresh, plan, sources);
+        if plan.target == Target::Framebuffer {
+            (encoding.is_fresh, encoding.has_depth) = (false, true);
+        }
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("scene"),
+            color_attachments: &colors,
+            depth_stencil_attachment: depth,
+            timestamp_writes: timer.map(|timer| timer.render(0)),
+            ..Default::default()
+        });
+        pass.set_bind_group(0, encoding.frame.bind_group(), &[]);
+        if let Some(((pipeline, _), groups)) = self.background.as_ref().zip(background) {
+            pass.set_pipeline(&pipeline.pipeline);
+            for (index, group) in &groups {
+                pass.set_bind_group(*index, group, &[]);
+            }
+            pass.draw(0..3, 0..1);
+        }
+        pass.set_pipeline(&self.surfaces.pipeline);
+        let objects = encoding.surfaces.map_or(&[][..], |surfaces| &surfaces.objects);
+        for (object, look) in objects.iter().zip(&self.looks).filter(|(o, _)| o.is_placed) {
+            let &Some(look) = look else { continue };
+            for (index, group) in &of_looks[look] {
+                pass.set_bind_group(*index, group, &[]);
+            }
+            object.draw(&mut pass);
+        }
+        Ok(())
+    }
+
+    /// What is drawn into; the framebuffer is fresh where nothing was drawn there yet.
+    fn attachments<'a>(
+        &self,
+        targets: &'a Targets,
+        is_fresh: bool,
+        plan: &PassPlan,
+        sources: &'a Sources,
+    ) -> Attachments<'a> {
+        let clear = wgpu::LoadOp::Clear(self.clear_color);
+        match &plan.target {
+            Target::Framebuffer => {
+                let load = match (self.clears, is_fresh) {
+                    (true, _) => clear,
+                    (false, true) => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    (false, false) => wgpu::LoadOp::Load,
+                };
+                let depth = match self.clears || is_fresh {
+                    true => targets.cleared_depth(),
+                    false => targets.kept_depth(),
+                };
+                (vec![Some(targets.color_attachment(load, false))], Some(depth))
+            }
+            Target::Textures { colors, depth } => {
+                let load = if self.clears { clear } else { wgpu::LoadOp::Load };
+                let view = |at: usize| sources.generated[at].write(plan.is_in_place);
+                let colors = colors.iter().enumerate().map(|(location, &color)| {
+                    // Only the first output is a colour; nothing is 0 in the others.
+                    let load = match (self.clears, location) {
+                        (true, 1..) => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                        _ => load,
+                    };
+                    Some(color_attachment(view(color), load))
+                });
+                let depth = depth.map(|depth| wgpu::RenderPassDepthStencilAttachment {
+                    view: view(depth),
+                    depth_ops: Some(wgpu::Operations {
+                        // Reversed depth: 0 is the far plane.
+                        load: match self.clears {
+                            true => wgpu::LoadOp::Clear(0.0),
+                            false => wgpu::LoadOp::Load,
+                        },
+                        store: wgpu::StoreOp::Store,
+                    }),
+                    stencil_ops: None,
+                });
+                (colors.collect(), depth)
+            }
+        }
+    }
+}
+
+type Attachments<'a> = (
+    Vec<Option<wgpu::RenderPassColorAttachment<'a>>>,
+    Option<wgpu::RenderPassDepthStencilAttachment<'a>>,
+);
+
+/// The parameters of all groups with the values of a pass.
+fn buffers_of(
+    pipeline: &PassPipeline,
+    device: &wgpu::Device,
+    pass: &Pass,
+) -> Vec<Vec<wgpu::Buffer>> {
+    let groups = pipeline.groups.iter();
+    groups.map(|group| group.plan.buffers(device, pass, Iteration::default())).collect()
+}

@@ -1,0 +1,150 @@
+//! `process_texture`, `generate_texture`, `composite`: a program over a whole target.
+
+use edgemesh::command::{ExitStatus, Failure};
+use strokes::gpu::Gpu;
+use strokes::gpu_time::TimedPasses;
+
+use super::bindings::Sources;
+use super::params::Iteration;
+use super::pipeline::{Geometry, PassPipeline, Programs};
+use super::{Builder, Encoding};
+use crate::technique::mistake::{Place, SourceText};
+use crate::technique::pass::Pass;
+use crate::technique::plan::{PassPlan, Target};
+use crate::technique::program::{Program, ProgramKind, ShaderFiles};
+
+/// A program over a whole target.
+#[derive(Debug)]
+pub(crate) struct ScreenPass {
+    pub(crate) pipeline: PassPipeline,
+    buffers: Vec<Vec<wgpu::Buffer>>,
+}
+
+/// The program that places the triangle over the target.
+pub(crate) fn screen_vertex() -> Result<Program, Failure> {
+    own_program("screen:screen", ProgramKind::Vertex)
+}
+
+/// A program of the project's own, whatever the user has beside it.
+pub(crate) fn own_program(name: &str, kind: ProgramKind) -> Result<Program, Failure> {
+    let place = Place { source: SourceText::new("", ""), span: 0..0 };
+    ShaderFiles::default()
+        .program(name, kind, &place)
+        .map_err(|mistakes| Failure { message: mistakes.to_string(), status: ExitStatus::Internal })
+}
+
+impl ScreenPass {
+    pub(crate) fn new(
+        builder: &Builder,
+        pass: &Pass,
+        plan: &PassPlan,
+        frame: &wgpu::BindGroupLayout,
+    ) -> Result<Self, Failure> {
+        let pipeline = screen_pipeline(builder, pass, plan, frame, &builder.target(pass, plan))?;
+        let device = &builder.gpu.device;
+        let buffers = |group: &super::pipeline::PassGroup| {
+            group.plan.buffers(device, pass, Iteration::default())
+        };
+        Ok(Self { buffers: pipeline.groups.iter().map(buffers).collect(), pipeline })
+    }
+
+    pub(crate) fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        encoding: &mut Encoding,
+        plan: &PassPlan,
+        sources: &mut Sources,
+        timer: Option<TimedPasses>,
+    ) -> Result<(), Failure> {
+        let mut groups = Vec::new();
+        for (group, buffers) in self.pipeline.groups.iter().zip(&self.buffers) {
+            let bound = group.plan.group(encoding.gpu, &group.layout, buffers, sources, None)?;
+            groups.push((group.index, bound));
+        }
+        let timestamps = timer.map(|timer| timer.render(0));
+        draw(encoder, encoding, plan, sources, &self.pipeline, &groups, timestamps);
+        Ok(())
+    }
+}
+
+/// The pipeline of a pass that draws over a whole target.
+pub(crate) fn screen_pipeline(
+    builder: &Builder,
+    pass: &Pass,
+    plan: &PassPlan,
+    frame: &wgpu::BindGroupLayout,
+    target: &super::pipeline::PipelineTarget,
+) -> Result<PassPipeline, Failure> {
+    let vertex = screen_vertex()?;
+    let Some(fragment) = &plan.fragment else {
+        return Err(Failure::fault(format!("the pass '{}' has no program", pass.name)));
+    };
+    let programs = Programs { label: &pass.name, vertex: &vertex, fragment, reads: &plan.reads };
+    // Where only the framebuffer has a surface's group, there is none to bind.
+    let surface = empty_layout(builder.gpu);
+    PassPipeline::new(builder.gpu, frame, &surface, programs, Geometry::Screen, target)
+}
+
+fn empty_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("nothing"),
+        entries: &[],
+    })
+}
+
+/// Draws the triangle over the target of `plan`.
+pub(crate) fn draw(
+    encoder: &mut wgpu::CommandEncoder,
+    encoding: &mut Encoding,
+    plan: &PassPlan,
+    sources: &Sources,
+    pipeline: &PassPipeline,
+    groups: &[(u32, wgpu::BindGroup)],
+    timestamps: Option<wgpu::RenderPassTimestampWrites>,
+) {
+    let mut attachments = Vec::new();
+    let mut depth = None;
+    match &plan.target {
+        Target::Framebuffer => {
+            let targets = encoding.framebuffer;
+            attachments.push(Some(targets.color_attachment(encoding.load(), false)));
+            depth = Some(match encoding.is_fresh {
+                true => targets.cleared_depth(),
+                false => targets.kept_depth(),
+            });
+            encoding.is_fresh = false;
+        }
+        Target::Textures { colors, .. } => {
+            for &color in colors {
+                let view = sources.generated[color].write(plan.is_in_place);
+                attachments.push(Some(color_attachment(view, wgpu::LoadOp::Load)));
+            }
+        }
+    }
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("screen"),
+        color_attachments: &attachments,
+        depth_stencil_attachment: depth,
+        timestamp_writes: timestamps,
+        ..Default::default()
+    });
+    pass.set_pipeline(&pipeline.pipeline);
+    pass.set_bind_group(0, encoding.frame.bind_group(), &[]);
+    for (index, group) in groups {
+        pass.set_bind_group(*index, group, &[]);
+    }
+    pass.draw(0..3, 0..1);
+}
+
+/// A texture of one sample to draw into.
+pub(crate) fn color_attachment(
+    view: &wgpu::TextureView,
+    load: wgpu::LoadOp<wgpu::Color>,
+) -> wgpu::RenderPassColorAttachment<'_> {
+    wgpu::RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target: None,
+        ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
+    }
+}

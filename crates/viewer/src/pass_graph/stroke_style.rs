@@ -1,0 +1,193 @@
+//! From the variables of a pass of strokes to a style, and from several passes to a
+//! look.
+
+use std::path::PathBuf;
+
+use edgemesh::build::Frame;
+use edgemesh::command::Failure;
+use edgemesh::oracle::feature::EdgeClass;
+use edgemesh::oracle::stroke_quad::Placement;
+use edgemesh::oracle::stroke_segment::{LineKind, Parameterization};
+use strokes::brush::Brush;
+use strokes::graph::path_style::{BrushFit, CURVE_LENGTH, End, Join, PathStyle};
+use strokes::look::{Layer, Look, StrokeStyle, Width};
+
+use crate::technique::class_pass::classes_of;
+use crate::technique::image_file;
+use crate::technique::pass::Pass;
+use crate::technique::texture_name::TextureSource;
+
+/// The least width in pixels.
+const MIN_WIDTH_PX: f32 = 0.1;
+
+/// The look of passes of strokes that are drawn together.
+///
+/// A class that several passes of the same visibility name is drawn by the first of
+/// them. Classes that look alike are one layer.
+///
+/// `built` are the thresholds in radians that meshes were built with: those of passes
+/// that set none.
+pub(crate) fn look_of(
+    passes: &[&Pass],
+    folders: &[PathBuf],
+    frame: &Frame,
+    built: [f64; 2],
+) -> Result<Look, Failure> {
+    let styles = passes
+        .iter()
+        .map(|pass| Ok((*pass, style_of(pass, folders, frame)?)))
+        .collect::<Result<Vec<(&Pass, StrokeStyle)>, Failure>>()?;
+    let style = |visibility: &str, class: EdgeClass| {
+        let draws = |(pass, _): &&(&Pass, StrokeStyle)| {
+            let classes = classes_of(pass.string("classes")).unwrap_or_default();
+            pass.string("visibility") == visibility && classes.contains(&class)
+        };
+        styles.iter().find(draws).map(|(_, style)| style.clone())
+    };
+    let silhouette = style("silhouette", EdgeClass::Contour);
+    let mut layers: Vec<Layer> = Vec::new();
+    for class in EdgeClass::ALL {
+        let (visible, hidden) = (style("visible", class), style("hidden", class));
+        // Contours that are not drawn themselves are still needed for a silhouette.
+        let is_needed = class == EdgeClass::Contour && silhouette.is_some();
+        if visible.is_none() && hidden.is_none() && !is_needed {
+            continue;
+        }
+        let same =
+            layers.iter_mut().find(|layer| layer.visible == visible && layer.hidden == hidden);
+        match same {
+            Some(layer) => layer.classes.push(class),
+            None => layers.push(Layer { classes: vec![class], visible, hidden }),
+        }
+    }
+    Ok(Look { fill_color: None, layers, silhouette, thresholds: thresholds_of(passes, built) })
+}
+
+/// The crease thresholds in radians: those that the first pass sets that sets any.
+fn thresholds_of(passes: &[&Pass], built: [f64; 2]) -> Option<[f64; 2]> {
+    let angle = |variable: &str| {
+        let angles = passes.iter().map(|pass| pass.number(variable));
+        angles.into_iter().find(|angle| *angle >= 0.0).map(|angle| f64::from(angle).to_radians())
+    };
+    match (angle("ridge_angle"), angle("valley_angle")) {
+        (None, None) => None,
+        (ridge, valley) => Some([ridge.unwrap_or(built[0]), valley.unwrap_or(built[1])]),
+    }
+}
+
+fn style_of(pass: &Pass, folders: &[PathBuf], frame: &Frame) -> Result<StrokeStyle, Failure> {
+    #[expect(clippy::cast_possible_truncation, reason = "a width or a distance")]
+    let scaled = |value: f32| (f64::from(value) * frame.scale) as f32;
+    let [r, g, b, a] = pass.numbers("color");
+    let alpha = a * pass.number("opacity");
+    let width = match pass.string("width_unit") {
+        "model" => Width::World(scaled(pass.number("width"))),
+        _ => Width::Pixels(pass.number("width").max(MIN_WIDTH_PX)),
+    };
+    let fade: [f32; 2] = pass.numbers("fade");
+    let ends = pass.string("ends");
+    let kind = match (pass.string("kind"), ends) {
+        ("thin", _) => LineKind::Thin,
+        ("fin", _) => LineKind::Fin,
+        (_, "none") => LineKind::Quad,
+        (_, "disks") => LineKind::QuadAndDisks,
+        _ => LineKind::QuadAndCaps,
+    };
+    Ok(StrokeStyle {
+        color: [r * alpha, g * alpha, b * alpha, alpha],
+        width,
+        kind,
+        placement: match pass.string("placement") {
+            "centred" => Placement::Centred,
+            "outside" => Placement::Outside,
+            "inside" => Placement::Inside,
+            _ => Placement::Automatic,
+        },
+        parameterization: match pass.string("parameterization") {
+            "screen" => Parameterization::ScreenSpace,
+            _ => Parameterization::ObjectSpace,
+        },
+        brush: brush_of(pass, folders)?,
+        fade: (fade[1] > fade[0]).then(|| fade.map(scaled)),
+        path: pass.bool("linked").then(|| path_of(pass)).transpose()?,
+    })
+}
+
+fn path_of(pass: &Pass) -> Result<PathStyle, Failure> {
+    let min_length = pass.number("min_length");
+    let dash: [f32; 2] = pass.numbers("dash");
+    Ok(PathStyle {
+        join: match pass.string("join") {
+            "mitred" => Join::Mitred,
+            _ => Join::Round,
+        },
+        end: match pass.string("ends") {
+            "flat" => End::Flat,
+            "pointed" => End::Pointed,
+            _ => End::Round,
+        },
+        corner_rad: pass.number("corner").to_radians(),
+        is_cut_where_hidden: pass.bool("cut_hidden"),
+        min_length_px: (min_length >= 0.0).then_some(min_length),
+        max_length_px: pass.number("max_length"),
+        brush_fit: match pass.string("fit") {
+            "stretched" => BrushFit::Stretched,
+            _ => BrushFit::Tiled,
+        },
+        taper_px: pass.numbers("taper"),
+        overshoot_px: pass.number("overshoot"),
+        width_curve: curve_of(pass, "width_curve", 10.0)?,
+        opacity_curve: curve_of(pass, "opacity_curve", 1.0)?,
+        wobble_px: pass.number("wobble"),
+        wobble_length_px: pass.number("wobble_length"),
+        jitter_px: pass.number("jitter"),
+        seed: u16::try_from(pass.int("seed")).unwrap_or_default(),
+        dash_px: (dash[0] >= 0.1 && dash[1] >= 0.1).then_some(dash),
+    })
+}
+
+fn brush_of(pass: &Pass, folders: &[PathBuf]) -> Result<Option<Brush>, Failure> {
+    let name = pass.texture("brush");
+    if name.source == TextureSource::None {
+        return Ok(None);
+    }
+    let file = image_file::find(name, folders, pass.place_of("brush")).map_err(|mistake| {
+        Failure::fault(format!(
+            "{}: a brush is a PNG file, or one of the directory brushes",
+            mistake.message
+        ))
+    })?;
+    let failed =
+        |error: &dyn std::fmt::Display| Failure::fault(format!("{}: {error}", file.name()));
+    let bytes = file.bytes().map_err(|error| failed(&error))?;
+    Brush::from_png(&file.name(), &bytes)
+        .map(Some)
+        .map_err(|error| Failure::fault(error.to_string()))
+}
+
+fn curve_of(pass: &Pass, variable: &str, most: f32) -> Result<[f32; CURVE_LENGTH], Failure> {
+    parse_curve(pass.string(variable), most).map_err(|what| Failure {
+        message: format!("{}.{variable}: {what}", pass.name),
+        status: edgemesh::command::ExitStatus::Shader,
+    })
+}
+
+/// Two to eight numbers, spread evenly over the values of a curve.
+pub(crate) fn parse_curve(value: &str, most: f32) -> Result<[f32; CURVE_LENGTH], String> {
+    let what = || format!("needs 2 to {CURVE_LENGTH} numbers from 0 to {most}, as 0.3,1,0.3");
+    let numbers: Option<Vec<f32>> = value
+        .split(',')
+        .map(|number| number.trim().parse().ok().filter(|number| (0.0..=most).contains(number)))
+        .collect();
+    let numbers =
+        numbers.filter(|numbers| (2..=CURVE_LENGTH).contains(&numbers.len())).ok_or_else(what)?;
+    Ok(std::array::from_fn(|at| {
+        // In sevenths of the way: exact where there is a number.
+        let place = at * (numbers.len() - 1);
+        let (first, part) = (place / (CURVE_LENGTH - 1), place % (CURVE_LENGTH - 1));
+        let next = (first + 1).min(numbers.len() - 1);
+        #[expect(clippy::cast_precision_loss, reason = "at most seven")]
+        let t = part as f32 / (CURVE_LENGTH - 1) as f32;
+        numbers[first] * (1.0 - t) + numbers[next] * t
+    }))
+}

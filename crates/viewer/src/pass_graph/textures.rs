@@ -1,0 +1,263 @@
+//! The textures of a pass graph: what passes draw, and images.
+
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
+use edgemesh::command::Failure;
+use image::RgbaImage;
+use strokes::gpu::Gpu;
+
+use crate::technique::image_file::ImageFile;
+use crate::technique::plan::TexturePlan;
+
+/// A texture that passes write.
+#[derive(Debug)]
+pub(crate) struct GeneratedTexture {
+    /// Two where a pass reads and writes it at once.
+    textures: Vec<wgpu::Texture>,
+    views: Vec<wgpu::TextureView>,
+    /// Which one is read.
+    current: usize,
+    name: String,
+    /// Whether it was there in the graph before.
+    pub(crate) is_kept: bool,
+}
+
+impl GeneratedTexture {
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        plan: &TexturePlan,
+        picture: [u32; 2],
+        is_double: bool,
+    ) -> Self {
+        let size = plan.size.pixels(picture);
+        let count = if is_double { 2 } else { 1 };
+        let textures: Vec<wgpu::Texture> =
+            (0..count).map(|_| target_texture(device, &plan.name, size, plan.format)).collect();
+        let views = textures.iter().map(|texture| texture.create_view(&Default::default()));
+        let name = plan.name.clone();
+        Self { views: views.collect(), textures, current: 0, name, is_kept: false }
+    }
+
+    /// Whether it is what `plan` asks for.
+    pub(crate) fn is_for(&self, plan: &TexturePlan, picture: [u32; 2], is_double: bool) -> bool {
+        let texture = &self.textures[0];
+        self.name == plan.name
+            && texture.format() == plan.format
+            && [texture.width(), texture.height()] == plan.size.pixels(picture)
+            && self.textures.len() == if is_double { 2 } else { 1 }
+    }
+
+    /// What is read.
+    pub(crate) fn read(&self) -> &wgpu::TextureView {
+        &self.views[self.current]
+    }
+
+    pub(crate) fn read_texture(&self) -> &wgpu::Texture {
+        &self.textures[self.current]
+    }
+
+    /// What a pass writes: the other one where it works in place.
+    pub(crate) fn write(&self, is_in_place: bool) -> &wgpu::TextureView {
+        &self.views[self.written(is_in_place)]
+    }
+
+    pub(crate) fn write_texture(&self, is_in_place: bool) -> &wgpu::Texture {
+        &self.textures[self.written(is_in_place)]
+    }
+
+    fn written(&self, is_in_place: bool) -> usize {
+        if is_in_place { (self.current + 1) % self.textures.len() } else { self.current }
+    }
+
+    /// What was written in place is what is read from now on.
+    pub(crate) fn swap(&mut self) {
+        self.current = (self.current + 1) % self.textures.len();
+    }
+}
+
+/// A texture to draw to and to read.
+pub(crate) fn target_texture(
+    device: &wgpu::Device,
+    label: &str,
+    size: [u32; 2],
+    format: wgpu::TextureFormat,
+) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+            | wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::COPY_SRC
+            | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    })
+}
+
+/// Images on the GPU, each once.
+#[derive(Debug, Default)]
+pub(crate) struct Images {
+    views: HashMap<ImageFile, wgpu::TextureView>,
+    white: Option<wgpu::TextureView>,
+}
+
+impl Images {
+    /// The texture of an image.
+    pub(crate) fn view(
+        &mut self,
+        gpu: &Gpu,
+        file: &ImageFile,
+    ) -> Result<wgpu::TextureView, Failure> {
+        Ok(match self.views.entry(file.clone()) {
+            Entry::Occupied(known) => known.get().clone(),
+            Entry::Vacant(new) => {
+                let failed = |error: &dyn std::fmt::Display| {
+                    Failure::fault(format!("{}: {error}", file.name()))
+                };
+                let bytes = file.bytes().map_err(|error| failed(&error))?;
+                let picture = decode_image(&bytes).map_err(|error| failed(&error))?;
+                let is_atlas = file.directory().is_some_and(|name| name == MIP_ATLASES);
+                let levels =
+                    if is_atlas { atlas_levels(&picture) } else { averaged_levels(picture) };
+                new.insert(upload(gpu, &file.name(), &levels)).clone()
+            }
+        })
+    }
+
+    /// One white texel: what is read where there is no texture.
+    pub(crate) fn white(&mut self, gpu: &Gpu) -> wgpu::TextureView {
+        let one = RgbaImage::from_pixel(1, 1, image::Rgba([255; 4]));
+        self.white.get_or_insert_with(|| upload(gpu, "white", &[one])).clone()
+    }
+}
+
+/// The directory whose images hold their own mip levels, the smaller ones in a column
+/// beside the largest: strokes keep their width there, which averages would not.
+const MIP_ATLASES: &str = "tonal_art_maps";
+
+/// The longest side of an image.
+pub(crate) const MAX_SIDE: u32 = 8192;
+
+/// Decodes a PNG or JPEG of at most [`MAX_SIDE`] a side.
+pub(crate) fn decode_image(bytes: &[u8]) -> Result<RgbaImage, String> {
+    let reader = image::ImageReader::new(std::io::Cursor::new(bytes)).with_guessed_format();
+    let mut reader = reader.map_err(|error| format!("cannot be read: {error}"))?;
+    let mut limits = image::Limits::default();
+    limits.max_image_width = Some(MAX_SIDE);
+    limits.max_image_height = Some(MAX_SIDE);
+    limits.max_alloc = Some(u64::from(MAX_SIDE) * u64::from(MAX_SIDE) * 8);
+    reader.limits(limits);
+    let picture = reader.decode().map_err(|error| format!("is no PNG or JPEG: {error}"))?;
+    Ok(picture.to_rgba8())
+}
+
+/// The levels of a mip atlas: the largest at the left, the others below each other at
+/// its right.
+fn atlas_levels(atlas: &RgbaImage) -> Vec<RgbaImage> {
+    let side = atlas.height();
+    if atlas.width() < side + side / 2 {
+        return averaged_levels(atlas.clone());
+    }
+    let part = |x, y, side| image::imageops::crop_imm(atlas, x, y, side, side).to_image();
+    let mut levels = vec![part(0, 0, side)];
+    let (mut top, mut smaller) = (0, side / 2);
+    while smaller > 0 {
+        levels.push(part(side, top, smaller));
+        top += smaller;
+        smaller /= 2;
+    }
+    levels
+}
+
+/// A picture and its mip levels, each the average of the one before.
+pub(crate) fn averaged_levels(picture: RgbaImage) -> Vec<RgbaImage> {
+    let mut levels = vec![picture];
+    while let Some(last) = levels.last()
+        && (last.width() > 1 || last.height() > 1)
+    {
+        let (width, height) = (last.width(), last.height());
+        let smaller = RgbaImage::from_fn((width / 2).max(1), (height / 2).max(1), |x, y| {
+            let mut sums = [0_u32; 4];
+            for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+                let texel =
+                    last.get_pixel((2 * x + dx).min(width - 1), (2 * y + dy).min(height - 1));
+                sums.iter_mut().zip(texel.0).for_each(|(sum, value)| *sum += u32::from(value));
+            }
+            // The mean of four bytes is a byte.
+            image::Rgba(sums.map(|sum| u8::try_from((sum + 2) / 4).unwrap_or(u8::MAX)))
+        });
+        levels.push(smaller);
+    }
+    levels
+}
+
+/// Uploads all levels of an image, the largest first.
+pub(crate) fn upload(gpu: &Gpu, label: &str, levels: &[RgbaImage]) -> wgpu::TextureView {
+    let extent = |level: &RgbaImage| wgpu::Extent3d {
+        width: level.width(),
+        height: level.height(),
+        depth_or_array_layers: 1,
+    };
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: extent(&levels[0]),
+        mip_level_count: edgemesh::index::to_u32(levels.len()),
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba8Unorm,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    for (mip_level, level) in levels.iter().enumerate() {
+        gpu.queue.write_texture(
+            wgpu::TexelCopyTextureInfo {
+                texture: &texture,
+                mip_level: edgemesh::index::to_u32(mip_level),
+                origin: wgpu::Origin3d::ZERO,
+                aspect: wgpu::TextureAspect::All,
+            },
+            level.as_raw(),
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(4 * level.width()),
+                rows_per_image: None,
+            },
+            extent(level),
+        );
+    }
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+#[cfg(test)]
+mod tests {
+    use image::Rgba;
+
+    use super::*;
+
+    #[test]
+    fn levels_are_averages_down_to_one_texel() {
+        let picture = RgbaImage::from_fn(4, 2, |x, _| Rgba([if x < 2 { 0 } else { 200 }; 4]));
+        let levels = averaged_levels(picture);
+        let sizes: Vec<(u32, u32)> = levels.iter().map(RgbaImage::dimensions).collect();
+        assert_eq!(sizes, [(4, 2), (2, 1), (1, 1)]);
+        assert_eq!(levels[2].get_pixel(0, 0), &Rgba([100; 4]));
+    }
+
+    #[test]
+    fn levels_of_an_atlas_lie_beside_it() {
+        let atlas = RgbaImage::from_fn(6, 4, |x, y| match (x, y) {
+            (0..4, _) => Rgba([10; 4]),
+            (_, 0..2) => Rgba([20; 4]),
+            (4, 2) => Rgba([30; 4]),
+            _ => Rgba([255; 4]),
+        });
+        let levels = atlas_levels(&atlas);
+        let found: Vec<(u32, u8)> =
+            levels.iter().map(|level| (level.width(), level.get_pixel(0, 0).0[0])).collect();
+        assert_eq!(found, [(4, 10), (2, 20), (1, 30)]);
+    }
+}

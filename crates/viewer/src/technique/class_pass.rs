@@ -1,0 +1,78 @@
+//! A pass of its own for one class of edges.
+//!
+//! Passes of the component `strokes` say which classes they draw. Who wants ridges to
+//! look different gives them a pass of their own; command lines do it by the name of
+//! the class, as in `--set ridge.width=4`.
+
+use edgemesh::oracle::feature::EdgeClass;
+
+use super::core::CoreComponent;
+use super::mistake::Mistakes;
+use super::pass::Pass;
+use super::value::Value;
+
+/// The word for all classes.
+pub(crate) const ALL_CLASSES: &str = "all";
+
+/// The classes that a pass of strokes draws, from the text of its variable.
+///
+/// # Errors
+/// The first word that is no class.
+pub(crate) fn classes_of(text: &str) -> Result<Vec<EdgeClass>, String> {
+    if text.trim() == ALL_CLASSES {
+        return Ok(EdgeClass::ALL.to_vec());
+    }
+    let words = text.split([',', ' ']).filter(|word| !word.is_empty());
+    words
+        .map(|word| {
+            let found = EdgeClass::ALL.into_iter().find(|class| class.name() == word);
+            found.ok_or_else(|| word.to_owned())
+        })
+        .collect()
+}
+
+/// Whether a name of a pass is that of a class, visible or hidden.
+pub(crate) fn is_class(name: &str) -> bool {
+    let class = name.strip_prefix("hidden_").unwrap_or(name);
+    EdgeClass::ALL.iter().any(|known| known.name() == class)
+}
+
+/// The text of a list of classes.
+fn text_of(classes: &[EdgeClass]) -> String {
+    let names: Vec<&str> = classes.iter().map(|class| class.name()).collect();
+    names.join(", ")
+}
+
+/// Splits the class called `name` (`ridge`, or `hidden_ridge` for what is hidden of it)
+/// off the pass of strokes that draws it; the new pass has that name and comes right
+/// behind. `None` where the name is no class or no pass draws it.
+pub(crate) fn split(passes: &mut Vec<Pass>, name: &str) -> Option<Vec<usize>> {
+    let (visibility, class_name) = match name.strip_prefix("hidden_") {
+        Some(class) => ("hidden", class),
+        None => ("visible", name),
+    };
+    let class = EdgeClass::ALL.into_iter().find(|class| class.name() == class_name)?;
+    let draws = |pass: &Pass| {
+        pass.component.core == CoreComponent::Strokes
+            && pass.string("visibility") == visibility
+            && classes_of(pass.string("classes")).is_ok_and(|classes| classes.contains(&class))
+    };
+    let at = passes.iter().position(draws)?;
+    let (index, _) = passes[at].component.variable("classes")?;
+    let mut own = passes[at].clone();
+    let rest: Vec<EdgeClass> = classes_of(own.string("classes"))
+        .unwrap_or_default()
+        .into_iter()
+        .filter(|other| *other != class)
+        .collect();
+    let mut mistakes = Mistakes::default();
+    let mut set = |pass: &mut Pass, classes: &[EdgeClass]| {
+        pass.set_value(index, Value::String(text_of(classes)), None, &mut mistakes);
+    };
+    set(&mut own, &[class]);
+    set(&mut passes[at], &rest);
+    own.split_from = own.split_from.or_else(|| Some(own.name.clone()));
+    own.name = name.to_owned();
+    passes.insert(at + 1, own);
+    Some(vec![at + 1])
+}

@@ -1,0 +1,53 @@
+//! The core components: those that are implemented in Rust.
+
+/// A component that is implemented in Rust.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum CoreComponent {
+    /// Draws the scene with a vertex and a fragment program.
+    SimpleRender,
+    /// Draws feature edges as strokes.
+    Strokes,
+    /// Runs a full-screen program over input textures.
+    ProcessTexture,
+    /// Copies the framebuffer's colour or depth to a texture.
+    CopyToTexture,
+    /// Makes a texture by a program.
+    GenerateTexture,
+    /// Runs a program over its own output again and again.
+    PingPong,
+    /// Lays a texture over a target.
+    Composite,
+}
+
+impl CoreComponent {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::SimpleRender,
+        Self::Strokes,
+        Self::ProcessTexture,
+        Self::CopyToTexture,
+        Self::GenerateTexture,
+        Self::PingPong,
+        Self::Composite,
+    ];
+
+    /// The name by which a descriptor says what implements it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::SimpleRender => "simple_render",
+            Self::Strokes => "strokes",
+            Self::ProcessTexture => "process_texture",
+            Self::CopyToTexture => "copy_to_texture",
+            Self::GenerateTexture => "generate_texture",
+            Self::PingPong => "ping_pong",
+            Self::Composite => "composite",
+        }
+    }
+
+    /// The core component of a name.
+    #[must_use]
+    pub fn of_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|core| core.name() == name)
+    }
+}

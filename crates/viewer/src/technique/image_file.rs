@@ -1,0 +1,142 @@
+//! Images: files in directories, shipped or the user's own.
+
+use std::path::{Path, PathBuf};
+
+use super::mistake::{Mistake, Place};
+use super::texture_name::{TextureName, TextureSource};
+
+macro_rules! shipped {
+    ($($directory:literal $image:literal $path:literal;)+) => {
+        &[$(($directory, $image, include_bytes!(concat!("../../../../brushes/", $path)))),+]
+    };
+}
+
+/// The images that are shipped: directory, name, and the PNG.
+const SHIPPED: &[(&str, &str, &[u8])] = shipped! {
+    "brushes" "charcoal" "charcoal.png";
+    "brushes" "dash" "dash.png";
+    "brushes" "fur" "fur.png";
+    "brushes" "pen" "pen.png";
+    "brushes" "watercolor" "watercolor.png";
+};
+
+/// An image that is there.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum ImageFile {
+    /// One of those that are shipped, by its number.
+    Shipped(usize),
+    /// A file.
+    File(PathBuf),
+}
+
+impl ImageFile {
+    /// Its bytes as a file.
+    ///
+    /// # Errors
+    /// Where the file cannot be read.
+    pub fn bytes(&self) -> std::io::Result<std::borrow::Cow<'static, [u8]>> {
+        match self {
+            Self::Shipped(at) => Ok(SHIPPED[*at].2.into()),
+            Self::File(path) => std::fs::read(path).map(Into::into),
+        }
+    }
+
+    /// The directory that it is in.
+    #[must_use]
+    pub fn directory(&self) -> Option<&str> {
+        match self {
+            Self::Shipped(at) => Some(SHIPPED[*at].0),
+            Self::File(path) => path.parent()?.file_name()?.to_str(),
+        }
+    }
+
+    /// How messages call it.
+    #[must_use]
+    pub fn name(&self) -> String {
+        match self {
+            Self::Shipped(at) => format!("{}:{}", SHIPPED[*at].0, SHIPPED[*at].1),
+            Self::File(path) => path.display().to_string(),
+        }
+    }
+}
+
+const ENDINGS: [&str; 3] = ["png", "jpg", "jpeg"];
+
+/// Finds the image of a name in `folders` (in them, or in their `images`) or among those
+/// that are shipped.
+///
+/// # Errors
+/// Which directories or images there are.
+pub(crate) fn find(
+    name: &TextureName,
+    folders: &[PathBuf],
+    place: &Place,
+) -> Result<ImageFile, Mistake> {
+    let error = |message: String| Mistake::error(place, message);
+    let (directory, image) = match &name.source {
+        TextureSource::File(path) => {
+            let inside = folders.iter().map(|folder| folder.join(path));
+            let mut candidates = inside.chain([PathBuf::from(path)]);
+            let found = candidates.find(|path| path.is_file());
+            let missing = || error(format!("there is no picture file '{path}'"));
+            return found.map(ImageFile::File).ok_or_else(missing);
+        }
+        TextureSource::Image { directory: Some(directory), image } => (directory, image),
+        _ => return Err(error(format!("'{name}' is no image"))),
+    };
+    let is_safe = |part: &str| !part.contains(['/', '\\']) && part != "..";
+    if !is_safe(directory) || !is_safe(image) {
+        return Err(error(format!("'{name}' leaves the image directories")));
+    }
+    let images = images_of(directory, folders);
+    if images.is_empty() {
+        let mistake = error(format!("there is no image directory '{directory}'"));
+        let mut names: Vec<&str> = SHIPPED.iter().map(|(directory, ..)| *directory).collect();
+        names.dedup();
+        return Err(mistake.names(directory, names));
+    }
+    let found = match image.as_str() {
+        "*" => images.iter().min_by_key(|(name, _)| name),
+        _ => images.iter().find(|(known, _)| known == image),
+    };
+    match found {
+        Some((_, file)) => Ok(file.clone()),
+        None => {
+            let mut names: Vec<&str> = images.iter().map(|(name, _)| name.as_str()).collect();
+            names.sort_unstable();
+            names.dedup();
+            Err(error(format!("there is no image '{image}' in {directory}")).names(image, names))
+        }
+    }
+}
+
+/// The images of a directory, those of the first folder first.
+#[must_use]
+pub fn images_of(directory: &str, folders: &[PathBuf]) -> Vec<(String, ImageFile)> {
+    let mut images = Vec::new();
+    for folder in folders {
+        for path in [folder.join(directory), folder.join("images").join(directory)] {
+            images.extend(files_of(&path));
+        }
+    }
+    let shipped = SHIPPED.iter().enumerate().filter(|(_, image)| image.0 == directory);
+    images.extend(shipped.map(|(at, image)| (image.1.to_owned(), ImageFile::Shipped(at))));
+    images
+}
+
+fn files_of(folder: &Path) -> Vec<(String, ImageFile)> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    let mut files: Vec<(String, ImageFile)> = entries
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| {
+            let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
+            ending.is_some_and(|ending| ENDINGS.iter().any(|known| ending == *known))
+        })
+        .filter_map(|path| {
+            let name = path.file_stem()?.to_string_lossy().into_owned();
+            Some((name, ImageFile::File(path)))
+        })
+        .collect();
+    files.sort_by(|a, b| a.0.cmp(&b.0));
+    files
+}

@@ -1,0 +1,306 @@
+//! Mistakes in text files: what is wrong, where, and what would be right.
+//!
+//! Every check goes on after a mistake, so that a file shows all of its mistakes at
+//! once; TOML and WGSL are underlined in the same look.
+
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+use codespan_reporting::diagnostic::{Diagnostic, Label};
+use codespan_reporting::files::SimpleFiles;
+use codespan_reporting::term;
+
+/// A text with the name that messages call it by.
+#[derive(Debug, PartialEq, Eq)]
+pub struct SourceText {
+    /// The path of the file, or the name of a shipped one.
+    pub name: String,
+    /// The whole text.
+    pub text: String,
+}
+
+impl SourceText {
+    /// A text under a name.
+    #[must_use]
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Arc<Self> {
+        Arc::new(Self { name: name.into(), text: text.into() })
+    }
+
+    /// The bytes of `length` from a column (in bytes) of a line, both from 1.
+    #[must_use]
+    pub fn span(&self, line: usize, column: usize, length: usize) -> Range<usize> {
+        let line_start = match line {
+            0 | 1 => 0,
+            _ => self.text.match_indices('\n').nth(line - 2).map_or(self.text.len(), |at| at.0 + 1),
+        };
+        let start = (line_start + column.saturating_sub(1)).min(self.text.len());
+        start..(start + length).min(self.text.len())
+    }
+}
+
+/// A part of a text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// The text.
+    pub source: Arc<SourceText>,
+    /// The bytes of it.
+    pub span: Range<usize>,
+}
+
+impl Place {
+    /// Line and column in characters, both from 1.
+    #[must_use]
+    pub fn line_and_column(&self) -> (usize, usize) {
+        let before = self.source.text.get(..self.span.start).unwrap_or(&self.source.text);
+        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+        (1 + before.matches('\n').count(), 1 + before[line_start..].chars().count())
+    }
+}
+
+/// How bad a mistake is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Severity {
+    /// Nothing can be drawn.
+    Error,
+    /// Something was put right.
+    Warning,
+}
+
+/// One mistake.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Mistake {
+    /// How bad it is.
+    pub severity: Severity,
+    /// What is wrong, in one line.
+    pub message: String,
+    /// Where, with what is to be said of each place; the first one is the mistake's.
+    pub labels: Vec<(Place, String)>,
+    /// What would be right.
+    pub notes: Vec<String>,
+}
+
+impl Mistake {
+    /// An error at a place.
+    #[must_use]
+    pub fn error(place: &Place, message: impl Into<String>) -> Self {
+        Self::new(Severity::Error, Some(place), message)
+    }
+
+    /// An error in no text.
+    #[must_use]
+    pub fn without_place(message: impl Into<String>) -> Self {
+        Self::new(Severity::Error, None, message)
+    }
+
+    /// Something that was put right.
+    #[must_use]
+    pub fn warning(place: Option<&Place>, message: impl Into<String>) -> Self {
+        Self::new(Severity::Warning, place, message)
+    }
+
+    fn new(severity: Severity, place: Option<&Place>, message: impl Into<String>) -> Self {
+        let labels = place.map(|place| (place.clone(), String::new())).into_iter().collect();
+        Self { severity, message: message.into(), labels, notes: Vec::new() }
+    }
+
+    /// Says something of the mistake's own place.
+    #[must_use]
+    pub fn label(mut self, text: impl Into<String>) -> Self {
+        if let Some(first) = self.labels.first_mut() {
+            first.1 = text.into();
+        }
+        self
+    }
+
+    /// Points at another place too.
+    #[must_use]
+    pub fn also(mut self, place: &Place, text: impl Into<String>) -> Self {
+        self.labels.push((place.clone(), text.into()));
+        self
+    }
+
+    /// Says what would be right.
+    #[must_use]
+    pub fn note(mut self, note: impl Into<String>) -> Self {
+        self.notes.push(note.into());
+        self
+    }
+
+    /// Says which names there are, the likeliest first.
+    #[must_use]
+    pub fn names<'a>(self, wanted: &str, names: impl IntoIterator<Item = &'a str>) -> Self {
+        let names: Vec<&str> = names.into_iter().collect();
+        let here = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+        let this = match closest(wanted, &names) {
+            Some(name) => self.label(format!("did you mean '{name}'?")),
+            None => self,
+        };
+        this.note(format!("there are: {here}"))
+    }
+}
+
+/// All mistakes that were found.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Mistakes {
+    /// In the order in which they were found.
+    pub list: Vec<Mistake>,
+}
+
+impl Mistakes {
+    /// One mistake.
+    #[must_use]
+    pub fn of(mistake: Mistake) -> Self {
+        Self { list: vec![mistake] }
+    }
+
+    /// Adds one.
+    pub fn add(&mut self, mistake: Mistake) {
+        if !self.list.contains(&mistake) {
+            self.list.push(mistake);
+        }
+    }
+
+    /// Adds those of another check.
+    pub fn append(&mut self, others: Self) {
+        for mistake in others.list {
+            self.add(mistake);
+        }
+    }
+
+    /// Whether there are errors among them.
+    #[must_use]
+    pub fn has_errors(&self) -> bool {
+        self.list.iter().any(|mistake| mistake.severity == Severity::Error)
+    }
+
+    /// Takes the warnings out.
+    pub fn take_warnings(&mut self) -> Self {
+        let (warnings, errors) = std::mem::take(&mut self.list)
+            .into_iter()
+            .partition(|mistake| mistake.severity == Severity::Warning);
+        self.list = errors;
+        Self { list: warnings }
+    }
+
+    /// `value`, or the mistakes where there are errors among them.
+    ///
+    /// # Errors
+    /// These mistakes.
+    pub fn or<T>(self, value: T) -> Result<(T, Self), Self> {
+        if self.has_errors() { Err(self) } else { Ok((value, self)) }
+    }
+}
+
+impl fmt::Display for Mistakes {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (at, mistake) in self.list.iter().enumerate() {
+            if at > 0 {
+                formatter.write_str("\n")?;
+            }
+            formatter.write_str(&drawn(mistake))?;
+        }
+        Ok(())
+    }
+}
+
+/// A mistake with its lines of text underlined; ends in a line break.
+fn drawn(mistake: &Mistake) -> String {
+    let mut files = SimpleFiles::new();
+    let mut known: Vec<(&Arc<SourceText>, usize)> = Vec::new();
+    let mut labels = Vec::new();
+    for (at, (place, text)) in mistake.labels.iter().enumerate() {
+        let found = known.iter().find(|(source, _)| Arc::ptr_eq(source, &place.source));
+        let file = found.map_or_else(
+            || files.add(place.source.name.as_str(), place.source.text.as_str()),
+            |known| known.1,
+        );
+        known.push((&place.source, file));
+        let label = match at {
+            0 => Label::primary(file, place.span.clone()),
+            _ => Label::secondary(file, place.span.clone()),
+        };
+        labels.push(label.with_message(text));
+    }
+    let diagnostic = match mistake.severity {
+        Severity::Error => Diagnostic::error(),
+        Severity::Warning => Diagnostic::warning(),
+    };
+    let diagnostic = diagnostic
+        .with_message(&mistake.message)
+        .with_labels(labels)
+        .with_notes(mistake.notes.clone());
+    let config = term::Config { chars: term::Chars::ascii(), ..term::Config::default() };
+    // The files are those of the labels, so they are always found.
+    term::emit_into_string(&config, &files, &diagnostic)
+        .unwrap_or_else(|_| format!("{}\n", mistake.message))
+        .trim_end()
+        .to_owned()
+        + "\n"
+}
+
+/// The name that is nearest to `wanted`, if any is near.
+#[must_use]
+pub fn closest<'a>(wanted: &str, names: &[&'a str]) -> Option<&'a str> {
+    let most = (wanted.chars().count() / 3).max(1);
+    let near = names.iter().map(|name| (edit_distance(wanted, name), *name));
+    near.filter(|(distance, _)| *distance <= most).min_by_key(|near| near.0).map(|near| near.1)
+}
+
+/// Letters to insert, drop or change to get from one name to the other.
+fn edit_distance(from: &str, to: &str) -> usize {
+    let to: Vec<char> = to.chars().collect();
+    let mut row: Vec<usize> = (0..=to.len()).collect();
+    for (at, letter) in from.chars().enumerate() {
+        let mut before = row[0];
+        row[0] = at + 1;
+        for (column, other) in to.iter().enumerate() {
+            let changed = before + usize::from(letter != *other);
+            before = row[column + 1];
+            row[column + 1] = changed.min(before + 1).min(row[column] + 1);
+        }
+    }
+    row[to.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn near_names_are_found_and_far_ones_not() {
+        let names = ["threshold", "texture", "render"];
+        assert_eq!(closest("treshold", &names), Some("threshold"));
+        assert_eq!(closest("tex", &names), None);
+        assert_eq!(closest("textur", &names), Some("texture"));
+    }
+
+    #[test]
+    fn a_mistake_is_underlined_in_its_line() {
+        let source = SourceText::new("a.toml", "[[pass]]\ncomponent = \"phong\"\n");
+        let place = Place { source: source.clone(), span: 21..28 };
+        assert_eq!(place.line_and_column(), (2, 13));
+        let mistake = Mistake::error(&place, "there is no component 'phong'")
+            .names("phong", ["render_phong", "phon"]);
+        let text = Mistakes::of(mistake).to_string();
+        assert_eq!(
+            text,
+            "error: there is no component 'phong'\n  --> a.toml:2:13\n  |\n2 | component = \
+             \"phong\"\n  |             ^^^^^^^ did you mean 'phon'?\n  |\n  = there are: \
+             render_phong, phon\n"
+        );
+        assert_eq!(source.span(2, 13, 7), 21..28);
+        assert_eq!(source.span(9, 3, 7), 30..30);
+    }
+
+    #[test]
+    fn warnings_come_out_and_errors_stay() {
+        let mut mistakes = Mistakes::of(Mistake::warning(None, "clamped"));
+        assert!(!mistakes.has_errors());
+        mistakes.add(Mistake::without_place("wrong"));
+        mistakes.add(Mistake::without_place("wrong"));
+        assert_eq!(mistakes.take_warnings().list.len(), 1);
+        assert_eq!(mistakes.list.len(), 1, "the same mistake is told once");
+        assert!(mistakes.or(3).is_err());
+    }
+}

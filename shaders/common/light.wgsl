@@ -1,0 +1,34 @@
+// The factors of the Phong model (NPRView thesis, Equations 4.1 to 4.5).
+#import <common/surface.wgsl>
+
+// Equation 4.2.
+fn diffuse_factor(at: Surface) -> f32 {
+    return max(dot(at.normal, at.to_light), 0.0);
+}
+
+// Equation 4.3.
+fn specular_factor(at: Surface, shininess: f32) -> f32 {
+    let half_vector = unit(at.to_light + at.to_eye);
+    let facing = dot(at.normal, half_vector);
+    if dot(at.normal, at.to_light) < 0.0 || facing <= 0.0 {
+        return 0.0;
+    }
+    return pow(facing, max(shininess, 1.0));
+}
+
+// Equation 4.5.
+fn intensity(color: vec3f) -> f32 {
+    return dot(color, vec3f(0.3, 0.6, 0.1));
+}
+
+// The material of a part, its diffuse and ambient colours times the model's texture
+// where it has texture coordinates.
+fn material_at(part: u32, texel: vec4f) -> MaterialUniform {
+    let of_part = surface_parts[part];
+    var material = materials[of_part.material];
+    if of_part.has_texcoords == 1u {
+        material.diffuse *= texel;
+        material.ambient *= vec4f(texel.rgb, 1.0);
+    }
+    return material;
+}

@@ -1,0 +1,97 @@
+// The surfaces of a scene: what vertex programs are given, and what fragment programs
+// are given by the vertex program `surface:surface`.
+// Rust twins: SurfacePart in crates/viewer/src/pass_graph/surface.rs, MaterialUniform
+// in material.rs.
+#import <common/frame.wgsl>
+
+struct SurfacePart {
+    material: u32,
+    // Region ids from 1 on, different for each object, material and group.
+    object_region: u32,
+    material_region: u32,
+    group_region: u32,
+    // 1 where the model has texture coordinates.
+    has_texcoords: u32,
+    padding: array<u32, 3>,
+}
+
+// For the Phong model.
+struct MaterialUniform {
+    ambient: vec4f,
+    // w is the opacity.
+    diffuse: vec4f,
+    // w is the shininess.
+    specular: vec4f,
+}
+
+@group(2) @binding(1) var<storage, read> surface_parts: array<SurfacePart>;
+@group(2) @binding(2) var<storage, read> materials: array<MaterialUniform>;
+@group(2) @binding(3) var base_texture: texture_2d<f32>;
+@group(2) @binding(4) var base_sampler: sampler;
+
+struct SurfaceVertex {
+    @location(0) position: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) texcoord: vec2f,
+    @builtin(instance_index) part: u32,
+}
+
+struct SurfaceVarying {
+    // The same depth in every pass, so that a second one can ask for it.
+    @builtin(position) @invariant position: vec4f,
+    @location(0) point_in_world: vec3f,
+    @location(1) normal_in_world: vec3f,
+    @location(2) texcoord: vec2f,
+    @location(3) @interpolate(flat) part: u32,
+    @location(4) point_in_object: vec3f,
+}
+
+// What a fragment program knows of its fragment.
+struct Surface {
+    point: vec3f,
+    // Of unit length, on the side that is seen.
+    normal: vec3f,
+    // To the eye, of unit length.
+    to_eye: vec3f,
+    // To the light, of unit length.
+    to_light: vec3f,
+}
+
+fn surface_varying(vertex: SurfaceVertex) -> SurfaceVarying {
+    return SurfaceVarying(
+        object.clip_from_object * vec4f(vertex.position, 1.0),
+        (object.world_from_object * vec4f(vertex.position, 1.0)).xyz,
+        (object.world_from_normal * vec4f(vertex.normal, 0.0)).xyz,
+        // (0, 0) is the lower left corner of a model's picture.
+        vec2f(vertex.texcoord.x, 1.0 - vertex.texcoord.y),
+        vertex.part,
+        vertex.position,
+    );
+}
+
+// A fragment of a surface; what a clip plane cuts away is not drawn. Sides turned away
+// are lit as if they were the front ones.
+fn surface_at(at: SurfaceVarying, is_front: bool) -> Surface {
+    cut(at);
+    let is_outside = is_front == (object.mirror > 0.0);
+    let side = select(-1.0, 1.0, is_outside);
+    return surface_of(at.point_in_world, side * at.normal_in_world);
+}
+
+fn surface_of(point: vec3f, normal: vec3f) -> Surface {
+    let to_eye = frame.eye.xyz - frame.eye.w * point;
+    let to_light = frame.light.xyz - frame.light.w * point;
+    return Surface(point, unit(normal), unit(to_eye), unit(to_light));
+}
+
+// Draws nothing where a clip plane cuts.
+fn cut(at: SurfaceVarying) {
+    if frame.clip_plane_count > 0u && is_cut_away(at.point_in_world) {
+        discard;
+    }
+}
+
+fn unit(direction: vec3f) -> vec3f {
+    let length = length(direction);
+    return select(vec3f(0.0), direction / length, length > 0.0);
+}

@@ -1,0 +1,8 @@
+// The depth of a picture of one sample a pixel.
+
+@group(1) @binding(0) var depth: texture_depth_2d;
+
+@fragment
+fn copy_depth(@builtin(position) position: vec4f) -> @builtin(frag_depth) f32 {
+    return textureLoad(depth, vec2i(position.xy), 0);
+}

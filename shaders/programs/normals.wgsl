@@ -1,0 +1,38 @@
+// Normals of the scene in the world, as colours (NPRView thesis, section 3.3.1), and with
+// the depth in the opacity (Card and Mitchell, Listing 8).
+#import <common/encode.wgsl>
+#import <common/screen.wgsl>
+#import <common/surface.wgsl>
+
+struct Params {
+    // What normals the background has: into the screen (the thesis), along z (Card and
+    // Mitchell), or none.
+    background: u32,
+}
+
+@group(1) @binding(0) var<uniform> params: Params;
+
+@fragment
+fn normals(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
+    return vec4f(rgb_of_normal(surface_at(at, is_front).normal), 1.0);
+}
+
+@fragment
+fn background(at: ScreenVarying) -> @location(0) vec4f {
+    let into_screen = unit(frame.sight.xyz);
+    let normals = array(into_screen, vec3f(0.0, 0.0, 1.0), vec3f(0.0));
+    return vec4f(rgb_of_normal(normals[min(params.background, 2u)]), 1.0);
+}
+
+// Normals as colours, and the depth from 0 at the near plane to 1 at the far one in
+// the opacity (Card and Mitchell, Listing 8).
+@fragment
+fn normals_and_depth(
+    at: SurfaceVarying,
+    @builtin(front_facing) is_front: bool,
+) -> @location(0) vec4f {
+    let surface = surface_at(at, is_front);
+    let range = vec2f(distance_of(1.0), distance_of(0.0));
+    let distance = dot(frame.sight, vec4f(at.point_in_world, 1.0));
+    return vec4f(rgb_of_normal(surface.normal), (distance - range.x) / (range.y - range.x));
+}

@@ -1,0 +1,12 @@
+// The Phong model with a light without falloff (NPRView thesis, Equation 4.1).
+#import <common/light.wgsl>
+
+@fragment
+fn phong(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
+    let texel = textureSample(base_texture, base_sampler, at.texcoord);
+    let surface = surface_at(at, is_front);
+    let material = material_at(at.part, texel);
+    let lit = diffuse_factor(surface) * material.diffuse.rgb
+        + specular_factor(surface, material.specular.w) * material.specular.rgb;
+    return vec4f(material.ambient.rgb + frame.light_color.rgb * lit, 1.0);
+}

@@ -1,0 +1,53 @@
+// Colours, normals and region ids of the scene in one pass with several targets, which
+// the thesis names as future work (section 3.4); the depth is there in any case.
+#import <common/encode.wgsl>
+#import <common/light.wgsl>
+#import <common/screen.wgsl>
+
+struct Params {
+    // Which ids: of objects, materials, or groups.
+    regions: u32,
+    // What normals the background has: into the screen (thesis, section 3.3.1), along z
+    // (Card and Mitchell), or none.
+    background: u32,
+}
+
+@group(1) @binding(0) var<uniform> params: Params;
+
+struct SceneData {
+    @location(0) color: vec4f,
+    @location(1) normal: vec4f,
+    @location(2) region: vec4f,
+}
+
+fn region_color(part: u32) -> vec4f {
+    let of_part = surface_parts[part];
+    let ids = array(of_part.object_region, of_part.material_region, of_part.group_region);
+    return vec4f(rgb_of_id(ids[min(params.regions, 2u)]), 1.0);
+}
+
+fn background_color() -> vec4f {
+    let into_screen = unit(frame.sight.xyz);
+    let normals = array(into_screen, vec3f(0.0, 0.0, 1.0), vec3f(0.0));
+    return vec4f(rgb_of_normal(normals[min(params.background, 2u)]), 1.0);
+}
+
+@fragment
+fn scene_data(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> SceneData {
+    let texel = textureSample(base_texture, base_sampler, at.texcoord);
+    let surface = surface_at(at, is_front);
+    let material = material_at(at.part, texel);
+    let lit = diffuse_factor(surface) * material.diffuse.rgb
+        + specular_factor(surface, material.specular.w) * material.specular.rgb;
+    let color = vec4f(material.ambient.rgb + frame.light_color.rgb * lit, 1.0);
+    return SceneData(
+        color,
+        vec4f(rgb_of_normal(surface.normal), 1.0),
+        region_color(at.part),
+    );
+}
+
+@fragment
+fn background(at: ScreenVarying) -> SceneData {
+    return SceneData(vec4f(1.0), background_color(), vec4f(0.0));
+}
