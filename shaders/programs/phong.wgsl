@@ -8,5 +8,5 @@ fn phong(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @location
     let material = material_at(at.part, texel);
     let lit = diffuse_factor(surface) * material.diffuse.rgb
         + specular_factor(surface, material.specular.w) * material.specular.rgb;
-    return vec4f(material.ambient.rgb + frame.light_color.rgb * lit, 1.0);
+    return vec4f(material.ambient.rgb + frame.light_color * lit, 1.0);
 }

@@ -39,7 +39,7 @@ fn scene_data(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> Scen
     let material = material_at(at.part, texel);
     let lit = diffuse_factor(surface) * material.diffuse.rgb
         + specular_factor(surface, material.specular.w) * material.specular.rgb;
-    let color = vec4f(material.ambient.rgb + frame.light_color.rgb * lit, 1.0);
+    let color = vec4f(material.ambient.rgb + frame.light_color * lit, 1.0);
     return SceneData(
         color,
         vec4f(rgb_of_normal(surface.normal), 1.0),

@@ -4,6 +4,7 @@ mod adapter;
 mod brushes;
 mod demo;
 mod failure;
+mod images;
 mod mesh;
 mod models;
 mod programs;
@@ -22,7 +23,7 @@ Tasks:
   models            write the project's own models to models/
   mesh --triangles N -o FILE
                     write a large organic mesh of about N triangles, for benches
-  brushes           write the stroke textures to brushes/
+  brushes           write the stroke textures and other images to brushes/
   help              print this list
 ";
 

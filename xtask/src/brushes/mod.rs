@@ -1,4 +1,5 @@
-//! `cargo xtask brushes`: the stroke textures.
+//! `cargo xtask brushes`: the stroke textures, and the images of techniques
+//! (`crate::images`).
 //!
 //! u runs along the stroke and repeats, v from 0 at the outer rim (top row) to 1
 //! at the inner rim. The colour is ink; how much of it covers the paper is alpha.
@@ -19,6 +20,7 @@ use std::path::PathBuf;
 use image::{GrayAlphaImage, LumaA};
 
 use crate::failure::Failure;
+use crate::images;
 use crate::programs;
 
 /// Black ink.
@@ -29,6 +31,18 @@ pub(crate) fn run() -> Result<(), Failure> {
         let path = folder().join(name);
         picture.save(&path).map_err(|error| Failure::file("write", &path, error))?;
         println!("{}", path.display());
+    }
+    for (name, picture) in images::pictures() {
+        let path = folder().join(name);
+        let made = path.parent().map_or(Ok(()), std::fs::create_dir_all);
+        made.map_err(|error| Failure::file("write", &path, error))?;
+        let bytes = images::encoded(&picture);
+        let written = bytes.map(|bytes| std::fs::write(&path, bytes));
+        match written {
+            Ok(Ok(())) => println!("{}", path.display()),
+            Ok(Err(error)) => return Err(Failure::file("write", &path, error)),
+            Err(error) => return Err(Failure::file("write", &path, error)),
+        }
     }
     Ok(())
 }

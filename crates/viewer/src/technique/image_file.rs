@@ -18,6 +18,18 @@ const SHIPPED: &[(&str, &str, &[u8])] = shipped! {
     "brushes" "fur" "fur.png";
     "brushes" "pen" "pen.png";
     "brushes" "watercolor" "watercolor.png";
+    "papers" "canvas" "papers/canvas.png";
+    "papers" "laid" "papers/laid.png";
+    "papers" "rough" "papers/rough.png";
+    "tonal_art_maps" "charcoal_123" "tonal_art_maps/charcoal_123.png";
+    "tonal_art_maps" "charcoal_456" "tonal_art_maps/charcoal_456.png";
+    "tonal_art_maps" "pen_123" "tonal_art_maps/pen_123.png";
+    "tonal_art_maps" "pen_456" "tonal_art_maps/pen_456.png";
+    "toon_maps" "gradient" "toon_maps/gradient.png";
+    "toon_maps" "metallic" "toon_maps/metallic.png";
+    "toon_maps" "spectrum" "toon_maps/spectrum.png";
+    "toon_maps" "three_steps" "toon_maps/three_steps.png";
+    "toon_maps" "two_steps" "toon_maps/two_steps.png";
 };
 
 /// An image that is there.

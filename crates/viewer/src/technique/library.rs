@@ -29,11 +29,40 @@ macro_rules! shipped {
 
 /// The component files that are shipped, and their texts.
 const COMPONENTS: &[(&str, &str)] =
-    shipped!["components/core", "components/detectors", "components/fills"];
+    shipped!["components/core", "components/detectors", "components/fills", "components/lines",];
 
 /// The techniques that are shipped, and their texts.
-const TECHNIQUES: &[(&str, &str)] =
-    shipped!["charcoal", "fur", "hidden_line", "ink", "linked", "pen", "watercolour",];
+const TECHNIQUES: &[(&str, &str)] = shipped![
+    "anime",
+    "blueprint",
+    "cartoon",
+    "charcoal",
+    "debug_depth",
+    "debug_features",
+    "debug_ids",
+    "debug_normals",
+    "fins",
+    "fur",
+    "gooch",
+    "hatching",
+    "hidden_line",
+    "ink",
+    "linked",
+    "outline_combined",
+    "outline_depth",
+    "outline_ids",
+    "outline_laplacian",
+    "outline_normals",
+    "outline_planes",
+    "outline_thick",
+    "outline_wide",
+    "pen",
+    "sobel",
+    "toon",
+    "toon_image",
+    "watercolour",
+    "wireframe",
+];
 
 /// Components and techniques by name.
 #[derive(Debug, Clone)]

@@ -3,7 +3,7 @@
 use super::program::FieldKind;
 
 /// The formats that a render target can have, by the words that files use.
-pub const FORMATS: [(&str, wgpu::TextureFormat); 9] = [
+pub const FORMATS: [(&str, wgpu::TextureFormat); 10] = [
     ("r8", wgpu::TextureFormat::R8Unorm),
     ("rg8", wgpu::TextureFormat::Rg8Unorm),
     ("rgba8", wgpu::TextureFormat::Rgba8Unorm),
@@ -11,6 +11,7 @@ pub const FORMATS: [(&str, wgpu::TextureFormat); 9] = [
     ("rg16f", wgpu::TextureFormat::Rg16Float),
     ("rgba16f", wgpu::TextureFormat::Rgba16Float),
     ("r32f", wgpu::TextureFormat::R32Float),
+    ("rg32f", wgpu::TextureFormat::Rg32Float),
     ("rgba32f", wgpu::TextureFormat::Rgba32Float),
     ("r32u", wgpu::TextureFormat::R32Uint),
 ];
@@ -45,6 +46,7 @@ pub const fn is_filterable(format: wgpu::TextureFormat) -> bool {
     !matches!(
         format,
         wgpu::TextureFormat::R32Float
+            | wgpu::TextureFormat::Rg32Float
             | wgpu::TextureFormat::Rgba32Float
             | wgpu::TextureFormat::R32Uint
             | wgpu::TextureFormat::Depth32Float

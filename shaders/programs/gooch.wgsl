@@ -1,0 +1,27 @@
+// Gooch light: from cool to warm instead of from dark to bright (Card and Mitchell, Gooch
+// Lighting; the formula, as Listing 7 swaps alpha and beta).
+#import <common/light.wgsl>
+
+struct Params {
+    // How much of the diffuse colour is in the cool one, and in the warm one.
+    alpha: f32,
+    beta: f32,
+    yellow: vec3f,
+    blue: vec3f,
+    // How much of the material's highlight is laid over.
+    highlight: f32,
+}
+
+@group(1) @binding(0) var<uniform> params: Params;
+
+@fragment
+fn gooch(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
+    let texel = textureSample(base_texture, base_sampler, at.texcoord);
+    let surface = surface_at(at, is_front);
+    let material = material_at(at.part, texel);
+    let warm = params.yellow + params.beta * material.diffuse.rgb;
+    let cool = params.blue + params.alpha * material.diffuse.rgb;
+    let warmth = 0.5 * (1.0 + dot(surface.normal, surface.to_light));
+    let glint = specular_factor(surface, material.specular.w) * material.specular.rgb;
+    return vec4f(mix(cool, warm, warmth) + params.highlight * glint, 1.0);
+}

@@ -1,0 +1,142 @@
+// Hatching with tonal art maps: six levels in the channels of two textures, blended by
+// weights that the light gives (Card and Mitchell, Listings 4 and 5; Praun et al. 2001);
+// weights by the vertex as there, or by the pixel.
+//
+// Where a model has no texture coordinates, strokes are laid on it from three sides along
+// its axes, those most that look at it straight.
+#import <common/light.wgsl>
+
+struct Params {
+    // The light factor of a surface that looks at the light: 6 is all levels.
+    brightness: f32,
+    // Tiles over the texture coordinates, or over a radius of the scene.
+    scale: f32,
+    // Ink of the material's colour, or of one colour.
+    from_material: u32,
+    ink_color: vec3f,
+    paper_color: vec3f,
+}
+
+@group(1) @binding(0) var<uniform> params: Params;
+@group(1) @binding(1) var levels_123: texture_2d<f32>;
+@group(1) @binding(2) var levels_123_sampler: sampler;
+@group(1) @binding(3) var levels_456: texture_2d<f32>;
+@group(1) @binding(4) var levels_456_sampler: sampler;
+
+struct HatchingVarying {
+    @builtin(position) @invariant position: vec4f,
+    @location(0) point_in_world: vec3f,
+    @location(1) texcoord: vec2f,
+    @location(2) @interpolate(flat) part: u32,
+    @location(3) point_in_object: vec3f,
+    @location(4) normal_in_object: vec3f,
+    @location(5) weights_123: vec3f,
+    @location(6) weights_456: vec3f,
+}
+
+struct Weights {
+    of_123: vec3f,
+    of_456: vec3f,
+}
+
+// Listing 4: each level is a tent over the light factor, two wide; in total shadow the
+// darkest one stays.
+fn weights_of(light: f32) -> Weights {
+    var weights = Weights(
+        tent(vec3f(light) - vec3f(5.0, 4.0, 3.0)),
+        tent(vec3f(light) - vec3f(2.0, 1.0, 0.0)),
+    );
+    weights.of_456.z = min(weights.of_456.z + f32(light <= 1.0), 1.0);
+    return weights;
+}
+
+fn tent(x: vec3f) -> vec3f {
+    return max(vec3f(1.0) - abs(x - 1.0), vec3f(0.0));
+}
+
+// The tone at a place of the maps: Listing 5.
+fn tone(uv: vec2f, along_x: vec2f, along_y: vec2f, weights: Weights) -> f32 {
+    let a = textureSampleGrad(levels_123, levels_123_sampler, uv, along_x, along_y).rgb;
+    let b = textureSampleGrad(levels_456, levels_456_sampler, uv, along_x, along_y).rgb;
+    let ink = clamp(dot(1.0 - a, weights.of_123), 0.0, 1.0)
+        + clamp(dot(1.0 - b, weights.of_456), 0.0, 1.0);
+    return 1.0 - clamp(ink, 0.0, 1.0);
+}
+
+fn hatched(
+    part: u32,
+    texel: vec4f,
+    texcoord: vec2f,
+    point: vec3f,
+    normal: vec3f,
+    weights: Weights,
+) -> vec4f {
+    let uv = params.scale * texcoord;
+    let uv_x = dpdx(uv);
+    let uv_y = dpdy(uv);
+    let place = params.scale * point / frame.scene_radius;
+    let place_x = dpdx(place);
+    let place_y = dpdy(place);
+    var level = 1.0;
+    if surface_parts[part].has_texcoords == 1u {
+        level = tone(uv, uv_x, uv_y, weights);
+    } else {
+        var sides = pow(abs(normal), vec3f(6.0));
+        sides /= max(sides.x + sides.y + sides.z, 1.0e-6);
+        level = sides.x * tone(place.zy, place_x.zy, place_y.zy, weights)
+            + sides.y * tone(place.xz, place_x.xz, place_y.xz, weights)
+            + sides.z * tone(place.xy, place_x.xy, place_y.xy, weights);
+    }
+    let material = material_at(part, texel);
+    let ink = select(params.ink_color, material.diffuse.rgb, params.from_material == 1u);
+    return vec4f(mix(ink, params.paper_color, level), 1.0);
+}
+
+@vertex
+fn hatching_vertex(vertex: SurfaceVertex) -> HatchingVarying {
+    let at = surface_varying(vertex);
+    let surface = surface_of(at.point_in_world, at.normal_in_world);
+    let weights = weights_of(params.brightness * max(dot(surface.normal, surface.to_light), 0.0));
+    return HatchingVarying(
+        at.position,
+        at.point_in_world,
+        at.texcoord,
+        at.part,
+        vertex.position,
+        vertex.normal,
+        weights.of_123,
+        weights.of_456,
+    );
+}
+
+@fragment
+fn per_vertex(at: HatchingVarying) -> @location(0) vec4f {
+    let texel = textureSample(base_texture, base_sampler, at.texcoord);
+    let weights = Weights(at.weights_123, at.weights_456);
+    let color = hatched(
+        at.part,
+        texel,
+        at.texcoord,
+        at.point_in_object,
+        unit(at.normal_in_object),
+        weights,
+    );
+    if frame.clip_plane_count > 0u && is_cut_away(at.point_in_world) {
+        discard;
+    }
+    return color;
+}
+
+@fragment
+fn per_pixel(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
+    let texel = textureSample(base_texture, base_sampler, at.texcoord);
+    // Across the faces of the object, whatever their shading says.
+    let normal = unit(cross(dpdx(at.point_in_object), dpdy(at.point_in_object)));
+    let is_outside = is_front == (object.mirror > 0.0);
+    let side = select(-1.0, 1.0, is_outside);
+    let surface = surface_of(at.point_in_world, side * at.normal_in_world);
+    let weights = weights_of(params.brightness * diffuse_factor(surface));
+    let color = hatched(at.part, texel, at.texcoord, at.point_in_object, normal, weights);
+    cut(at);
+    return color;
+}

@@ -1,0 +1,77 @@
+// The cartoon shader of the NPRView thesis (section 4.2): the light's intensity, looked up
+// in a toon map; for each pixel, or for each vertex.
+#import <common/light.wgsl>
+
+struct Params {
+    // How much of the ambient colour there is.
+    ambient: f32,
+    // Over how many pixels the borders of steps go.
+    smoothness: f32,
+}
+
+@group(1) @binding(0) var<uniform> params: Params;
+@group(1) @binding(1) var toon_map: texture_2d<f32>;
+@group(1) @binding(2) var toon_map_sampler: sampler;
+
+struct ToonVarying {
+    @builtin(position) @invariant position: vec4f,
+    @location(0) point_in_world: vec3f,
+    @location(1) texcoord: vec2f,
+    @location(2) @interpolate(flat) part: u32,
+    @location(3) intensity: f32,
+}
+
+// Equation 4.4.
+fn light_intensity(surface: Surface, material: MaterialUniform) -> f32 {
+    return diffuse_factor(surface)
+        + specular_factor(surface, material.specular.w) * intensity(material.specular.rgb);
+}
+
+// The map at an intensity; the ends of the map are where the lookup ends.
+fn looked_up(light: f32) -> vec3f {
+    let half_texel = 0.5 / f32(textureDimensions(toon_map).x);
+    let place = clamp(light, half_texel, 1.0 - half_texel);
+    return textureSampleLevel(toon_map, toon_map_sampler, vec2f(place, 0.5), 0.0).rgb;
+}
+
+// Equation 4.6, with the mean of the map over what a pixel covers, so that the borders
+// between steps are as smooth as those of surfaces.
+fn stepped(light: f32, light_a_pixel: f32, material: MaterialUniform) -> vec4f {
+    var step = vec3f(0.0);
+    for (var tap = 0; tap < 4; tap++) {
+        step += 0.25 * looked_up(light + params.smoothness * light_a_pixel * (f32(tap) - 1.5) / 4.0);
+    }
+    let color = params.ambient * material.ambient.rgb
+        + frame.light_color * step * material.diffuse.rgb;
+    return vec4f(color, 1.0);
+}
+
+@fragment
+fn per_pixel(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
+    let texel = textureSample(base_texture, base_sampler, at.texcoord);
+    let surface = surface_at(at, is_front);
+    let material = material_at(at.part, texel);
+    let light = light_intensity(surface, material);
+    return stepped(light, fwidth(light), material);
+}
+
+@vertex
+fn toon_vertex(vertex: SurfaceVertex) -> ToonVarying {
+    let at = surface_varying(vertex);
+    var surface = surface_of(at.point_in_world, at.normal_in_world);
+    // There is no side to a vertex; the one that looks at the eye is the one that shows.
+    surface.normal *= select(1.0, -1.0, dot(surface.normal, surface.to_eye) < 0.0);
+    let material = materials[surface_parts[at.part].material];
+    let light = light_intensity(surface, material);
+    return ToonVarying(at.position, at.point_in_world, at.texcoord, at.part, light);
+}
+
+@fragment
+fn per_vertex(at: ToonVarying) -> @location(0) vec4f {
+    let texel = textureSample(base_texture, base_sampler, at.texcoord);
+    let light_a_pixel = fwidth(at.intensity);
+    if frame.clip_plane_count > 0u && is_cut_away(at.point_in_world) {
+        discard;
+    }
+    return stepped(at.intensity, light_a_pixel, material_at(at.part, texel));
+}

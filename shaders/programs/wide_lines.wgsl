@@ -1,0 +1,24 @@
+// Lines of a width around the nearest line texels that flooding has found. Detected lines
+// are two texels wide, so a width of 2 is what was detected.
+#import <common/edges.wgsl>
+#import <common/screen.wgsl>
+
+struct Params {
+    width: f32,
+    edge_color: vec4f,
+    background_color: vec4f,
+}
+
+@group(1) @binding(0) var<uniform> params: Params;
+@group(1) @binding(1) var texture: texture_2d<f32>;
+
+@fragment
+fn wide_lines(at: ScreenVarying) -> @location(0) vec4f {
+    let texel = texel_at(at.texcoord, textureDimensions(texture));
+    let seed = textureLoad(texture, texel, 0).xy;
+    let distance = length(seed - vec2f(texel));
+    // Half a texel to each side of the rim is half inked.
+    let inked = clamp(0.5 * params.width - 0.5 - distance, 0.0, 1.0);
+    let strength = select(inked, 0.0, seed.x < 0.0);
+    return line_color(strength, params.edge_color, params.background_color);
+}
