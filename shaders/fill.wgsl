@@ -12,14 +12,21 @@ struct FillUniform {
 struct FillVarying {
     // The same depth in every pass, so that a second one can ask for it.
     @builtin(position) @invariant position: vec4f,
+    @location(0) point_in_world: vec3f,
 }
 
 @vertex
 fn fill_vertex(@location(0) position: vec3f) -> FillVarying {
-    return FillVarying(object.clip_from_object * vec4f(position, 1.0));
+    return FillVarying(
+        object.clip_from_object * vec4f(position, 1.0),
+        (object.world_from_object * vec4f(position, 1.0)).xyz,
+    );
 }
 
 @fragment
-fn fill_fragment() -> @location(0) vec4f {
+fn fill_fragment(at: FillVarying) -> @location(0) vec4f {
+    if frame.clip_plane_count > 0u && is_cut_away(at.point_in_world) {
+        discard;
+    }
     return fill.color;
 }

@@ -12,5 +12,5 @@ fn stroke_vertices(
 
 @fragment
 fn stroke_fragment(in: Varying) -> @location(0) vec4f {
-    return ink(in.uv, in.opacity);
+    return cut(in.position, ink(in.uv, in.opacity));
 }

@@ -23,5 +23,5 @@ fn stroke_vertices(in: FinVertex) -> Varying {
 
 @fragment
 fn stroke_fragment(in: Varying) -> @location(0) vec4f {
-    return ink(in.uv, in.opacity);
+    return cut(in.position, ink(in.uv, in.opacity));
 }

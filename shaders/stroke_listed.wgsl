@@ -24,5 +24,5 @@ fn stroke_vertices(@builtin(vertex_index) vertex_index: u32) -> StrokeVarying {
 
 @fragment
 fn stroke_fragment(in: Varying) -> @location(0) vec4f {
-    return ink(in.uv, in.opacity);
+    return cut(in.position, ink(in.uv, in.opacity));
 }

@@ -28,7 +28,7 @@ override IS_HIDDEN: bool = false;
 @fragment
 fn over_surface_of_pixels(in: StrokeVarying) -> @location(0) vec4f {
     // Before anything is discarded: these take derivatives.
-    let color = ink(in.uv, in.opacity);
+    let color = cut(in.position, ink(in.uv, in.opacity));
     let at = places_of(in);
     if !is_drawn(in, depths_of_pixels(at)) {
         discard;
@@ -41,7 +41,7 @@ fn over_surface_of_samples(
     in: StrokeVarying,
     @builtin(sample_index) sample: u32,
 ) -> @location(0) vec4f {
-    let color = ink(in.uv, in.opacity);
+    let color = cut(in.position, ink(in.uv, in.opacity));
     let at = places_of(in);
     if !is_drawn(in, depths_of_samples(at, sample)) {
         discard;
@@ -51,7 +51,7 @@ fn over_surface_of_samples(
 
 @fragment
 fn silhouette_of_pixels(in: StrokeVarying) -> @location(0) vec4f {
-    let color = ink(in.uv, in.opacity);
+    let color = cut(in.position, ink(in.uv, in.opacity));
     let at = places_of(in);
     let objects = vec3u(
         textureLoad(fill_object, at.here, 0).x,
@@ -69,7 +69,7 @@ fn silhouette_of_samples(
     in: StrokeVarying,
     @builtin(sample_index) sample: u32,
 ) -> @location(0) vec4f {
-    let color = ink(in.uv, in.opacity);
+    let color = cut(in.position, ink(in.uv, in.opacity));
     let at = places_of(in);
     let objects = vec3u(
         textureLoad(fill_object_of_samples, at.here, i32(sample)).x,

@@ -23,5 +23,5 @@ fn stroke_vertices(in: EdgeVertex, @builtin(instance_index) part: u32) -> Stroke
 
 @fragment
 fn stroke_fragment(in: Varying) -> @location(0) vec4f {
-    return ink(in.uv, in.opacity);
+    return cut(in.position, ink(in.uv, in.opacity));
 }

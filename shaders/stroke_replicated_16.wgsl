@@ -34,5 +34,5 @@ fn position(steps: vec3i) -> vec3f {
 
 @fragment
 fn stroke_fragment(in: Varying) -> @location(0) vec4f {
-    return ink(in.uv, in.opacity);
+    return cut(in.position, ink(in.uv, in.opacity));
 }

@@ -62,10 +62,8 @@ fn world_at(depths: texture_depth_2d, texel: vec2i) -> vec3f {
     let size = textureDimensions(depths);
     let inside = within(texel, size);
     let depth = textureLoad(depths, inside, 0);
-    let across = (vec2f(inside) + 0.5) / vec2f(size);
-    let clip = vec4f(2.0 * across.x - 1.0, 1.0 - 2.0 * across.y, depth, 1.0);
-    let world = frame.world_from_clip * clip;
-    return world.xyz / world.w;
+    let place_px = (vec2f(inside) + 0.5) * frame.viewport_px / vec2f(size);
+    return world_of(place_px, depth);
 }
 
 // How far neighbours are from the plane through a texel, in pixels: no more than rounding

@@ -76,3 +76,11 @@ fn is_cut_away(point_in_world: vec3f) -> bool {
     }
     return false;
 }
+
+// The point of the world at a place of the picture, in pixels, and a depth.
+fn world_of(place_px: vec2f, depth: f32) -> vec3f {
+    let across = place_px / frame.viewport_px;
+    let clip = vec4f(2.0 * across.x - 1.0, 1.0 - 2.0 * across.y, depth, 1.0);
+    let world = frame.world_from_clip * clip;
+    return world.xyz / world.w;
+}

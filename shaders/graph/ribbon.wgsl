@@ -160,8 +160,11 @@ fn ribbon_fragment(in: RibbonVarying) -> @location(0) vec4f {
         let nearest = min(from_middle, 1.0 - from_middle);
         coverage *= clamp((0.5 * in.dash_and_ink.z - nearest) / max(per_px, 1e-6) + 0.5, 0.0, 1.0);
     }
+    let depth = mix(in.depth_and_near.x, in.depth_and_near.y, t);
+    if frame.clip_plane_count > 0u && is_cut_away(world_of(in.position.xy, depth)) {
+        coverage = 0.0;
+    }
     if in.depth_and_near.z > 0.0 && coverage > 0.0 {
-        let depth = mix(in.depth_and_near.x, in.depth_and_near.y, t);
         coverage *= share_in_front(depth, in.depth_and_near.z, vec2i(in.position.xy));
     }
     let opacity = mix(in.u_and_opacity.z, in.u_and_opacity.w, t);

@@ -63,7 +63,7 @@ impl FillPipeline {
             })
         };
         let pass_layout = layout("fill", ShaderStages::FRAGMENT);
-        let draw_layout = layout("fill object", ShaderStages::VERTEX);
+        let draw_layout = layout("fill object", ShaderStages::VERTEX_FRAGMENT);
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("fill"),
             bind_group_layouts: &[Some(frame_layout), Some(&pass_layout), Some(&draw_layout)],

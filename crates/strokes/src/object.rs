@@ -10,7 +10,7 @@ use edgemesh::oracle::stroke_segment::LineKind;
 use glam::{DMat4, Mat4, Vec2, Vec3, Vec4};
 
 use crate::detect::DetectDraw;
-use crate::frame::{ObjectUniform, bind_buffers, uniform_buffer};
+use crate::frame::{FrameUniform, ObjectUniform, bind_buffers, uniform_buffer};
 use crate::gpu::Gpu;
 use crate::graph::buffers::{
     Element, GraphBuffers, GraphHeader, GraphUniform, LinkNode, PathPoint, Ribbon, Stroke,
@@ -212,9 +212,14 @@ impl Object {
     }
 
     /// Sets what the next submission sees of the object.
-    pub(crate) fn look_from(&mut self, gpu: &Gpu, view: &View, viewport_px: Vec2) {
-        let uniform =
+    pub(crate) fn look_from(&mut self, gpu: &Gpu, view: &View, frame: &FrameUniform) {
+        let viewport_px = frame.viewport_px.into();
+        let mut uniform =
             ObjectUniform::new(view, viewport_px, self.world_from_object, &self.mesh.bounds);
+        // What is cut open shows its inside, as to an eye within.
+        if let Some(uniform) = uniform.as_mut().filter(|_| frame.clip_plane_count > 0) {
+            uniform.eye_is_outside = 0;
+        }
         self.is_placed = uniform.is_some();
         self.seen = uniform.and_then(|uniform| {
             SeenBox::of(&uniform.clip_from_object(), &self.mesh.bounds, viewport_px)

@@ -360,10 +360,9 @@ impl Renderer {
         frame: &FrameRequest,
     ) {
         let FrameRequest { targets, view, timer, .. } = *frame;
-        let viewport_px = targets.viewport_px();
         self.frame.write(&gpu.queue, frame.uniform);
         for object in objects.iter_mut() {
-            object.look_from(gpu, view, viewport_px);
+            object.look_from(gpu, view, frame.uniform);
         }
         let placed: Vec<&Object> = objects.iter().filter(|object| object.is_placed).collect();
         self.encode_detect(encoder, &placed, timer);

@@ -24,3 +24,4 @@ pub mod picture;
 pub mod render;
 pub mod scene_file;
 pub mod technique;
+pub mod watch;

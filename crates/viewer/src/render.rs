@@ -147,7 +147,10 @@ impl Default for PictureOptions {
 #[derive(Debug)]
 pub struct PictureRenderer<'a> {
     gpu: &'a Gpu,
-    graph: PassGraph,
+    /// None only while it is rebuilt.
+    graph: Option<PassGraph>,
+    options: GraphOptions,
+    shaders: Option<PathBuf>,
     plan: Plan,
     bounds: Bounds,
     frame: Frame,
@@ -207,17 +210,51 @@ impl<'a> PictureRenderer<'a> {
             is_transparent: options.is_transparent,
         };
         let graph = PassGraph::new(gpu, scene, technique, &plan, looks, &graph_options)?;
-        let timer = GpuTimer::new(gpu, edgemesh::index::to_u32(graph.time_names().len()));
         Ok(Self {
             gpu,
-            graph,
+            timer: timer_for(gpu, &graph),
+            graph: Some(graph),
+            options: graph_options,
+            shaders: options.shaders.clone(),
             plan,
             bounds: scene.bounds,
             frame: scene.frame,
             size: options.size,
             lighting: options.lighting.clone(),
-            timer,
         })
+    }
+
+    /// Goes on with a technique, and looks, that have changed; what did not change stays
+    /// on the GPU, and textures keep what is in them.
+    ///
+    /// # Errors
+    /// As [`Self::new`]. Mistakes in the technique or its shaders leave everything as it
+    /// was.
+    pub fn reload(
+        &mut self,
+        scene: &Scene,
+        technique: &Technique,
+        looks: &[Technique],
+    ) -> Result<(), Failure> {
+        let shaders = ShaderFiles::new(&technique.folders, self.shaders.clone());
+        let plan =
+            Plan::of(technique, &shaders).map_err(|mistakes| technique_failure(&mistakes))?;
+        let (gpu, options) = (self.gpu, self.options);
+        let before = self.graph.take();
+        let made = gpu.make(|| match before {
+            Some(before) => before.rebuilt(gpu, scene, technique, &plan, looks, &options),
+            None => PassGraph::new(gpu, scene, technique, &plan, looks, &options),
+        });
+        let graph =
+            made.map_err(|error| resource_failure(&error, options.size, options.samples))??;
+        self.timer = timer_for(gpu, &graph);
+        self.graph = Some(graph);
+        self.plan = plan;
+        Ok(())
+    }
+
+    fn graph(&self) -> Result<&PassGraph, Failure> {
+        self.graph.as_ref().ok_or_else(no_graph)
     }
 
     /// Draws one picture, with premultiplied alpha.
@@ -232,8 +269,8 @@ impl<'a> PictureRenderer<'a> {
             .poll(wgpu::PollType::wait_indefinitely())
             .map_err(|error| Failure::fault(format!("the graphics adapter was lost: {error}")))?;
         let frame_ms = started.elapsed().as_secs_f64() * 1e3;
-        let picture = read_picture(self.gpu, self.graph.picture()).map_err(lost)?;
-        let tally = self.graph.tally(self.gpu).map_err(lost)?;
+        let picture = read_picture(self.gpu, self.graph()?.picture()).map_err(lost)?;
+        let tally = self.graph()?.tally(self.gpu).map_err(lost)?;
         let statistics = FrameStatistics { tally, passes: self.read_passes()?, frame_ms };
         Ok((picture, statistics))
     }
@@ -244,7 +281,7 @@ impl<'a> PictureRenderer<'a> {
     /// # Errors
     /// Where the device is lost.
     pub fn read_graph(&self, object: usize) -> Result<Option<GraphReadback>, Failure> {
-        let group = self.graph.stroke_groups().next();
+        let group = self.graph()?.stroke_groups().next();
         let Some(object) = group.and_then(|group| group.objects.get(object)) else {
             return Ok(None);
         };
@@ -254,7 +291,7 @@ impl<'a> PictureRenderer<'a> {
     /// The texture that passes call `<generated>:name`, as it is after the last picture.
     #[must_use]
     pub fn generated(&self, name: &str) -> Option<&wgpu::Texture> {
-        self.graph.generated(&self.plan, name)
+        self.graph.as_ref()?.generated(&self.plan, name)
     }
 
     fn submit(&mut self, camera: &Camera) -> Result<(), Failure> {
@@ -263,7 +300,8 @@ impl<'a> PictureRenderer<'a> {
         let around = self.lighting.surroundings(&view, &self.bounds, &self.frame);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let timer = self.timer.as_ref().map(|timer| timer.passes_from(0));
-        self.graph.encode(self.gpu, &mut encoder, &view, &around, timer)?;
+        let graph = self.graph.as_mut().ok_or_else(no_graph)?;
+        graph.encode(self.gpu, &mut encoder, &view, &around, timer)?;
         if let Some(timer) = &self.timer {
             timer.resolve(&mut encoder);
         }
@@ -275,7 +313,19 @@ impl<'a> PictureRenderer<'a> {
         let times = self.timer.as_ref().map(|timer| timer.read(self.gpu)).transpose();
         let times = times.map_err(lost)?.map_or_else(Vec::new, |times| times.passes_ms);
         let times = times.into_iter().map(Some).chain(std::iter::repeat(None));
-        Ok(self.graph.time_names().into_iter().zip(times).collect())
+        Ok(self.graph()?.time_names().into_iter().zip(times).collect())
+    }
+}
+
+fn timer_for(gpu: &Gpu, graph: &PassGraph) -> Option<GpuTimer> {
+    GpuTimer::new(gpu, edgemesh::index::to_u32(graph.time_names().len()))
+}
+
+/// A technique that could be checked and not be built has left nothing to draw.
+fn no_graph() -> Failure {
+    Failure {
+        message: "the technique could not be built; there is nothing to draw".into(),
+        status: ExitStatus::Shader,
     }
 }
 

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 use std::thread;
+use std::time::{Duration, Instant};
 
 use clap::{Args, ValueEnum};
 use edgemesh::camera::Camera;
@@ -26,6 +27,7 @@ use crate::render::{FrameStatistics, PictureOptions, PictureRenderer, Scene, ada
 use crate::scene_file::{SceneObject, is_scene_file, read_scene_file};
 use crate::technique::Technique;
 use crate::technique::library::Library;
+use crate::watch::Watcher;
 
 use super::options::{LibraryOptions, LightingOptions, set};
 
@@ -77,6 +79,10 @@ pub(super) struct RenderCommand {
     /// or one animated one where OUT ends in .gif or .apng
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     turntable: Option<u32>,
+    /// Stay, and draw again whenever the technique, a shader or an image has changed;
+    /// a mistake is told and the last good picture stays
+    #[arg(long, conflicts_with_all = ["turntable", "reference"])]
+    watch: bool,
     /// Write counts and times as JSON to a file, or - for standard output
     #[arg(long, value_name = "FILE")]
     stats: Option<PathBuf>,
@@ -143,6 +149,7 @@ pub(super) const EXAMPLES: &str = "Examples:\n  \
     viewer render bunny.obj -o fur.png --technique fur --set contour.width=40\n  \
     viewer render bunny.obj -o bunny.png --technique linked --set strokes.wobble=3\n  \
     viewer render part.obj -o part.png --eye 3,2,5 --ortho --crease 20 --stats -\n  \
+    viewer render bunny.obj -o bunny.png --technique mine.toml --watch\n  \
     viewer render part.obj -o turn.gif --turntable 72 --size 512x512";
 
 fn long_help() -> String {
@@ -184,14 +191,8 @@ struct PassTime {
 impl RenderCommand {
     pub(super) fn run(&self, is_quiet: bool) -> Result<(), Failure> {
         self.check_outputs()?;
-        let library = self.library.load();
-        let mut technique = self.library.technique(&library, &self.technique, is_quiet)?;
-        if let Some(brush) = &self.brush {
-            set(&mut technique, &format!("strokes.brush={brush}"), is_quiet)?;
-        }
-        for assignment in &self.set {
-            set(&mut technique, assignment, is_quiet)?;
-        }
+        let (library, technique) = self.technique(is_quiet)?;
+        let watcher = self.watch.then(|| self.watcher(&technique)).transpose()?;
         let reference = self.reference.as_deref().map(read_png).transpose()?;
         let objects = self.objects()?;
         let looks = self.object_techniques(&objects, &library, &technique, is_quiet)?;
@@ -218,7 +219,65 @@ impl RenderCommand {
             Some(steps) => self.write_turntable(&mut renderer, &camera, steps)?,
             None => self.write_picture(&mut renderer, &camera, reference.as_ref())?,
         };
-        self.write_statistics(&gpu, &scene, &statistics)
+        self.write_statistics(&gpu, &scene, &statistics)?;
+        let Some(mut watcher) = watcher else { return Ok(()) };
+        loop {
+            if watcher.wait(FOREVER) {
+                let started = Instant::now();
+                let drawn = self.draw_again(&mut renderer, &scene, &objects, &camera, is_quiet);
+                match drawn {
+                    Ok(()) if is_quiet => {}
+                    Ok(()) => tell_drawn(&self.output, started.elapsed()),
+                    // What is wrong may just be half saved.
+                    Err(failure) if watcher.settled() => tell(&failure.message),
+                    Err(_) => {}
+                }
+            }
+        }
+    }
+
+    /// The files, and the technique as they and the options have it.
+    fn technique(&self, is_quiet: bool) -> Result<(Library, Technique), Failure> {
+        let library = self.library.load();
+        let mut technique = self.library.technique(&library, &self.technique, is_quiet)?;
+        if let Some(brush) = &self.brush {
+            set(&mut technique, &format!("strokes.brush={brush}"), is_quiet)?;
+        }
+        for assignment in &self.set {
+            set(&mut technique, assignment, is_quiet)?;
+        }
+        Ok((library, technique))
+    }
+
+    /// Watches the folders that a technique is read from.
+    fn watcher(&self, technique: &Technique) -> Result<Watcher, Failure> {
+        let mut folders = technique.folders.clone();
+        folders.extend(self.library.shaders.clone());
+        folders.extend(self.brush.iter().filter_map(|brush| {
+            let path = Path::new(brush);
+            path.is_file().then(|| path.parent().map_or_else(PathBuf::new, Path::to_owned))
+        }));
+        if folders.is_empty() {
+            let message = "--watch: there is no file to watch; name a technique file, --folder or \
+                           --shaders";
+            return Err(Failure::usage(message));
+        }
+        Watcher::new(&folders, std::slice::from_ref(&self.output)).map_err(Failure::fault)
+    }
+
+    /// Reads the technique again, and draws with it.
+    fn draw_again(
+        &self,
+        renderer: &mut PictureRenderer,
+        scene: &Scene,
+        objects: &[SceneObject],
+        camera: &Camera,
+        is_quiet: bool,
+    ) -> Result<(), Failure> {
+        let (library, technique) = self.technique(is_quiet)?;
+        let looks = self.object_techniques(objects, &library, &technique, is_quiet)?;
+        renderer.reload(scene, &technique, &looks)?;
+        self.write_picture(renderer, camera, None).map(drop)
     }
 
     /// The objects of all models and scene files, in order.
@@ -415,6 +474,21 @@ impl RenderCommand {
         let json = json.map_err(|error| Failure::fault(error.to_string()))? + "\n";
         write_result(path, json.as_bytes())
     }
+}
+
+/// How long a watcher waits before it waits again.
+const FOREVER: Duration = Duration::from_secs(3600);
+
+/// Tells what is wrong while the command goes on.
+#[expect(clippy::print_stderr, reason = "messages of a command")]
+fn tell(message: &str) {
+    eprintln!("error: {message}");
+}
+
+/// Tells that a picture was written again.
+#[expect(clippy::print_stderr, reason = "messages of a command")]
+fn tell_drawn(path: &Path, after: Duration) {
+    eprintln!("{}: drawn again in {} ms", path.display(), after.as_millis());
 }
 
 /// Says on a terminal how far a turntable is.

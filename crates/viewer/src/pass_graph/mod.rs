@@ -17,6 +17,7 @@
 
 mod bindings;
 mod blend;
+mod build;
 mod copy_pass;
 pub mod material;
 mod params;
@@ -29,33 +30,29 @@ mod stroke_style;
 pub mod surface;
 mod textures;
 
-use std::sync::Arc;
-
 use edgemesh::camera::View;
 use edgemesh::command::Failure;
 use glam::Vec2;
-use strokes::frame::{Frame, FrameUniform, ObjectUniform, Surroundings, frame_layout};
+use strokes::frame::{Frame, FrameUniform, ObjectUniform, Surroundings};
 use strokes::gpu::Gpu;
 use strokes::gpu_time::TimedPasses;
 use strokes::look::Look;
-use strokes::mesh_buffers::{Layout, MeshBuffers};
+use strokes::mesh_buffers::Layout;
 use strokes::renderer::{DetectionPath, PASS_NAMES};
-use strokes::targets::{TargetFormats, Targets};
+use strokes::targets::Targets;
 use strokes::view_buffers::Tally;
 
-use self::bindings::{Samplers, Sources};
+use self::bindings::Sources;
 use self::copy_pass::CopyPass;
 use self::ping_pong::PingPong;
 use self::scene_pass::ScenePass;
 use self::screen_pass::ScreenPass;
 use self::stroke_pass::{StrokeGroup, StrokePasses};
 use self::surface::Surfaces;
-use self::textures::{GeneratedTexture, Images};
-use crate::render::Scene;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
 use crate::technique::pass::Pass;
-use crate::technique::plan::{PassPlan, Plan, Target, TexturePlan};
+use crate::technique::plan::{PassPlan, Plan};
 use crate::technique::value::Value;
 
 /// How a technique is drawn, whatever it is.
@@ -136,110 +133,6 @@ struct Encoding<'a> {
 }
 
 impl PassGraph {
-    /// Builds the graph of `technique`, whose plan is `plan`. Objects of the scene whose
-    /// look has a number in `looks` take the values of their passes from there.
-    ///
-    /// # Errors
-    /// Where a mesh or texture is too large for the adapter, an image cannot be read, or
-    /// programs do not fit together.
-    pub fn new(
-        gpu: &Gpu,
-        scene: &Scene,
-        technique: &Technique,
-        plan: &Plan,
-        looks: &[Technique],
-        options: &GraphOptions,
-    ) -> Result<Self, Failure> {
-        Self::build(gpu, (scene, options), (technique, plan, looks), None)
-    }
-
-    /// As [`Self::new`], taking from `before`, a graph of the same scene, options and
-    /// looks, what is still good: surfaces, meshes, and textures with what is in them.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn rebuilt(
-        self,
-        gpu: &Gpu,
-        scene: &Scene,
-        technique: &Technique,
-        plan: &Plan,
-        looks: &[Technique],
-        options: &GraphOptions,
-    ) -> Result<Self, Failure> {
-        Self::build(gpu, (scene, options), (technique, plan, looks), Some(self))
-    }
-
-    fn build(
-        gpu: &Gpu,
-        (scene, options): (&Scene, &GraphOptions),
-        (technique, plan, looks): (&Technique, &Plan, &[Technique]),
-        before: Option<Self>,
-    ) -> Result<Self, Failure> {
-        let device = &gpu.device;
-        let groups = groups_of(technique, looks);
-        let needs_stencil = stroke_pass::needs_stencil(technique, looks);
-        let formats = match needs_stencil {
-            true => TargetFormats::with_stencil(device, options.samples),
-            false => TargetFormats::new(options.samples),
-        };
-        let mut before = before.map_or_else(Before::default, Before::of);
-        let framebuffer = before
-            .framebuffer
-            .take()
-            .filter(|known| known.size == options.size && *known.formats() == formats)
-            .unwrap_or_else(|| Targets::new(device, options.size, formats));
-        let in_place = |texture: usize| {
-            plan.passes
-                .iter()
-                .any(|pass| pass.is_in_place && pass.target.textures().contains(&texture))
-        };
-        let generated: Vec<GeneratedTexture> = plan
-            .textures
-            .iter()
-            .enumerate()
-            .map(|(at, texture)| {
-                before.texture(texture, options.size, in_place(at)).unwrap_or_else(|| {
-                    GeneratedTexture::new(device, texture, options.size, in_place(at))
-                })
-            })
-            .collect();
-        let mut sources =
-            Sources { generated, images: Images::default(), samplers: Samplers::new(device) };
-        let has =
-            |core| groups.iter().any(|group| technique.passes[group[0]].component.core == core);
-        let surfaces = has(CoreComponent::SimpleRender)
-            .then(|| match before.surfaces.take() {
-                Some(surfaces) => Ok(surfaces),
-                None => {
-                    let sampler = sources.samplers.linear_image.clone();
-                    Surfaces::new(gpu, scene, options.layout, &mut sources.images, &sampler)
-                }
-            })
-            .transpose()?;
-        let mut strokes = has(CoreComponent::Strokes)
-            .then(|| {
-                let meshes = std::mem::take(&mut before.meshes);
-                StrokePasses::new(gpu, scene, options, formats, (&technique.folders, meshes))
-            })
-            .transpose()?;
-        let layout = frame_layout(device);
-        let frame = Frame::new(device, &layout, &bytemuck::Zeroable::zeroed());
-        let mut steps = Vec::new();
-        for group in groups {
-            let builder = Builder { gpu, scene, technique, plan, looks, options, formats };
-            let context = (&layout, surfaces.as_ref(), strokes.as_mut());
-            let mut step = builder.step(&group, context)?;
-            let mut written = step.plan.target.textures().into_iter();
-            if written.all(|texture| sources.generated[texture].is_kept) {
-                let same = before.runs.iter().find(|(name, _)| *name == step.name);
-                same.iter().for_each(|(_, run)| step.run.go_on_from(run));
-            }
-            steps.push(step);
-        }
-        Ok(Self { framebuffer, frame, sources, surfaces, strokes, steps })
-    }
-
     /// The picture, once a frame was encoded and submitted.
     #[must_use]
     pub const fn picture(&self) -> &wgpu::Texture {
@@ -276,12 +169,13 @@ impl PassGraph {
         })
     }
 
-    /// The counts of the last frame; none where vertex shaders detect.
+    /// The counts of the last frame; none where vertex shaders detect, or no strokes are
+    /// drawn.
     ///
     /// # Errors
     /// Where the device is lost.
     pub fn tally(&self, gpu: &Gpu) -> Result<Option<Tally>, strokes::readback::ReadbackError> {
-        let Some(group) = self.stroke_groups().next() else { return Ok(Some(Tally::default())) };
+        let Some(group) = self.stroke_groups().next() else { return Ok(None) };
         if self.strokes.as_ref().is_some_and(StrokePasses::counts_nothing) {
             return Ok(None);
         }
@@ -340,42 +234,6 @@ impl PassGraph {
     }
 }
 
-/// What a graph leaves to the one that comes after it.
-#[derive(Default)]
-struct Before {
-    framebuffer: Option<Targets>,
-    surfaces: Option<Surfaces>,
-    meshes: Vec<Option<Arc<MeshBuffers>>>,
-    textures: Vec<GeneratedTexture>,
-    runs: Vec<(String, Run)>,
-}
-
-impl Before {
-    fn of(graph: PassGraph) -> Self {
-        Self {
-            framebuffer: Some(graph.framebuffer),
-            surfaces: graph.surfaces,
-            meshes: graph.strokes.map_or_else(Vec::new, StrokePasses::into_meshes),
-            textures: graph.sources.generated,
-            runs: graph.steps.into_iter().map(|step| (step.name, step.run)).collect(),
-        }
-    }
-
-    /// A texture of the same name, size and format, with what is in it.
-    fn texture(
-        &mut self,
-        plan: &TexturePlan,
-        picture: [u32; 2],
-        is_double: bool,
-    ) -> Option<GeneratedTexture> {
-        let is_same = |known: &GeneratedTexture| known.is_for(plan, picture, is_double);
-        let at = self.textures.iter().position(is_same)?;
-        let mut texture = self.textures.swap_remove(at);
-        texture.is_kept = true;
-        Some(texture)
-    }
-}
-
 /// The samples of the framebuffer, averaged to the picture.
 fn resolve(encoder: &mut wgpu::CommandEncoder, framebuffer: &Targets, is_fresh: bool) {
     let load = match is_fresh {
@@ -397,93 +255,6 @@ fn place(gpu: &Gpu, surfaces: &mut Surfaces, view: &View, viewport_px: Vec2) {
         object.is_placed = uniform.is_some();
         if let Some(uniform) = uniform {
             gpu.queue.write_buffer(&object.uniform, 0, bytemuck::bytes_of(&uniform));
-        }
-    }
-}
-
-/// The passes that are done, for the scene or for an object with a look of its own;
-/// those of strokes that follow each other together.
-fn groups_of(technique: &Technique, looks: &[Technique]) -> Vec<Vec<usize>> {
-    let mut groups: Vec<Vec<usize>> = Vec::new();
-    let is_stroke = |at: usize| technique.passes[at].component.core == CoreComponent::Strokes;
-    let own_strokes = looks
-        .iter()
-        .flat_map(|look| &look.passes)
-        .any(|pass| pass.is_rendered() && pass.component.core == CoreComponent::Strokes);
-    for (at, pass) in technique.passes.iter().enumerate() {
-        let of_look = |look: &Technique| look.pass(&pass.name).is_some_and(Pass::is_rendered);
-        let is_done = pass.is_rendered()
-            || match pass.component.core {
-                CoreComponent::Strokes => own_strokes,
-                CoreComponent::SimpleRender => looks.iter().any(of_look),
-                _ => false,
-            };
-        match groups.last_mut() {
-            _ if !is_done => {}
-            Some(last) if is_stroke(at) && is_stroke(last[0]) => last.push(at),
-            _ => groups.push(vec![at]),
-        }
-    }
-    groups
-}
-
-/// Builds steps.
-struct Builder<'a> {
-    gpu: &'a Gpu,
-    scene: &'a Scene,
-    technique: &'a Technique,
-    plan: &'a Plan,
-    looks: &'a [Technique],
-    options: &'a GraphOptions,
-    formats: TargetFormats,
-}
-
-impl Builder<'_> {
-    fn step(
-        &self,
-        group: &[usize],
-        (frame, surfaces, strokes): (
-            &wgpu::BindGroupLayout,
-            Option<&Surfaces>,
-            Option<&mut StrokePasses>,
-        ),
-    ) -> Result<Step, Failure> {
-        let pass = &self.technique.passes[group[0]];
-        let plan = &self.plan.passes[group[0]];
-        let kind = match (pass.component.core, surfaces, strokes) {
-            (CoreComponent::Strokes, _, Some(strokes)) => {
-                let passes = group.iter().map(|&at| &self.technique.passes[at]);
-                let passes: Vec<&Pass> = passes.filter(|pass| pass.is_rendered()).collect();
-                StepKind::Strokes(strokes.group(self.gpu, self.scene, &passes, self.looks)?)
-            }
-            (CoreComponent::SimpleRender, Some(surfaces), _) => {
-                StepKind::Scene(ScenePass::new(self, pass, plan, frame, surfaces)?)
-            }
-            (CoreComponent::CopyToTexture, ..) => {
-                StepKind::Copy(CopyPass::new(self.gpu, pass, &self.formats)?)
-            }
-            (CoreComponent::PingPong, ..) => {
-                StepKind::PingPong(PingPong::new(self, pass, plan, frame)?)
-            }
-            _ => StepKind::Screen(ScreenPass::new(self, pass, plan, frame)?),
-        };
-        let run = Run::of(pass, plan);
-        Ok(Step { name: pass.name.clone(), kind, plan: plan.clone(), run })
-    }
-
-    /// Formats and blending of what a pass draws into.
-    fn target(&self, pass: &Pass, plan: &PassPlan) -> pipeline::PipelineTarget {
-        let blend = blend::blend_state(pass.string("blend"));
-        match &plan.target {
-            Target::Framebuffer => pipeline::PipelineTarget::framebuffer(&self.formats, blend),
-            Target::Textures { colors, depth } => pipeline::PipelineTarget {
-                colors: colors.iter().map(|&at| self.plan.textures[at].format).collect(),
-                depth: depth.map(|at| self.plan.textures[at].format),
-                samples: 1,
-                blend,
-                is_pushed: false,
-                writes_depth: false,
-            },
         }
     }
 }

@@ -8,12 +8,13 @@
 use edgemesh::command::Failure;
 use strokes::gpu_time::TimedPasses;
 
+use super::Encoding;
 use super::bindings::Sources;
+use super::build::Builder;
 use super::params::Iteration;
 use super::pipeline::{PassPipeline, PipelineTarget};
 use super::screen_pass::{color_attachment, draw, own_program, screen_pipeline};
 use super::textures::target_texture;
-use super::{Builder, Encoding};
 use crate::technique::pass::Pass;
 use crate::technique::plan::PassPlan;
 use crate::technique::program::ProgramKind;

@@ -4,12 +4,13 @@ use edgemesh::command::Failure;
 use strokes::gpu_time::TimedPasses;
 use strokes::targets::Targets;
 
+use super::Encoding;
 use super::bindings::Sources;
+use super::build::Builder;
 use super::params::Iteration;
 use super::pipeline::{Geometry, PassPipeline, Programs};
 use super::screen_pass::{color_attachment, screen_vertex};
 use super::surface::Surfaces;
-use super::{Builder, Encoding};
 use crate::technique::pass::Pass;
 use crate::technique::plan::{PassPlan, Target};
 

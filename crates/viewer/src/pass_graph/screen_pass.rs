@@ -4,10 +4,11 @@ use edgemesh::command::{ExitStatus, Failure};
 use strokes::gpu::Gpu;
 use strokes::gpu_time::TimedPasses;
 
+use super::Encoding;
 use super::bindings::Sources;
+use super::build::Builder;
 use super::params::Iteration;
 use super::pipeline::{Geometry, PassPipeline, Programs};
-use super::{Builder, Encoding};
 use crate::technique::mistake::{Place, SourceText};
 use crate::technique::pass::Pass;
 use crate::technique::plan::{PassPlan, Target};
