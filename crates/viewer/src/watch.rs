@@ -46,8 +46,12 @@ impl Watcher {
     pub fn new(folders: &[PathBuf], ignored: &[PathBuf]) -> Result<Self, String> {
         let (sender, events) = channel();
         let failed = |error: &notify::Error| format!("files cannot be watched: {error}");
-        // Nobody listens any more where sending fails.
-        let send = move |event| drop(sender.send(event));
+        // Who only reads changes nothing; and nobody listens any more where sending fails.
+        let send = move |event: notify::Result<notify::Event>| {
+            if !event.as_ref().is_ok_and(|event| event.kind.is_access()) {
+                drop(sender.send(event));
+            }
+        };
         let mut watcher = notify::recommended_watcher(send).map_err(|error| failed(&error))?;
         let folders = with_subfolders(folders);
         for folder in &folders {

@@ -325,7 +325,11 @@ fn structs_in_buffers_are_laid_out_alike_and_found_on_both_sides() {
 }
 
 /// Constants of one side only: how the shader works inside.
-const OF_SHADERS: [&str; 47] = [
+const OF_SHADERS: [&str; 51] = [
+    "CROSS",
+    "DIAGONALS",
+    "NOWHERE",
+    "PI",
     "BEHIND",
     "SCAN_WIDTH",
     "EXPAND_WIDTH",

@@ -21,6 +21,8 @@ mod gpu_render;
 #[cfg(feature = "gpu")]
 mod gpu_scenes;
 #[cfg(feature = "gpu")]
+mod gpu_techniques;
+#[cfg(feature = "gpu")]
 mod gpu_twin;
 #[cfg(feature = "gpu")]
 mod gpu_visibility;
@@ -35,3 +37,4 @@ mod preprocess_commands;
 mod random;
 mod render_command;
 mod shaders;
+mod technique_commands;

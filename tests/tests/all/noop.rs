@@ -9,7 +9,9 @@ use strokes::gpu::Gpu;
 use strokes::mesh_buffers::{Layout, MeshBuffers};
 use strokes::renderer::DetectionPath;
 use viewer::render::{PictureOptions, PictureRenderer, Scene};
+use viewer::technique::core::CoreComponent;
 use viewer::technique::library::Library;
+use viewer::technique::value::VariableType;
 
 /// A scene of one mesh.
 fn scene_of(mesh: &EdgeMesh) -> Scene {
@@ -67,6 +69,54 @@ fn every_technique_builds_its_pipelines_within_the_default_limits() {
             }
         }
     }
+}
+
+/// Each component, with its defaults, behind passes that draw all that it may want to read.
+#[test]
+fn every_component_builds_its_pipelines() {
+    let gpu = noop(wgpu::Limits::default());
+    let library = Library::shipped();
+    let scene = scene_of(&tetrahedron());
+    let folder = tempfile::tempdir().unwrap();
+    let mut count = 0;
+    for (name, component) in library.components() {
+        let mut text = "[[pass]]\nname = \"before\"\ncomponent = \"render_scene_data\"\n\
+            [[pass]]\nname = \"seeds\"\ncomponent = \"flood_seeds\"\n\
+            texture = \"<generated>:scene_color\"\nrender_target = \"seeds\"\n\
+            [[pass]]\nname = \"it\"\n"
+            .to_owned();
+        text += &format!("component = \"{name}\"\n");
+        for variable in component.variables.iter().filter(|known| known.default.is_none()) {
+            let value = match variable.name.as_str() {
+                "normal_texture" => "<generated>:scene_normal",
+                "depth_texture" => "<generated>:scene_depth",
+                "id_texture" => "<generated>:scene_region",
+                "texture" if name.contains("flood") || name.contains("wide") => {
+                    "<generated>:seeds_color"
+                }
+                "texture" if variable.kind == VariableType::String => "made",
+                "texture" => "<generated>:scene_color",
+                "fragment_program" if component.core == CoreComponent::SimpleRender => {
+                    "phong:phong"
+                }
+                "fragment_program" => "copy:copy",
+                other => panic!("{name}.{other} has no default, and no value here"),
+            };
+            text += &format!("{} = \"{value}\"\n", variable.name);
+        }
+        if ["process_texture", "generate_texture", "edge_detect"].contains(&name.as_str()) {
+            // Their programs read what components that inherit from them add.
+            continue;
+        }
+        let path = folder.path().join("one.toml");
+        std::fs::write(&path, text).unwrap();
+        let technique = library.technique_file(&path).unwrap_or_else(|m| panic!("{name}: {m}")).0;
+        let options = PictureOptions { size: [32; 2], ..PictureOptions::default() };
+        PictureRenderer::new(&gpu, &scene, &technique, &[], &options)
+            .unwrap_or_else(|failure| panic!("{name}: {}", failure.message));
+        count += 1;
+    }
+    assert!(count > 35, "{count} components");
 }
 
 #[test]

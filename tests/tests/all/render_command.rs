@@ -30,7 +30,12 @@ fn wrong_command_lines_exit_with_2_and_say_why() {
         (vec!["render", &cube, "-o", "a.png", "--size", "10"], "1920x1080"),
         (vec!["render", &cube, "-o", "a.png", "--samples", "2"], "samples"),
         (vec!["render", &cube, "-o", "a.png", "--eye", "1,2"], "three numbers"),
-        (vec!["render", &cube, "-o", "a.png", "--set", "strokes.width=x"], "pixels"),
+        (vec!["render", &cube, "-o", "a.png", "--set", "strokes.width=x"], "a number"),
+        (vec!["render", &cube, "-o", "a.png", "--set", "strokes.widht=2"], "did you mean 'width'"),
+        (vec!["render", &cube, "-o", "a.png", "--set", "lines.width=2"], "silhouette"),
+        (vec!["render", &cube, "-o", "a.png", "--light", "0,0,0"], "0,0,0"),
+        (vec!["render", &cube, "-o", "a.png", "--clip", "1,2,3"], "NX,NY,NZ,D"),
+        (vec!["render", &cube, "-o", "a.png", "--watch"], "--watch"),
         (vec!["render", &cube, "-o", "-", "--stats", "-"], "both"),
         (vec!["render", &cube, "-o", &cube], ".png"),
     ] {
@@ -64,7 +69,7 @@ fn wrong_inputs_and_outputs_exit_with_1_and_leave_nothing() {
 fn an_unknown_technique_exits_with_4_and_names_those_there_are() {
     let output = viewer(&["render", &cube(), "-o", "a.png", "--technique", "oil"]);
     assert_eq!(output.status.code(), Some(4));
-    assert!(message(&output).contains("ink, pen"), "{}", message(&output));
+    assert!(message(&output).contains("ink, linked"), "{}", message(&output));
 }
 
 #[test]
@@ -154,7 +159,10 @@ mod with_adapter {
         assert_eq!(statistics["features"]["ridge"], 12);
         let names: Vec<_> =
             statistics["passes"].as_array().unwrap().iter().map(|pass| &pass["name"]).collect();
-        assert_eq!(names, ["detect", "link", "expand", "fill", "paths", "coverage", "strokes"]);
+        let of_strokes = ["detect", "link", "expand", "fill", "paths", "coverage", "strokes"];
+        let of_strokes = of_strokes.map(|name| format!("strokes.{name}"));
+        assert_eq!(names[0], "fill");
+        assert!(names[1..].iter().map(|name| name.as_str().unwrap()).eq(&of_strokes), "{names:?}");
     }
 
     /// The GPU counts what the reference program counted in 64 bits.

@@ -250,7 +250,7 @@ fn tones(tool: &Tool, side: u32, strokes: &mut [Vec<Stroke>], number: &mut u32) 
         let mut tries = 0;
         while sheet.mean() < target(tone) && tries < 1500 {
             tries += 1;
-            let is_across = tone >= 3 && *number % 4 != 0;
+            let is_across = tone >= 3 && !(*number).is_multiple_of(4);
             let density = &densities[usize::from(is_across)];
             let candidates = (0..CANDIDATES).map(|_| {
                 *number += 1;

@@ -18,10 +18,10 @@ use crate::technique::value::{VariableType, parse_color};
 pub(super) struct LibraryOptions {
     /// Your own folder with techniques, components, shaders and images
     /// [default: edgemesh in the folder for settings, as ~/.config/edgemesh]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", global = true)]
     pub(super) folder: Option<PathBuf>,
     /// Take shaders from this copy of shaders/ instead of the shipped ones
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", global = true)]
     pub(super) shaders: Option<PathBuf>,
 }
 

@@ -17,6 +17,7 @@ use edgemesh::oracle::FeatureCounts;
 use glam::DQuat;
 use image::RgbaImage;
 use serde::Serialize;
+use strokes::brush::Brush;
 use strokes::gpu::{self, Gpu};
 use strokes::mesh_buffers::Layout;
 use strokes::renderer::DetectionPath;
@@ -240,8 +241,21 @@ impl RenderCommand {
     fn technique(&self, is_quiet: bool) -> Result<(Library, Technique), Failure> {
         let library = self.library.load();
         let mut technique = self.library.technique(&library, &self.technique, is_quiet)?;
-        if let Some(brush) = &self.brush {
-            set(&mut technique, &format!("strokes.brush={brush}"), is_quiet)?;
+        match self.brush.as_deref() {
+            None => {}
+            Some(name) if name == "none" || Brush::NAMES.contains(&name) => {
+                set(&mut technique, &format!("strokes.brush={name}"), is_quiet)?;
+            }
+            Some(path) => {
+                if !Path::new(path).is_file() {
+                    let names = Brush::NAMES.join(", ");
+                    return Err(Failure::fault(format!(
+                        "--brush {path}: there is no such file; a brush is a PNG file, or one of \
+                         none, {names}"
+                    )));
+                }
+                technique.set_brush_file(path).map_err(Failure::usage)?;
+            }
         }
         for assignment in &self.set {
             set(&mut technique, assignment, is_quiet)?;

@@ -85,7 +85,10 @@ impl TechniquesCommand {
         }
         let count = all.list.len();
         let plural = if count == 1 { "mistake" } else { "mistakes" };
-        let message = format!("{all}\n{count} {plural} in {wrong_files} of {} files", files.len());
+        let told = all.to_string();
+        // The first one is announced as an error by who prints it.
+        let told = told.strip_prefix("error: ").unwrap_or(&told);
+        let message = format!("{told}\n{count} {plural} in {wrong_files} of {} files", files.len());
         Err(Failure { message, status: ExitStatus::Shader })
     }
 }

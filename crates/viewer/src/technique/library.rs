@@ -57,6 +57,7 @@ const TECHNIQUES: &[(&str, &str)] = shipped![
     "outline_thick",
     "outline_wide",
     "pen",
+    "phong",
     "sobel",
     "toon",
     "toon_image",

@@ -247,20 +247,29 @@ pub fn closest<'a>(wanted: &str, names: &[&'a str]) -> Option<&'a str> {
     near.filter(|(distance, _)| *distance <= most).min_by_key(|near| near.0).map(|near| near.1)
 }
 
-/// Letters to insert, drop or change to get from one name to the other.
+/// Letters to insert, drop, change or swap with the next one to get from one name to the
+/// other.
 fn edit_distance(from: &str, to: &str) -> usize {
+    let from: Vec<char> = from.chars().collect();
     let to: Vec<char> = to.chars().collect();
-    let mut row: Vec<usize> = (0..=to.len()).collect();
-    for (at, letter) in from.chars().enumerate() {
-        let mut before = row[0];
-        row[0] = at + 1;
+    // The rows of the table before the last one, the last one, and the one under way.
+    let mut earlier = vec![0; to.len() + 1];
+    let mut last: Vec<usize> = (0..=to.len()).collect();
+    for (at, letter) in from.iter().enumerate() {
+        let mut row = vec![at + 1];
         for (column, other) in to.iter().enumerate() {
-            let changed = before + usize::from(letter != *other);
-            before = row[column + 1];
-            row[column + 1] = changed.min(before + 1).min(row[column] + 1);
+            let changed = last[column] + usize::from(letter != other);
+            let mut least = changed.min(last[column + 1] + 1).min(row[column] + 1);
+            let is_swapped =
+                at > 0 && column > 0 && *letter == to[column - 1] && from[at - 1] == *other;
+            if is_swapped {
+                least = least.min(earlier[column - 1] + 1);
+            }
+            row.push(least);
         }
+        earlier = std::mem::replace(&mut last, row);
     }
-    row[to.len()]
+    last[to.len()]
 }
 
 #[cfg(test)]
@@ -272,6 +281,7 @@ mod tests {
         let names = ["threshold", "texture", "render"];
         assert_eq!(closest("treshold", &names), Some("threshold"));
         assert_eq!(closest("tex", &names), None);
+        assert_eq!(closest("rednre", &names), Some("render"), "two letters swapped, twice");
         assert_eq!(closest("textur", &names), Some("texture"));
     }
 

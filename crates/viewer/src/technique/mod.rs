@@ -98,6 +98,23 @@ impl Technique {
         Ok(mistakes)
     }
 
+    /// Lays a picture file on all visible strokes, whatever its name ends in.
+    ///
+    /// # Errors
+    /// Where no pass has visible strokes.
+    pub fn set_brush_file(&mut self, path: &str) -> Result<(), String> {
+        let source = texture_name::TextureSource::File(path.to_owned());
+        let name = texture_name::TextureName { source, is_filtered: None };
+        for at in self.targets("strokes")? {
+            let pass = &mut self.passes[at];
+            if let Some((index, _)) = pass.component.variable("brush") {
+                let value = value::Value::Texture(name.clone());
+                pass.set_value(index, value, None, &mut Mistakes::default());
+            }
+        }
+        Ok(())
+    }
+
     /// The passes that a name of `--set` stands for: that of the name and those split
     /// from it, or the one that a class is given.
     fn targets(&mut self, name: &str) -> Result<Vec<usize>, String> {

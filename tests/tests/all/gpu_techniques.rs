@@ -1,0 +1,274 @@
+//! Techniques on the GPU: what passes hand to each other, and pictures of those that
+//! ship.
+
+use std::path::Path;
+
+use edgemesh::camera::Camera;
+use edgemesh::edge_mesh::EdgeMesh;
+use image::RgbaImage;
+use strokes::readback::read_texels;
+use testkit::compare::Golden;
+use testkit::locate::workspace_root;
+use viewer::lighting::Lighting;
+use viewer::render::{PictureOptions, PictureRenderer, Scene};
+use viewer::technique::Technique;
+use viewer::technique::library::Library;
+
+use crate::gpu_device::{gpu, is_pinned_driver};
+use crate::gpu_render::{own_model, picture, picture_with, scene_of, technique};
+
+/// A technique from the texts of its files, the first of which describes it.
+fn written(folder: &Path, files: &[(&str, &str)]) -> Technique {
+    for (name, text) in files {
+        std::fs::write(folder.join(name), text).unwrap();
+    }
+    let path = folder.join(files[0].0);
+    Library::shipped().technique_file(&path).unwrap_or_else(|mistakes| panic!("{mistakes}")).0
+}
+
+fn small(size: [u32; 2]) -> PictureOptions {
+    PictureOptions { size, samples: 1, ..PictureOptions::default() }
+}
+
+/// Draws `frames` pictures and reads a generated texture of four floats.
+fn read_generated(technique: &Technique, frames: usize, name: &str) -> (u32, Vec<[f32; 4]>) {
+    let mesh = own_model("cube");
+    let scene = scene_of(&mesh);
+    let mut renderer =
+        PictureRenderer::new(gpu(), &scene, technique, &[], &small([32, 16])).unwrap();
+    for _ in 0..frames {
+        renderer.render(&Camera::default_view(&mesh.bounds)).unwrap();
+    }
+    let texture = renderer.generated(name).unwrap();
+    (texture.width(), read_texels(gpu(), texture, 16).unwrap())
+}
+
+/// The files of the guide's effect, as someone new would copy them from there.
+#[test]
+fn the_effect_in_the_guide_runs_without_a_build() {
+    let guide = std::fs::read_to_string(workspace_root().join("docs/techniques.md")).unwrap();
+    let block = |kind: &str| {
+        let start = guide.find(&format!("```{kind}\n")).unwrap() + kind.len() + 4;
+        let end = start + guide[start..].find("```").unwrap();
+        guide[start..end].to_owned()
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let files = [("halftone.toml", block("toml")), ("halftone.wgsl", block("wgsl"))];
+    let files = files.each_ref().map(|(name, text)| (*name, text.as_str()));
+    let mut technique = written(folder.path(), &files);
+    technique.set("dots.ink_color=#ff0000").unwrap();
+    technique.set("strokes.render=false").unwrap();
+    let mesh = own_model("torus_knot");
+    let picture = picture(&mesh, &Camera::default_view(&mesh.bounds), &technique, 256, 4);
+    let reds = picture.pixels().filter(|pixel| pixel.0 == [255, 0, 0, 255]).count();
+    let whites = picture.pixels().filter(|pixel| pixel.0 == [255, 255, 255, 255]).count();
+    assert!(reds > 1500 && whites > 30_000, "{reds} red, {whites} white");
+}
+
+const COUNT: &str = r#"
+[component.count]
+inherits = "process_texture"
+[component.count.variable]
+before = { type = "texture" }
+step = { type = "vector2", default = [0.25, 1], fragment_parameter = true }
+[component.count.modify]
+fragment_program = { default = "count:count" }
+render_target_format = { default = "rgba32f" }
+
+[[pass]]
+component = "count"
+render_target = "sum"
+before = "<generated>:sum_color"
+"#;
+
+const COUNT_SHADER: &str = "
+struct Params { step: vec2f }
+@group(1) @binding(0) var<uniform> params: Params;
+@group(1) @binding(1) var before: texture_2d<f32>;
+@fragment
+fn count(@builtin(position) at: vec4f) -> @location(0) vec4f {
+    return textureLoad(before, vec2i(at.xy), 0) + vec4f(params.step, 0.0, 0.0);
+}
+";
+
+#[test]
+fn a_pass_in_place_sees_the_frame_before_and_nothing_at_first() {
+    let folder = tempfile::tempdir().unwrap();
+    let technique = written(folder.path(), &[("count.toml", COUNT), ("count.wgsl", COUNT_SHADER)]);
+    for frames in [1_u8, 2, 5] {
+        let (_, texels) = read_generated(&technique, frames.into(), "sum_color");
+        let wanted = [0.25 * f32::from(frames), f32::from(frames), 0.0, 0.0];
+        assert!(texels.iter().all(|texel| *texel == wanted), "{frames}: {:?}", texels[0]);
+    }
+}
+
+#[test]
+fn passes_run_once_or_when_something_has_changed() {
+    for (run, after_a_change) in [("always", 5.0), ("once", 1.0), ("changed", 2.0)] {
+        let folder = tempfile::tempdir().unwrap();
+        let text = format!("{COUNT}run = \"{run}\"\n");
+        let mut technique =
+            written(folder.path(), &[("count.toml", &text), ("count.wgsl", COUNT_SHADER)]);
+        let mesh = own_model("cube");
+        let (scene, camera) = (scene_of(&mesh), Camera::default_view(&mesh.bounds));
+        let mut renderer =
+            PictureRenderer::new(gpu(), &scene, &technique, &[], &small([8, 8])).unwrap();
+        let frames = |renderer: &mut PictureRenderer, count: usize| {
+            (0..count).for_each(|_| drop(renderer.render(&camera).unwrap()));
+        };
+        frames(&mut renderer, 3);
+        renderer.reload(&scene, &technique, &[]).unwrap();
+        technique.set("count.step=2,1").unwrap();
+        renderer.reload(&scene, &technique, &[]).unwrap();
+        frames(&mut renderer, 2);
+        let texels: Vec<[f32; 4]> =
+            read_texels(gpu(), renderer.generated("sum_color").unwrap(), 16).unwrap();
+        assert_eq!(texels[0][1].to_bits(), f32::to_bits(after_a_change), "{run}");
+    }
+}
+
+#[test]
+fn targets_have_the_sizes_that_are_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    for (width, height, scale, wanted) in
+        [(0, 0, 1.0, [32, 16]), (-2, -4, 1.0, [16, 4]), (7, 0, 1.0, [7, 16]), (0, 0, 2.0, [64, 32])]
+    {
+        let text = format!(
+            "[[pass]]\ncomponent = \"render_normals\"\nrender_target = \"n\"\n\
+             render_target_format = \"rgba32f\"\nrender_target_width = {width}\n\
+             render_target_height = {height}\nrender_target_scale = {scale:.1}\n"
+        );
+        let technique = written(folder.path(), &[("n.toml", &text)]);
+        let (row, texels) = read_generated(&technique, 1, "n_color");
+        assert_eq!([row, u32::try_from(texels.len()).unwrap() / row], wanted);
+        let unlike = texels.iter().filter(|texel| **texel != texels[0]).count();
+        assert!(unlike > 2, "the cube is in it, {width} x {height}");
+    }
+}
+
+/// What is copied is what is there, and a depth is nearer than nothing where the model is.
+#[test]
+fn the_picture_so_far_and_its_depth_are_copied() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "[[pass]]\ncomponent = \"render_gooch\"\n\
+        [[pass]]\ncomponent = \"copy_to_texture\"\ntexture = \"kept\"\n\
+        [[pass]]\nname = \"deep\"\ncomponent = \"copy_to_texture\"\ntexture = \"far\"\ndepth = true\n\
+        [[pass]]\nname = \"black\"\ncomponent = \"render_flat\"\ncolor = \"#000000\"\nclear_color = \"#000000\"\n\
+        [[pass]]\ncomponent = \"composite\"\ntexture = \"<generated>:kept\"\nblend = \"replace\"\n";
+    let copied = written(folder.path(), &[("copied.toml", text)]);
+    let plain =
+        written(folder.path(), &[("plain.toml", "[[pass]]\ncomponent = \"render_gooch\"\n")]);
+    let mesh = own_model("torus_knot");
+    let camera = Camera::default_view(&mesh.bounds);
+    for samples in [1, 4] {
+        let draw = |technique| picture(&mesh, &camera, technique, 128, samples);
+        assert!(draw(&copied) == draw(&plain), "{samples} samples");
+        let scene = scene_of(&mesh);
+        let options = PictureOptions { size: [64; 2], samples, ..PictureOptions::default() };
+        let mut renderer = PictureRenderer::new(gpu(), &scene, &copied, &[], &options).unwrap();
+        renderer.render(&camera).unwrap();
+        let depths: Vec<f32> = read_texels(gpu(), renderer.generated("far").unwrap(), 4).unwrap();
+        let covered = depths.iter().filter(|depth| **depth > 0.0).count();
+        assert!((300..2000).contains(&covered), "{covered} of {} pixels", depths.len());
+    }
+}
+
+/// Half of a colour over another, in each way, against what is written down for it.
+#[test]
+fn blends_are_the_usual_ones() {
+    let folder = tempfile::tempdir().unwrap();
+    let (below, above) = ([0.8, 0.4, 0.2], [0.5, 0.25, 1.0]);
+    let laid = |blend: &str, b: f64, s: f64| match blend {
+        "replace" => s,
+        "over" => s + b * 0.5,
+        "multiply" => s * b + b * 0.5,
+        "add" => (s + b).min(1.0),
+        "screen" => s + b - s * b,
+        "darken" => s.min(b),
+        _ => s.max(b),
+    };
+    for blend in ["replace", "over", "multiply", "add", "screen", "darken", "lighten"] {
+        let text = format!(
+            "[[pass]]\nname = \"above\"\ncomponent = \"render_flat\"\nclear_color = {above:?}\n\
+             color = {above:?}\nrender_target = \"above\"\nrender_target_format = \"rgba16f\"\n\
+             [[pass]]\nname = \"below\"\ncomponent = \"render_flat\"\nclear_color = {below:?}\ncolor = {below:?}\n\
+             [[pass]]\ncomponent = \"composite\"\ntexture = \"<generated>:above_color\"\nopacity = 0.5\nblend = \"{blend}\"\n"
+        );
+        let technique = written(folder.path(), &[("blend.toml", &text)]);
+        let mesh = own_model("cube");
+        let drawn = picture(&mesh, &Camera::default_view(&mesh.bounds), &technique, 16, 1);
+        for pixel in [drawn.get_pixel(0, 0), drawn.get_pixel(8, 8)] {
+            for channel in 0..3 {
+                // Half of it, premultiplied.
+                let wanted = laid(blend, below[channel], 0.5 * above[channel]) * 255.0;
+                let found = f64::from(pixel.0[channel]);
+                assert!((found - wanted).abs() <= 1.0, "{blend}: {found}, not {wanted:.1}");
+            }
+        }
+    }
+}
+
+/// Nothing is drawn behind a clip plane, by fills, strokes or detectors, and detectors
+/// outline the cut.
+#[test]
+fn clip_planes_cut_everything_and_detectors_outline_the_cut() {
+    let mesh = own_model("torus_knot");
+    let mut camera = Camera::default_view(&mesh.bounds);
+    camera.eye = camera.target + glam::DVec3::Z * mesh.bounds.radius() * 3.0;
+    camera.is_orthographic = true;
+    let lighting = Lighting { clip_planes: vec![[0.0, -1.0, 0.0, 0.0]], ..Lighting::default() };
+    let cut = PictureOptions { size: [200; 2], lighting, ..PictureOptions::default() };
+    let dark = |picture: &RgbaImage, rows: std::ops::Range<u32>| {
+        let dark = |x: &u32, y: u32| picture.get_pixel(*x, y).0[1] < 128;
+        rows.map(|y| (0..200).filter(|x| dark(x, y)).count()).sum::<usize>()
+    };
+    for name in ["ink", "linked", "hidden_line", "cartoon", "toon_image", "outline_planes"] {
+        let drawn = picture_with(&mesh, &camera, &technique(name, &[]), &cut);
+        let above = dark(&drawn, 0..97);
+        let below = dark(&drawn, 103..200);
+        assert!(above == 0 && below > 200, "{name}: {above} above the cut, {below} below");
+    }
+    let rim =
+        |name: &str| dark(&picture_with(&mesh, &camera, &technique(name, &[]), &cut), 98..102);
+    let (detected, drawn) = (rim("outline_planes"), rim("ink"));
+    assert!(detected > 3 * drawn.max(30), "{detected} pixels of the cut; strokes have {drawn}");
+}
+
+/// A technique of its own for an object changes its fill and its strokes, and no others.
+#[test]
+fn objects_have_the_fill_and_the_strokes_of_their_own_technique() {
+    let mesh = own_model("cube");
+    let scene = {
+        let mut scene = scene_of(&mesh);
+        let mut second = scene.objects[0];
+        second.world_from_object = glam::DMat4::from_translation(glam::DVec3::X * 4.0);
+        (second.look, scene.objects[0].look) = (0, 9);
+        scene.objects.push(second);
+        Scene::placed(scene.models, scene.objects)
+    };
+    let own = [technique("ink", &["fill.color=#00ff00", "strokes.color=#ff0000"])];
+    let options = small([256, 128]);
+    let main = technique("ink", &[]);
+    let mut renderer = PictureRenderer::new(gpu(), &scene, &main, &own, &options).unwrap();
+    let drawn = renderer.render(&Camera::default_view(&scene.bounds)).unwrap().0;
+    let count = |color: [u8; 4]| drawn.pixels().filter(|pixel| pixel.0 == color).count();
+    let (green, red, black) =
+        (count([0, 255, 0, 255]), count([255, 0, 0, 255]), count([0, 0, 0, 255]));
+    assert!(green > 500 && red > 100 && black > 100, "{green} green, {red} red, {black} black");
+}
+
+fn golden(name: &str, mesh: &EdgeMesh, technique: &Technique) {
+    let drawn = picture(mesh, &Camera::default_view(&mesh.bounds), technique, 256, 4);
+    Golden::shaded(is_pinned_driver()).check(name, &drawn);
+}
+
+#[test]
+fn golden_techniques() {
+    let (knot, bracket) = (own_model("torus_knot"), own_model("bracket"));
+    for name in ["anime", "blueprint", "cartoon", "gooch", "hatching", "toon_image"] {
+        golden(&format!("torus_knot-{name}"), &knot, &technique(name, &[]));
+    }
+    for name in ["outline_combined", "outline_thick", "outline_planes", "sobel", "debug_features"] {
+        golden(&format!("bracket-{name}"), &bracket, &technique(name, &[]));
+    }
+}
