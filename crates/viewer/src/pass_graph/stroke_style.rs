@@ -191,3 +191,87 @@ pub(crate) fn parse_curve(value: &str, most: f32) -> Result<[f32; CURVE_LENGTH],
         numbers[first] * (1.0 - t) + numbers[next] * t
     }))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pass_graph::strokes_of;
+    use crate::technique::library::Library;
+
+    const BUILT: [f64; 2] = [0.5, 0.6];
+
+    fn look(settings: &[&str], frame: &Frame) -> Look {
+        let mut technique = Library::shipped().technique("ink").unwrap().0;
+        for setting in settings {
+            technique.set(setting).unwrap();
+        }
+        strokes_of(&technique, frame, BUILT).unwrap()
+    }
+
+    fn layers(settings: &[&str]) -> Vec<Layer> {
+        look(settings, &Frame::default()).layers
+    }
+
+    #[test]
+    fn classes_that_look_alike_are_one_layer() {
+        assert_eq!(layers(&[]).len(), 1);
+        let two = layers(&["ridge.width=4"]);
+        assert_eq!(two.len(), 2);
+        assert_eq!(two[1].classes, [EdgeClass::Ridge]);
+        let ridge_again = layers(&["ridge.width=4", "strokes.width=4"]);
+        assert_eq!(ridge_again.len(), 1, "all are 4 wide now");
+        assert_eq!(layers(&["strokes.render=false"]).len(), 0);
+        let silhouette = layers(&["strokes.render=false", "silhouette.render=true"]);
+        assert_eq!(silhouette[0].classes, [EdgeClass::Contour], "found, and not drawn");
+        assert_eq!(layers(&["hidden.render=true"]).len(), 1);
+        assert_eq!(layers(&["hidden-ridge.render=true"]).len(), 2);
+    }
+
+    #[test]
+    fn units_of_the_model_go_by_its_frame() {
+        let frame = Frame { scale: 0.5, ..Frame::default() };
+        let look =
+            look(&["strokes.width=3", "strokes.width_unit=model", "strokes.fade=2,4"], &frame);
+        let style = look.layers[0].visible.as_ref().unwrap();
+        assert_eq!((style.width, style.fade), (Width::World(1.5), Some([1.0, 2.0])));
+    }
+
+    #[test]
+    fn thresholds_that_are_not_set_are_those_of_the_mesh() {
+        let frame = Frame::default();
+        assert_eq!(look(&[], &frame).thresholds, None);
+        let set = look(&["strokes.ridge_angle=90"], &frame).thresholds.unwrap();
+        assert!((set[0] - std::f64::consts::FRAC_PI_2).abs() < 1e-6, "{set:?}");
+        assert_eq!(set[1].to_bits(), BUILT[1].to_bits());
+    }
+
+    #[test]
+    fn values_outside_mean_what_they_say() {
+        let frame = Frame::default();
+        let plain = look(&["strokes.linked=true"], &frame);
+        let path = plain.layers[0].visible.as_ref().unwrap().path.clone().unwrap();
+        assert_eq!((path.clone(), path.dash_px), (PathStyle::default(), None));
+        let set = look(
+            &[
+                "strokes.linked=true",
+                "strokes.dash=12,8",
+                "strokes.min-length=5",
+                "strokes.ends=flat",
+            ],
+            &frame,
+        );
+        let path = set.layers[0].visible.as_ref().unwrap().path.clone().unwrap();
+        assert_eq!(
+            (path.dash_px, path.min_length_px, path.end),
+            (Some([12.0, 8.0]), Some(5.0), End::Flat)
+        );
+    }
+
+    #[test]
+    fn curves_go_evenly_through_their_numbers() {
+        assert_eq!(parse_curve("0, 7", 10.0), Ok([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]));
+        for text in ["1", "1,2,x", "0.5,11", "1,1,1,1,1,1,1,1,1"] {
+            assert!(parse_curve(text, 10.0).is_err(), "{text}");
+        }
+    }
+}

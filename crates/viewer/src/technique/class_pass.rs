@@ -76,3 +76,51 @@ pub(crate) fn split(passes: &mut Vec<Pass>, name: &str) -> Option<Vec<usize>> {
     passes.insert(at + 1, own);
     Some(vec![at + 1])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::technique::Technique;
+    use crate::technique::library::Library;
+
+    fn ink(settings: &[&str]) -> Technique {
+        let mut technique = Library::shipped().technique("ink").unwrap().0;
+        for setting in settings {
+            technique.set(setting).unwrap();
+        }
+        technique
+    }
+
+    #[test]
+    fn a_class_that_is_set_has_a_pass_of_its_own_behind_that_which_drew_it() {
+        let technique = ink(&["ridge.width=4", "hidden-valley.render=true"]);
+        let names: Vec<&str> = technique.passes.iter().map(|pass| pass.name.as_str()).collect();
+        assert_eq!(names, ["fill", "hidden", "hidden_valley", "strokes", "ridge", "silhouette"]);
+        let classes = |name: &str| technique.pass(name).unwrap().string("classes").to_owned();
+        assert_eq!(classes("ridge"), "ridge");
+        assert_eq!(classes("strokes"), "contour, marked, boundary, material, smoothing, valley");
+        assert!(!classes("hidden").contains("valley"));
+        let valley = technique.pass("hidden_valley").unwrap();
+        assert!(valley.is_rendered() && valley.string("visibility") == "hidden");
+    }
+
+    #[test]
+    fn what_is_set_of_a_pass_is_set_of_those_split_from_it() {
+        let technique = ink(&["ridge.width=4", "strokes.color=#ff0000", "strokes.width=6"]);
+        for name in ["strokes", "ridge"] {
+            let pass = technique.pass(name).unwrap();
+            assert_eq!(pass.numbers::<4>("color"), [1.0, 0.0, 0.0, 1.0], "{name}");
+            assert_eq!(pass.number("width").to_bits(), 6_f32.to_bits(), "{name}");
+        }
+    }
+
+    #[test]
+    fn classes_that_nobody_draws_cannot_be_set() {
+        let mut fur = Library::shipped().technique("fur").unwrap().0;
+        let error = fur.set("marked.width=3").unwrap_err();
+        assert!(error.contains("no pass of fur draws 'marked'"), "{error}");
+        assert!(fur.set("contour.width=3").is_ok(), "that is a pass");
+        assert_eq!(classes_of("ridge, edge"), Err("edge".to_owned()));
+        assert_eq!(classes_of("all").unwrap().len(), EdgeClass::ALL.len());
+    }
+}

@@ -235,3 +235,59 @@ pub(crate) fn text_of(path: &Path) -> Result<Arc<SourceText>, Mistake> {
     let text = String::from_utf8(bytes).map_err(|_| failed(&"it is not text in UTF-8"))?;
     Ok(SourceText::new(name, text))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::technique::plan::Plan;
+    use crate::technique::program::ShaderFiles;
+    use crate::technique::value::Value;
+
+    #[test]
+    fn everything_that_ships_is_sound() {
+        let library = Library::shipped();
+        assert_eq!(library.mistakes(), &Mistakes::default());
+        let names: Vec<&str> = library.technique_names().collect();
+        assert!(names.len() >= 30, "{names:?}");
+        for name in names {
+            let (technique, warnings) =
+                library.technique(name).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+            assert_eq!(warnings, Mistakes::default(), "{name}");
+            assert!(!technique.about.is_empty(), "{name} says what it shows");
+            Plan::of(&technique, &ShaderFiles::default())
+                .unwrap_or_else(|mistakes| panic!("{name}: {mistakes}"));
+        }
+    }
+
+    #[test]
+    fn components_inherit_variables_and_what_they_modify() {
+        let library = Library::shipped();
+        let component = |name: &str| library.components()[name].clone();
+        let (phong, simple) = (component("render_phong"), component("simple_render"));
+        assert_eq!((phong.core, phong.inherits.as_deref()), (simple.core, Some("simple_render")));
+        let program =
+            |of: &SharedDescriptor| of.variable("fragment_program").unwrap().1.default.clone();
+        assert_eq!(program(&simple), None, "each pass must set it");
+        assert_eq!(program(&phong), Some(Value::String("phong:phong".into())));
+        let deep = component("edge_detect_normals_5_taps");
+        let threshold = deep.variable("threshold").unwrap().1;
+        assert_eq!(threshold.default, Some(Value::Numbers(vec![0.85])));
+        assert_eq!(threshold.minimum, Some(Value::Numbers(vec![-1.0])), "of its parent");
+        assert_eq!(threshold.ui_minimum, threshold.minimum, "a limit is that of the slider");
+        assert_eq!(threshold.ui_maximum, Some(Value::Numbers(vec![1.0])), "unless it is set");
+        for name in ["render", "run"] {
+            assert!(deep.variable(name).is_some(), "every pass has {name}");
+        }
+    }
+
+    #[test]
+    fn passes_without_a_name_have_that_of_their_component() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("two.toml");
+        let pass = "[[pass]]\ncomponent = \"render_flat\"\n";
+        std::fs::write(&path, [pass, pass].concat()).unwrap();
+        let technique = Library::shipped().technique_file(&path).unwrap().0;
+        let names: Vec<&str> = technique.passes.iter().map(|pass| pass.name.as_str()).collect();
+        assert_eq!((technique.name.as_str(), names), ("two", vec!["render_flat", "render_flat_2"]));
+    }
+}

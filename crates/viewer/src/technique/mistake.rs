@@ -300,7 +300,7 @@ mod tests {
              render_phong, phon\n"
         );
         assert_eq!(source.span(2, 13, 7), 21..28);
-        assert_eq!(source.span(9, 3, 7), 30..30);
+        assert_eq!(source.span(9, 3, 7), 29..29);
     }
 
     #[test]
