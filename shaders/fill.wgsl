@@ -25,7 +25,7 @@ fn fill_vertex(@location(0) position: vec3f) -> FillVarying {
 
 @fragment
 fn fill_fragment(at: FillVarying) -> @location(0) vec4f {
-    if frame.clip_plane_count > 0u && is_cut_away(at.point_in_world) {
+    if is_cut_away(at.point_in_world) {
         discard;
     }
     return fill.color;

@@ -67,8 +67,14 @@ fn px_per_unit_at(distance: f32) -> f32 {
     return frame.px_per_unit / dot(frame.projection.zw, vec2f(distance, 1.0));
 }
 
+// Whether there can be clip planes: shaders that discard nothing test depths early.
+override CLIPS: bool = true;
+
 // Whether a clip plane cuts a point of the world away.
 fn is_cut_away(point_in_world: vec3f) -> bool {
+    if !CLIPS {
+        return false;
+    }
     for (var plane = 0u; plane < frame.clip_plane_count; plane++) {
         if dot(frame.clip_planes[plane], vec4f(point_in_world, 1.0)) < 0.0 {
             return true;

@@ -38,7 +38,7 @@ fn varying_of(vertex: StrokeVertex) -> StrokeVarying {
 
 // Nothing where a clip plane cuts away what a fragment, in pixels and depth, lies on.
 fn cut(position: vec4f, color: vec4f) -> vec4f {
-    if frame.clip_plane_count > 0u && is_cut_away(world_of(position.xy, position.z)) {
+    if is_cut_away(world_of(position.xy, position.z)) {
         return vec4f(0.0);
     }
     return color;

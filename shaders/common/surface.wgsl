@@ -86,7 +86,7 @@ fn surface_of(point: vec3f, normal: vec3f) -> Surface {
 
 // Draws nothing where a clip plane cuts.
 fn cut(at: SurfaceVarying) {
-    if frame.clip_plane_count > 0u && is_cut_away(at.point_in_world) {
+    if is_cut_away(at.point_in_world) {
         discard;
     }
 }

@@ -161,7 +161,7 @@ fn ribbon_fragment(in: RibbonVarying) -> @location(0) vec4f {
         coverage *= clamp((0.5 * in.dash_and_ink.z - nearest) / max(per_px, 1e-6) + 0.5, 0.0, 1.0);
     }
     let depth = mix(in.depth_and_near.x, in.depth_and_near.y, t);
-    if frame.clip_plane_count > 0u && is_cut_away(world_of(in.position.xy, depth)) {
+    if is_cut_away(world_of(in.position.xy, depth)) {
         coverage = 0.0;
     }
     if in.depth_and_near.z > 0.0 && coverage > 0.0 {

@@ -23,7 +23,7 @@ fn flat_vertex(@location(0) position: vec3f) -> FlatVarying {
 
 @fragment
 fn flat(at: FlatVarying) -> @location(0) vec4f {
-    if frame.clip_plane_count > 0u && is_cut_away(at.point_in_world) {
+    if is_cut_away(at.point_in_world) {
         discard;
     }
     return vec4f(params.color.rgb * params.color.a, params.color.a);

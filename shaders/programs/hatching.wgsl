@@ -121,7 +121,7 @@ fn per_vertex(at: HatchingVarying) -> @location(0) vec4f {
         unit(at.normal_in_object),
         weights,
     );
-    if frame.clip_plane_count > 0u && is_cut_away(at.point_in_world) {
+    if is_cut_away(at.point_in_world) {
         discard;
     }
     return color;

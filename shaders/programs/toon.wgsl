@@ -70,7 +70,7 @@ fn toon_vertex(vertex: SurfaceVertex) -> ToonVarying {
 fn per_vertex(at: ToonVarying) -> @location(0) vec4f {
     let texel = textureSample(base_texture, base_sampler, at.texcoord);
     let light_a_pixel = fwidth(at.intensity);
-    if frame.clip_plane_count > 0u && is_cut_away(at.point_in_world) {
+    if is_cut_away(at.point_in_world) {
         discard;
     }
     return stepped(at.intensity, light_a_pixel, material_at(at.part, texel));

@@ -43,9 +43,10 @@ pub(crate) enum FillKind {
 /// The pipelines of the fill.
 #[derive(Debug)]
 pub(crate) struct FillPipeline {
-    whole: wgpu::RenderPipeline,
-    clear: wgpu::RenderPipeline,
-    mark: wgpu::RenderPipeline,
+    /// Without clip planes, and with some.
+    whole: [wgpu::RenderPipeline; 2],
+    clear: [wgpu::RenderPipeline; 2],
+    mark: [wgpu::RenderPipeline; 2],
     pass_layout: wgpu::BindGroupLayout,
     draw_layout: wgpu::BindGroupLayout,
 }
@@ -70,7 +71,10 @@ impl FillPipeline {
             immediate_size: 0,
         });
         let module = ShaderSource::embedded("fill.wgsl")?.module(device, "fill");
-        let pipeline = |kind| pipeline(device, &pipeline_layout, &module, formats, kind);
+        let pipeline = |kind| {
+            [false, true]
+                .map(|clips| pipeline(device, &pipeline_layout, &module, formats, (kind, clips)))
+        };
         Ok(Self {
             whole: pipeline(FillKind::Whole),
             clear: pipeline(FillKind::Clear),
@@ -91,12 +95,13 @@ impl FillPipeline {
         bind_buffers(device, "fill object", &self.draw_layout, &[(0, object)])
     }
 
-    pub(crate) fn set(&self, pass: &mut wgpu::RenderPass, kind: FillKind) {
-        pass.set_pipeline(match kind {
+    pub(crate) fn set(&self, pass: &mut wgpu::RenderPass, kind: FillKind, clips: bool) {
+        let pipelines = match kind {
             FillKind::Whole => &self.whole,
             FillKind::Clear => &self.clear,
             FillKind::Mark => &self.mark,
-        });
+        };
+        pass.set_pipeline(&pipelines[usize::from(clips)]);
     }
 
     /// Draws one mesh; after [`Self::set`], `@group(0)` must be the frame,
@@ -115,8 +120,9 @@ fn pipeline(
     layout: &wgpu::PipelineLayout,
     module: &wgpu::ShaderModule,
     formats: &TargetFormats,
-    kind: FillKind,
+    (kind, clips): (FillKind, bool),
 ) -> wgpu::RenderPipeline {
+    let constants = [("CLIPS", f64::from(u8::from(clips)))];
     let write_mask = match kind {
         FillKind::Whole => wgpu::ColorWrites::ALL,
         FillKind::Clear | FillKind::Mark => wgpu::ColorWrites::empty(),
@@ -140,7 +146,10 @@ fn pipeline(
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some("fill_fragment"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &constants,
+                ..Default::default()
+            },
             targets: &[Some(wgpu::ColorTargetState {
                 format: formats.color,
                 blend: None,

@@ -27,6 +27,8 @@ pub(crate) struct FrameEncoder<'a> {
     pub(crate) steps: Vec<DrawStep>,
     /// Whether the samples are averaged to the picture in the end.
     pub(crate) resolves: bool,
+    /// Whether there are clip planes.
+    pub(crate) clips: bool,
 }
 
 /// What is drawn at once, in the order of a frame.
@@ -151,7 +153,7 @@ impl FrameEncoder<'_> {
     }
 
     fn fill(&self, pass: &mut wgpu::RenderPass, object: &Object, kind: FillKind, value: u32) {
-        self.renderer.fill.set(pass, kind);
+        self.renderer.fill.set(pass, kind, self.clips);
         pass.set_bind_group(0, &self.renderer.frame.bind_group, &[]);
         pass.set_bind_group(1, &object.look.fill_pass, &[]);
         pass.set_bind_group(2, &object.fill_group, &[]);

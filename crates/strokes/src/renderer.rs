@@ -377,8 +377,15 @@ impl Renderer {
             .then(|| self.frame.with_fill(&gpu.device, &self.layouts.frame_fill, targets));
         let steps = DrawStep::plan(&placed);
         let resolves = frame.resolves;
-        let encode =
-            FrameEncoder { renderer: self, targets, objects: &placed, frame_fill, steps, resolves };
+        let encode = FrameEncoder {
+            renderer: self,
+            targets,
+            objects: &placed,
+            frame_fill,
+            steps,
+            resolves,
+            clips: frame.uniform.clip_plane_count > 0,
+        };
         let values = encode.stencil_values();
         encode.encode_fill(encoder, frame.fill, &values, timer);
         encode.encode_paths(encoder, timer);

@@ -208,6 +208,7 @@ impl<'a> PictureRenderer<'a> {
             layout: options.layout,
             path: options.path,
             is_transparent: options.is_transparent,
+            clips: !options.lighting.clip_planes.is_empty(),
         };
         let graph = PassGraph::new(gpu, scene, technique, &plan, looks, &graph_options)?;
         Ok(Self {

@@ -258,7 +258,9 @@ impl Builder<'_> {
     pub(super) fn target(&self, pass: &Pass, plan: &PassPlan) -> pipeline::PipelineTarget {
         let blend = blend::blend_state(pass.string("blend"));
         match &plan.target {
-            Target::Framebuffer => pipeline::PipelineTarget::framebuffer(&self.formats, blend),
+            Target::Framebuffer => {
+                pipeline::PipelineTarget::framebuffer(&self.formats, blend, self.options.clips)
+            }
             Target::Textures { colors, depth } => pipeline::PipelineTarget {
                 colors: colors.iter().map(|&at| self.plan.textures[at].format).collect(),
                 depth: depth.map(|at| self.plan.textures[at].format),
@@ -266,6 +268,7 @@ impl Builder<'_> {
                 blend,
                 is_pushed: false,
                 writes_depth: false,
+                clips: self.options.clips,
             },
         }
     }

@@ -68,6 +68,8 @@ pub struct GraphOptions {
     pub path: DetectionPath,
     /// Whether there is no paper behind the scene.
     pub is_transparent: bool,
+    /// Whether there can be clip planes; without them surfaces are drawn faster.
+    pub clips: bool,
 }
 
 /// A technique and a scene, ready to be drawn.

@@ -61,6 +61,7 @@ impl PingPong {
             blend: None,
             is_pushed: false,
             writes_depth: false,
+            clips: builder.options.clips,
         };
         let count = usize::try_from(pass.int("pass_count")).unwrap_or(0);
         let mut copied = plan.clone();

@@ -45,11 +45,17 @@ pub(crate) struct PipelineTarget {
     pub(crate) is_pushed: bool,
     /// Whether the program writes the depth itself.
     pub(crate) writes_depth: bool,
+    /// Whether there are clip planes.
+    pub(crate) clips: bool,
 }
 
 impl PipelineTarget {
     /// The picture.
-    pub(crate) fn framebuffer(formats: &TargetFormats, blend: Option<wgpu::BlendState>) -> Self {
+    pub(crate) fn framebuffer(
+        formats: &TargetFormats,
+        blend: Option<wgpu::BlendState>,
+        clips: bool,
+    ) -> Self {
         Self {
             colors: vec![formats.color],
             depth: Some(formats.depth),
@@ -57,6 +63,7 @@ impl PipelineTarget {
             blend,
             is_pushed: true,
             writes_depth: false,
+            clips,
         }
     }
 }
@@ -135,13 +142,18 @@ fn render_pipeline(
             })
         })
         .collect();
+    let constants = [("CLIPS", f64::from(u8::from(target.clips)))];
+    let options = |program: &Program| wgpu::PipelineCompilationOptions {
+        constants: if program.asks_for_clips { &constants } else { &[] },
+        ..Default::default()
+    };
     let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(label),
         layout: Some(layout),
         vertex: wgpu::VertexState {
             module: &modules[0],
             entry_point: Some(&vertex.function),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: options(vertex),
             buffers: if geometry == Geometry::Surfaces { &buffers } else { &[] },
         },
         primitive: wgpu::PrimitiveState::default(),
@@ -150,7 +162,7 @@ fn render_pipeline(
         fragment: Some(wgpu::FragmentState {
             module: &modules[1],
             entry_point: Some(&fragment.function),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: options(fragment),
             targets: &targets,
         }),
         multiview_mask: None,

@@ -59,6 +59,8 @@ pub struct Program {
     pub source: Arc<ShaderSource>,
     /// What it wants to be given.
     pub interface: Interface,
+    /// Whether it can be told that there are no clip planes.
+    pub asks_for_clips: bool,
 }
 
 /// What a program wants to be given, and gives.
@@ -288,7 +290,9 @@ impl ShaderFiles {
         if kind == ProgramKind::Fragment {
             interface.outputs = reflection.outputs(&module.entry_points[index]);
         }
-        let program = Program { function: function.to_owned(), source, interface };
+        let is_clips = |known: &naga::Override| known.name.as_deref() == Some("CLIPS");
+        let asks_for_clips = module.overrides.iter().any(|(_, known)| is_clips(known));
+        let program = Program { function: function.to_owned(), source, interface, asks_for_clips };
         mistakes.or(program).map(|(program, _)| program)
     }
 
