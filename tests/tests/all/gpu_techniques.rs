@@ -257,6 +257,20 @@ fn objects_have_the_fill_and_the_strokes_of_their_own_technique() {
     assert!(green > 500 && red > 100 && black > 100, "{green} green, {red} red, {black} black");
 }
 
+/// Paper is left out: what a fill clears to, an image of paper, and nothing else.
+#[test]
+fn transparency_leaves_every_kind_of_paper_out() {
+    let mesh = own_model("torus_knot");
+    let camera = Camera::default_view(&mesh.bounds);
+    let options = PictureOptions { is_transparent: true, ..small([64; 2]) };
+    for name in ["gooch", "cartoon", "blueprint"] {
+        let drawn = picture_with(&mesh, &camera, &technique(name, &[]), &options);
+        assert_eq!(drawn.get_pixel(0, 0).0, [0; 4], "{name}");
+        let covered = drawn.pixels().filter(|pixel| pixel.0[3] == 255).count();
+        assert!(covered > 100, "{name}: {covered} opaque pixels");
+    }
+}
+
 fn golden(name: &str, mesh: &EdgeMesh, technique: &Technique) {
     let drawn = picture(mesh, &Camera::default_view(&mesh.bounds), technique, 256, 4);
     Golden::shaded(is_pinned_driver()).check(name, &drawn);

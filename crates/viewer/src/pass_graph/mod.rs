@@ -223,12 +223,8 @@ impl PassGraph {
             if step.run.is_due() {
                 let strokes = self.strokes.as_ref();
                 step.encode(encoder, &mut encoding, &mut self.sources, strokes, timer)?;
-            } else if let Some(timer) = timer {
-                // The timer expects every pass.
-                encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                    label: Some("not due"),
-                    timestamp_writes: Some(timer.compute(0)),
-                });
+            } else {
+                screen_pass::skip(encoder, timer);
             }
         }
         resolve(encoder, &self.framebuffer, encoding.is_fresh);

@@ -11,7 +11,7 @@ use super::params::Iteration;
 use super::pipeline::{Geometry, PassPipeline, Programs};
 use crate::technique::mistake::{Place, SourceText};
 use crate::technique::pass::Pass;
-use crate::technique::plan::{PassPlan, Target};
+use crate::technique::plan::{PassPlan, Read, ReadSource, Target};
 use crate::technique::program::{Program, ProgramKind, ShaderFiles};
 
 /// A program over a whole target.
@@ -19,6 +19,8 @@ use crate::technique::program::{Program, ProgramKind, ShaderFiles};
 pub(crate) struct ScreenPass {
     pub(crate) pipeline: PassPipeline,
     buffers: Vec<Vec<wgpu::Buffer>>,
+    /// Whether it would be paper behind the scene where none is wanted.
+    is_unwanted_paper: bool,
 }
 
 /// The program that places the triangle over the target.
@@ -46,7 +48,12 @@ impl ScreenPass {
         let buffers = |group: &super::pipeline::PassGroup| {
             group.plan.buffers(device, pass, Iteration::default())
         };
-        Ok(Self { buffers: pipeline.groups.iter().map(buffers).collect(), pipeline })
+        let is_generated = |read: &Read| matches!(read.source, ReadSource::Generated(_));
+        let is_unwanted_paper = builder.options.is_transparent
+            && plan.target == Target::Framebuffer
+            && !plan.reads.iter().any(is_generated);
+        let buffers = pipeline.groups.iter().map(buffers).collect();
+        Ok(Self { pipeline, buffers, is_unwanted_paper })
     }
 
     pub(crate) fn encode(
@@ -57,6 +64,11 @@ impl ScreenPass {
         sources: &mut Sources,
         timer: Option<TimedPasses>,
     ) -> Result<(), Failure> {
+        // What is drawn before all else, of nothing that was drawn, is paper.
+        if self.is_unwanted_paper && encoding.is_fresh {
+            skip(encoder, timer);
+            return Ok(());
+        }
         let mut groups = Vec::new();
         for (group, buffers) in self.pipeline.groups.iter().zip(&self.buffers) {
             let bound = group.plan.group(encoding.gpu, &group.layout, buffers, sources, None)?;
@@ -65,6 +77,16 @@ impl ScreenPass {
         let timestamps = timer.map(|timer| timer.render(0));
         draw(encoder, encoding, plan, sources, &self.pipeline, &groups, timestamps);
         Ok(())
+    }
+}
+
+/// A pass that is not done; a timer expects it all the same.
+pub(crate) fn skip(encoder: &mut wgpu::CommandEncoder, timer: Option<TimedPasses>) {
+    if let Some(timer) = timer {
+        encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some("not due"),
+            timestamp_writes: Some(timer.compute(0)),
+        });
     }
 }
 
