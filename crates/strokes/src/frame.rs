@@ -387,12 +387,58 @@ pub(crate) fn bind_buffers(
 mod tests {
     use edgemesh::camera::Camera;
     use glam::DVec3;
+    use glam::dcamera::rh::{proj::directx, view::look_to_mat4};
 
     use super::*;
 
     /// The shader's `distance_of`.
     fn distance_of(depth: f32, [z_scale, z_offset, w_scale, w_offset]: [f32; 4]) -> f32 {
         (z_offset - depth * w_offset) / (depth * w_scale - z_scale)
+    }
+
+    /// The NPRView thesis, Equation 3.11, for a depth from 0 to 1.
+    fn equation_3_11(depth: f64, near: f64, far: f64) -> f64 {
+        -2.0 * near * far / ((2.0 * depth - 1.0) * (far - near) - (far + near))
+    }
+
+    /// Standard, reversed, infinite, orthographic, and orthographic reversed.
+    #[test]
+    fn distances_come_back_through_every_projection() {
+        let (near, far, fov): (f64, f64, f64) = (0.5, 40.0, 0.7);
+        let (eye, sight) = (DVec3::new(1.0, 2.0, 9.0), DVec3::new(0.3, -0.2, -1.0));
+        let sight = sight.try_normalize().unwrap();
+        let view_from_world = look_to_mat4(eye, sight, DVec3::Y);
+        let projections = [
+            ("standard", directx::perspective(fov, 1.5, near, far)),
+            ("reversed", directx::perspective(fov, 1.5, far, near)),
+            ("infinite", directx::perspective_infinite_reverse(fov, 1.5, near)),
+            ("orthographic", directx::orthographic(-9.0, 9.0, -6.0, 6.0, near, far)),
+            ("orthographic reversed", directx::orthographic(-9.0, 9.0, -6.0, 6.0, far, near)),
+        ];
+        for (name, clip_from_view) in projections {
+            let view = View {
+                clip_from_world: (clip_from_view * view_from_world).as_mat4(),
+                eye: eye.as_vec3().extend(1.0),
+                distance: sight.extend(-sight.dot(eye)).as_vec4(),
+            };
+            let around = Surroundings::default();
+            let frame = FrameUniform::new(&view, Vec2::new(300.0, 200.0), &around);
+            for want in [0.6_f32, 1.0, 3.0, 12.5, 39.0] {
+                // Exact, as a depth buffer of 32 bits rounds it.
+                let clip = clip_from_view * glam::DVec4::new(0.4, -0.3, -f64::from(want), 1.0);
+                let depth = clip.z / clip.w;
+                #[expect(clippy::cast_possible_truncation, reason = "as the buffer has it")]
+                let got = distance_of(depth as f32, frame.projection);
+                // A standard depth leaves few steps to what is far.
+                let bound = if name == "standard" { 2e-4 } else { 1e-5 };
+                assert!((got - want).abs() < bound * want, "{name}: {got} for {want}");
+                if name == "standard" {
+                    let thesis = equation_3_11(depth, near, far);
+                    let error = (thesis - f64::from(want)).abs();
+                    assert!(error < 1e-9 * f64::from(want), "{thesis} for {want}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -16,10 +16,10 @@ pub struct GpuTimer {
 
 impl GpuTimer {
     /// A timer for `pass_count` passes; `None` where the device has no
-    /// timestamps.
+    /// timestamps, or there are no passes.
     #[must_use]
     pub fn new(gpu: &Gpu, pass_count: u32) -> Option<Self> {
-        if !gpu.device.features().contains(Features::TIMESTAMP_QUERY) {
+        if pass_count == 0 || !gpu.device.features().contains(Features::TIMESTAMP_QUERY) {
             return None;
         }
         let count = 2 * pass_count;

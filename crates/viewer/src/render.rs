@@ -319,7 +319,8 @@ impl<'a> PictureRenderer<'a> {
 }
 
 fn timer_for(gpu: &Gpu, graph: &PassGraph) -> Option<GpuTimer> {
-    GpuTimer::new(gpu, edgemesh::index::to_u32(graph.time_names().len()))
+    let count = edgemesh::index::to_u32(graph.time_names().len());
+    GpuTimer::new(gpu, count)
 }
 
 /// A technique that could be checked and not be built has left nothing to draw.

@@ -271,6 +271,14 @@ fn transparency_leaves_every_kind_of_paper_out() {
     }
 }
 
+#[test]
+fn a_technique_whose_passes_are_all_switched_off_draws_nothing() {
+    let mesh = own_model("cube");
+    let off = technique("ink", &["fill.render=false", "strokes.render=false"]);
+    let drawn = picture(&mesh, &Camera::default_view(&mesh.bounds), &off, 32, 4);
+    assert!(drawn.pixels().all(|pixel| pixel.0 == [0; 4]), "nothing at all");
+}
+
 fn golden(name: &str, mesh: &EdgeMesh, technique: &Technique) {
     let drawn = picture(mesh, &Camera::default_view(&mesh.bounds), technique, 256, 4);
     Golden::shaded(is_pinned_driver()).check(name, &drawn);

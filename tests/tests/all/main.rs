@@ -11,6 +11,8 @@ mod expectations;
 #[cfg(feature = "gpu")]
 mod gpu_device;
 #[cfg(feature = "gpu")]
+mod gpu_edges;
+#[cfg(feature = "gpu")]
 mod gpu_graph;
 #[cfg(feature = "gpu")]
 mod gpu_joins;

@@ -137,7 +137,7 @@ impl Plan {
                 _ => false,
             });
             let target = targets[at].clone();
-            planner.check_blend(pass, &target);
+            planner.check_blend(pass, &target, is_in_place);
             let pass = PassPlan { target, vertex, fragment, background, reads, is_in_place };
             planner.plan.passes.push(pass);
         }
@@ -242,10 +242,24 @@ impl Planner<'_> {
             let name = format!("{name}_{suffix}");
             colors.push(self.texture(pass, "render_target", name, size, *format));
         }
+        self.check_cost(pass, &formats);
         let depth = (pass.component.core == CoreComponent::SimpleRender).then(|| {
             self.texture(pass, "render_target", format!("{name}_depth"), size, DEPTH_FORMAT)
         });
         Target::Textures { colors, depth }
+    }
+
+    /// What every adapter can write at once for a pixel.
+    fn check_cost(&mut self, pass: &Pass, formats: &[wgpu::TextureFormat]) {
+        let limits = wgpu::Limits::default();
+        let cost: u32 = formats.iter().filter_map(|format| format.target_pixel_byte_cost()).sum();
+        let most = limits.max_color_attachment_bytes_per_sample;
+        if cost > most {
+            let message = format!("the outputs take {cost} bytes a pixel, adapters have {most}");
+            let note = "give some of them smaller formats, as rgba16f or rgba8 (8 bytes each)";
+            let place = pass.place_of("render_target_format");
+            self.mistakes.add(Mistake::error(place, message).note(note));
+        }
     }
 
     /// The formats of `count` outputs: the last one stands for those behind it.
@@ -413,11 +427,16 @@ impl Planner<'_> {
         }
     }
 
-    fn check_blend(&mut self, pass: &Pass, target: &Target) {
+    fn check_blend(&mut self, pass: &Pass, target: &Target, is_in_place: bool) {
         let blend = pass.string("blend");
         let Target::Textures { colors, .. } = target else { return };
         if matches!(blend, "" | "replace") {
             return;
+        }
+        if is_in_place {
+            let message = format!("'{}' reads what it draws to, so it cannot blend", pass.name);
+            let note = "what was there before is read as a texture: mix it in the program";
+            self.mistakes.add(Mistake::error(pass.place_of("blend"), message).note(note));
         }
         for &color in colors {
             let texture = &self.plan.textures[color];
