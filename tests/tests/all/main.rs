@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod broken_techniques;
 mod child;
 mod commands;
 mod compare_strokes;

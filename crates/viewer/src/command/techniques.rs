@@ -70,12 +70,9 @@ impl TechniquesCommand {
         let mut all = Mistakes::default();
         let mut wrong_files = 0;
         for file in files {
-            let checked = library.technique_file(file).and_then(|(technique, warnings)| {
-                print_mistakes(&warnings, is_quiet);
-                let shaders = ShaderFiles::new(&technique.folders, self.library.shaders.clone());
-                Plan::of(&technique, &shaders)
-            });
-            if let Err(mistakes) = checked {
+            let mut mistakes = library.check(file, self.library.shaders.as_deref());
+            print_mistakes(&mistakes.take_warnings(), is_quiet);
+            if mistakes.has_errors() {
                 all.append(mistakes);
                 wrong_files += 1;
             }

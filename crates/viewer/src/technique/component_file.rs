@@ -119,12 +119,13 @@ fn draft(component: &Entry, entries: &[Entry], mistakes: &mut Mistakes) -> Compo
     draft
 }
 
-/// Makes descriptors of drafts, which may inherit from each other and from `known`.
+/// Makes descriptors of drafts, which may inherit from each other and from `known`; none
+/// for those whose mistakes were told.
 pub(crate) fn resolve(
     drafts: &[ComponentDraft],
     known: &BTreeMap<String, SharedDescriptor>,
     mistakes: &mut Mistakes,
-) -> BTreeMap<String, SharedDescriptor> {
+) -> BTreeMap<String, Option<SharedDescriptor>> {
     let mut by_name: BTreeMap<&str, &ComponentDraft> = BTreeMap::new();
     for draft in drafts {
         if let Some(first) = by_name.get(draft.name.as_str()) {
@@ -139,7 +140,7 @@ pub(crate) fn resolve(
     for draft in drafts {
         resolver.descriptor(&draft.name, mistakes);
     }
-    resolver.made.into_iter().filter_map(|(name, made)| Some((name, made?))).collect()
+    resolver.made
 }
 
 struct Resolver<'a> {

@@ -19,6 +19,8 @@ use std::sync::Arc;
 use super::component_file::{self, ComponentDraft};
 use super::descriptor::SharedDescriptor;
 use super::mistake::{Mistake, Mistakes, SourceText};
+use super::plan::Plan;
+use super::program::ShaderFiles;
 use super::{Technique, technique_file, toml_file};
 
 macro_rules! shipped {
@@ -91,7 +93,11 @@ impl Library {
             .iter()
             .map(|(name, text)| SourceText::new(format!("techniques/{name}.toml"), *text));
         let drafts = drafts(&shipped.collect::<Vec<_>>(), &mut mistakes);
-        let mut components = component_file::resolve(&drafts, &BTreeMap::new(), &mut mistakes);
+        let made = component_file::resolve(&drafts, &BTreeMap::new(), &mut mistakes);
+        let sound = |made: BTreeMap<String, Option<SharedDescriptor>>| {
+            made.into_iter().filter_map(|(name, made)| Some((name, made?)))
+        };
+        let mut components: BTreeMap<String, SharedDescriptor> = sound(made).collect();
         let mut techniques: BTreeMap<String, Arc<SourceText>> = TECHNIQUES
             .iter()
             .map(|(name, text)| {
@@ -104,7 +110,7 @@ impl Library {
             let own: Vec<Arc<SourceText>> = own.into_iter().map(|(_, source)| source).collect();
             let drafts = self::drafts(&own, &mut mistakes);
             let own = component_file::resolve(&drafts, &components, &mut mistakes);
-            components.extend(own);
+            components.extend(sound(own));
             techniques.extend(toml_texts(&folder.join("techniques"), &mut mistakes));
         }
         Self { components, techniques, folder: folder.map(Path::to_owned), mistakes }
@@ -172,6 +178,29 @@ impl Library {
         self.read(&name, &source, Some(folder))
     }
 
+    /// Everything that is wrong with a technique file, its shaders and its images;
+    /// `shaders` stands for the folder of those that ship.
+    #[must_use]
+    pub fn check(&self, path: &Path, shaders: Option<&Path>) -> Mistakes {
+        let source = match text_of(path) {
+            Ok(source) => source,
+            Err(mistake) => return Mistakes::of(mistake),
+        };
+        let mut mistakes = Mistakes::default();
+        let (mut technique, is_whole) =
+            technique_file::read("", &source, &self.components, &mut mistakes);
+        let folder = path.parent().map_or_else(PathBuf::new, Path::to_owned);
+        technique.folders = std::iter::once(folder).chain(self.folder.clone()).collect();
+        // What lacks a pass would only have mistakes that follow from that.
+        if is_whole {
+            let shaders = ShaderFiles::new(&technique.folders, shaders.map(Path::to_owned));
+            if let Err(others) = Plan::of(&technique, &shaders) {
+                mistakes.append(others);
+            }
+        }
+        mistakes
+    }
+
     fn read(
         &self,
         name: &str,
@@ -179,7 +208,8 @@ impl Library {
         folder: Option<PathBuf>,
     ) -> Result<(Technique, Mistakes), Mistakes> {
         let mut mistakes = Mistakes::default();
-        let mut technique = technique_file::read(name, source, &self.components, &mut mistakes);
+        let (mut technique, _) =
+            technique_file::read(name, source, &self.components, &mut mistakes);
         technique.folders = folder.into_iter().chain(self.folder.clone()).collect();
         if mistakes.has_errors() {
             // A component that is missing may be one that could not be read.
@@ -239,8 +269,6 @@ pub(crate) fn text_of(path: &Path) -> Result<Arc<SourceText>, Mistake> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::technique::plan::Plan;
-    use crate::technique::program::ShaderFiles;
     use crate::technique::value::Value;
 
     #[test]

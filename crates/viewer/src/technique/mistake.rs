@@ -242,7 +242,11 @@ fn drawn(mistake: &Mistake) -> String {
 /// The name that is nearest to `wanted`, if any is near.
 #[must_use]
 pub fn closest<'a>(wanted: &str, names: &[&'a str]) -> Option<&'a str> {
-    let most = (wanted.chars().count() / 3).max(1);
+    // Of two letters, one other is another name.
+    let most = match wanted.chars().count() {
+        0..3 => 0,
+        length => (length / 3).max(1),
+    };
     let near = names.iter().map(|name| (edit_distance(wanted, name), *name));
     near.filter(|(distance, _)| *distance <= most).min_by_key(|near| near.0).map(|near| near.1)
 }

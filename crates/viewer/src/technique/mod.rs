@@ -20,6 +20,7 @@
 pub(crate) mod class_pass;
 mod component_file;
 pub mod core;
+pub(crate) mod curve;
 pub mod descriptor;
 pub mod image_file;
 pub mod library;

@@ -13,8 +13,12 @@
 
 use std::path::PathBuf;
 
+use edgemesh::oracle::feature::EdgeClass;
+
 use super::Technique;
+use super::class_pass::{ALL_CLASSES, classes_of};
 use super::core::CoreComponent;
+use super::curve::parse_curve;
 use super::image_file;
 use super::mistake::{Mistake, Mistakes, Place};
 use super::pass::Pass;
@@ -136,6 +140,7 @@ impl Plan {
                 ReadSource::Generated(texture) => writes[at].contains(&texture),
                 _ => false,
             });
+            planner.check_strokes(pass);
             let target = targets[at].clone();
             planner.check_blend(pass, &target, is_in_place);
             let pass = PassPlan { target, vertex, fragment, background, reads, is_in_place };
@@ -290,8 +295,9 @@ impl Planner<'_> {
         format: wgpu::TextureFormat,
     ) -> usize {
         let place = pass.place_of(variable).clone();
-        if !super::component_file::is_name(&name) {
-            let message = format!("'{name}' cannot be the name of a texture");
+        let target = pass.string(variable);
+        if !super::component_file::is_name(target) {
+            let message = format!("'{target}' cannot be the name of a render target");
             let note = "names are letters, digits and _";
             self.mistakes.add(Mistake::error(&place, message).note(note));
         }
@@ -303,7 +309,7 @@ impl Planner<'_> {
         if let Some(known) = self.plan.textures.iter().position(|known| known.name == name) {
             let first = &self.plan.textures[known];
             if first.size != size || first.format != format {
-                let message = format!("two passes write '{name}' in different sizes or formats");
+                let message = format!("two passes write '{target}' in different sizes or formats");
                 self.mistakes.add(Mistake::error(&place, message).also(&first.place, "here"));
             }
             return known;
@@ -423,6 +429,24 @@ impl Planner<'_> {
                 let note = "a pass with render_target = \"x\" writes <generated>:x_color and \
                             <generated>:x_depth";
                 self.mistakes.add(Mistake::error(place, message).note(note));
+            }
+        }
+    }
+
+    /// Texts of strokes that have a form of their own.
+    fn check_strokes(&mut self, pass: &Pass) {
+        if pass.component.core != CoreComponent::Strokes {
+            return;
+        }
+        if let Err(word) = classes_of(pass.string("classes")) {
+            let message = format!("there is no class '{word}'");
+            let classes = EdgeClass::ALL.map(EdgeClass::name).into_iter().chain([ALL_CLASSES]);
+            let mistake = Mistake::error(pass.place_of("classes"), message);
+            self.mistakes.add(mistake.names(&word, classes));
+        }
+        for (variable, most) in [("width_curve", 10.0), ("opacity_curve", 1.0)] {
+            if let Err(what) = parse_curve(pass.string(variable), most) {
+                self.mistakes.add(Mistake::error(pass.place_of(variable), what));
             }
         }
     }

@@ -60,7 +60,7 @@ pub(crate) fn check_used(pass: &Pass, program: &Program, mistakes: &mut Mistakes
             let message =
                 format!("the field '{}' of Params is no variable of {component}", field.name);
             let names: Vec<&str> = pass.component.variable_names().collect();
-            mistakes.add(Mistake::error(&params.place, message).names(&field.name, names));
+            mistakes.add(Mistake::error(&field.place, message).names(&field.name, names));
             continue;
         };
         if !fits(variable, field) {
@@ -71,7 +71,7 @@ pub(crate) fn check_used(pass: &Pass, program: &Program, mistakes: &mut Mistakes
                 variable.kind.name()
             );
             let note = format!("make the field {}", wanted(variable));
-            let mistake = Mistake::error(&params.place, message).also(&variable.place, "here");
+            let mistake = Mistake::error(&field.place, message).also(&variable.place, "here");
             mistakes.add(mistake.note(note));
         }
     }

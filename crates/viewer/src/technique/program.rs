@@ -16,11 +16,12 @@
 //! Rejected: parameters by position, or a struct of fixed slots, which read well
 //! nowhere and break when a line moves.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use naga::{AddressSpace, ImageClass, ImageDimension, ScalarKind, ShaderStage, TypeInner};
-use strokes::shader::{ShaderError, ShaderSource, embedded_text};
+use strokes::shader::{EMBEDDED, ShaderError, ShaderSource, embedded_text};
 
 use super::library::text_of;
 use super::mistake::{Mistake, Mistakes, Place, SourceText};
@@ -104,6 +105,8 @@ pub struct Field {
     pub kind: FieldKind,
     /// Its type, as WGSL has it.
     pub type_name: String,
+    /// Where it stands.
+    pub place: Place,
 }
 
 /// The numbers of a field.
@@ -275,8 +278,11 @@ impl ShaderFiles {
                 file.map_or_else(|| path.to_owned(), |file| file.name.clone()),
                 kind.name()
             );
-            let mistake = Mistake::error(place, message);
-            return Err(Mistakes::of(mistake.names(function, entries)));
+            let mut mistake = Mistake::error(place, message).names(function, entries);
+            if module.entry_points.iter().any(|entry| entry.name == function) {
+                mistake = mistake.label("it is of another stage");
+            }
+            return Err(Mistakes::of(mistake));
         };
         let reflection = Reflection { files: self, source: &source, module };
         let mut mistakes = Mistakes::default();
@@ -302,7 +308,32 @@ impl ShaderFiles {
             return Mistakes::of(Mistake::without_place(error.to_string()));
         };
         let span = source.span(error.line, error.column, error.length.max(1));
-        Mistakes::of(Mistake::error(&Place { source, span }, &error.message))
+        let mut mistake = Mistake::error(&Place { source, span }, plainer(&error.message));
+        if let Some(path) = error.message.strip_prefix("there is no ") {
+            mistake = mistake.names(path, imported_files());
+        }
+        Mistakes::of(mistake)
+    }
+}
+
+/// The common files that programs import, as those that ship show.
+fn imported_files() -> BTreeSet<&'static str> {
+    let programs = EMBEDDED.iter().filter(|(path, _)| path.starts_with("programs/"));
+    let imports = programs.flat_map(|(_, text)| text.lines()).filter_map(|line| {
+        let path = line.trim().strip_prefix("#import")?.trim();
+        path.strip_prefix('<')?.strip_suffix('>')
+    });
+    imports.collect()
+}
+
+/// What a validator says, without what only it can know.
+fn plainer(message: &str) -> &str {
+    match message.split_once(" is invalid: ") {
+        _ if message.contains("does not match the declared return type") => {
+            "what is returned is not of the type that the function declares"
+        }
+        Some((_, rest)) => rest,
+        None => message,
     }
 }
 
@@ -337,7 +368,7 @@ impl Reflection<'_> {
         let (group, binding) = (at.group, at.binding);
         match (variable.space, inner) {
             (AddressSpace::Uniform, TypeInner::Struct { members, span }) => {
-                let fields = self.fields(members, &place(), mistakes);
+                let fields = self.fields(variable.ty, members, mistakes);
                 let params = Params { group, binding, size: *span, fields, place: place() };
                 if interface.params.replace(params).is_some() {
                     let message = "a program has one uniform of parameters";
@@ -376,13 +407,15 @@ impl Reflection<'_> {
 
     fn fields(
         &self,
+        of: naga::Handle<naga::Type>,
         members: &[naga::StructMember],
-        place: &Place,
         mistakes: &mut Mistakes,
     ) -> Vec<Field> {
         let mut fields = Vec::new();
+        let span = self.module.types.get_span(of);
         for member in members {
             let name = member.name.clone().unwrap_or_default();
+            let place = self.place(self.field_span(span, &name));
             let inner = &self.module.types[member.ty].inner;
             let (scalar, count) = match inner {
                 TypeInner::Scalar(scalar) => (*scalar, 1),
@@ -390,7 +423,7 @@ impl Reflection<'_> {
                 _ => {
                     let message = format!("the field '{name}' has a type that no variable has");
                     let note = "fields are f32, i32, u32, vec2f, vec3f or vec4f";
-                    mistakes.add(Mistake::error(place, message).note(note));
+                    mistakes.add(Mistake::error(&place, message).note(note));
                     continue;
                 }
             };
@@ -400,9 +433,25 @@ impl Reflection<'_> {
                 (ScalarKind::Sint, _) => (FieldKind::Int, "i32".to_owned()),
                 _ => (FieldKind::Uint, "u32".to_owned()),
             };
-            fields.push(Field { name, offset: member.offset, count, kind, type_name });
+            fields.push(Field { name, offset: member.offset, count, kind, type_name, place });
         }
         fields
+    }
+
+    /// The name of a field in the text of its struct, or the whole of it.
+    fn field_span(&self, of: naga::Span, name: &str) -> naga::Span {
+        let Some(range) = of.to_range() else { return of };
+        let text = self.source.text.get(range.clone()).unwrap_or_default();
+        let is_letter = |letter: char| letter.is_alphanumeric() || letter == '_';
+        let is_field = |at: &usize| {
+            let (before, behind) = (&text[..*at], &text[at + name.len()..]);
+            !before.ends_with(is_letter) && behind.trim_start().starts_with(':')
+        };
+        let found = text.match_indices(name).map(|found| found.0).find(is_field);
+        found.map_or(of, |at| {
+            let start = edgemesh::index::to_u32(range.start + at);
+            naga::Span::new(start, start + edgemesh::index::to_u32(name.len()))
+        })
     }
 
     /// What a fragment program writes.

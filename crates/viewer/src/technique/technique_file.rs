@@ -23,13 +23,14 @@ use super::mistake::{Mistake, Mistakes, SourceText};
 use super::pass::{Assignment, Pass};
 use super::toml_file::{self, Entry, Node};
 
-/// Reads a technique called `name`; its components may inherit from `components`.
+/// Reads a technique called `name`; its components may inherit from `components`. Says
+/// as well whether all of its passes could be read.
 pub(crate) fn read(
     name: &str,
     source: &Arc<SourceText>,
     components: &BTreeMap<String, SharedDescriptor>,
     mistakes: &mut Mistakes,
-) -> Technique {
+) -> (Technique, bool) {
     let root = toml_file::parse(source, mistakes);
     let mut own = BTreeMap::new();
     if let Some(entry) = root.iter().find(|entry| entry.key == "component") {
@@ -42,6 +43,11 @@ pub(crate) fn read(
         passes: Vec::new(),
         folders: Vec::new(),
     };
+    if mistakes.has_errors() && own.is_empty() {
+        // Of a text that is no TOML not more than that is known.
+        return (technique, false);
+    }
+    let mut is_whole = true;
     let mut has_passes = false;
     for Entry { key, place, node } in &root {
         match key.as_str() {
@@ -50,10 +56,9 @@ pub(crate) fn read(
             "pass" => {
                 has_passes = true;
                 for node in node.array(mistakes).unwrap_or_default() {
-                    let find = |name: &str| own.get(name).or_else(|| components.get(name)).cloned();
-                    let names = || own.keys().chain(components.keys()).map(String::as_str);
                     let taken: Vec<&Pass> = technique.passes.iter().collect();
-                    let pass = read_pass(node, &find, &names, &taken, mistakes);
+                    let pass = read_pass(node, (&own, components), &taken, mistakes);
+                    is_whole &= pass.is_some();
                     technique.passes.extend(pass);
                 }
             }
@@ -69,13 +74,16 @@ pub(crate) fn read(
         let note = "a technique is a list of passes; each begins with [[pass]]";
         mistakes.add(Mistake::error(&place, "the technique has no pass").note(note));
     }
-    technique
+    (technique, is_whole && has_passes)
 }
 
-fn read_pass<'n, N: Iterator<Item = &'n str>>(
+/// A pass of one of the file's own components, or of those that are known.
+fn read_pass(
     node: &Node,
-    find: &dyn Fn(&str) -> Option<SharedDescriptor>,
-    names: &dyn Fn() -> N,
+    (own, known): (
+        &BTreeMap<String, Option<SharedDescriptor>>,
+        &BTreeMap<String, SharedDescriptor>,
+    ),
     taken: &[&Pass],
     mistakes: &mut Mistakes,
 ) -> Option<Pass> {
@@ -87,10 +95,17 @@ fn read_pass<'n, N: Iterator<Item = &'n str>>(
         return None;
     };
     let component_name = component.node.text(mistakes)?;
-    let Some(descriptor) = find(&component_name) else {
+    let found = match own.get(&component_name) {
+        // Its own mistake was told.
+        Some(None) => return None,
+        Some(Some(own)) => Some(own),
+        None => known.get(&component_name),
+    };
+    let Some(descriptor) = found.cloned() else {
         let message = format!("there is no component '{component_name}'");
         let mistake = Mistake::error(&component.node.place, message);
-        mistakes.add(mistake.names(&component_name, names()));
+        let names = own.keys().chain(known.keys()).map(String::as_str);
+        mistakes.add(mistake.names(&component_name, names));
         return None;
     };
     let name = match of_key("name") {
