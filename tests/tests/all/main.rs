@@ -10,6 +10,8 @@ mod corpus;
 mod dependencies;
 mod expectations;
 #[cfg(feature = "gpu")]
+mod gpu_detectors;
+#[cfg(feature = "gpu")]
 mod gpu_device;
 #[cfg(feature = "gpu")]
 mod gpu_edges;

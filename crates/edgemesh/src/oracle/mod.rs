@@ -12,11 +12,14 @@
 //! | [`stroke_segment`] | `stroke_segment.wgsl` | what the vertices of an edge share; section 4 |
 //! | [`stroke_vertex`] | `stroke_vertex.wgsl` | one vertex of it |
 //!
+//! Detectors of edges in images are in [`detector`].
+//!
 //! A GPU test runs both over thousands of random and adversarial edges; the
 //! counts of [`count_features`] are what `edgemesh info` prints and what the
 //! GPU's own counts must equal.
 
 pub mod contour_chain;
+pub mod detector;
 pub mod facing;
 pub mod feature;
 pub mod layer_chain;
