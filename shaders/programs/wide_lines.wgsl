@@ -1,5 +1,6 @@
 // Lines of a width around the nearest line texels that flooding has found. Detected lines
-// are two texels wide, so a width of 2 is what was detected.
+// are two texels wide, one on each side of a boundary that is half a texel away from the
+// middle of either: a width of 2 is what was detected.
 #import <common/edges.wgsl>
 #import <common/screen.wgsl>
 
@@ -17,8 +18,8 @@ fn wide_lines(at: ScreenVarying) -> @location(0) vec4f {
     let texel = texel_at(at.texcoord, textureDimensions(texture));
     let seed = textureLoad(texture, texel, 0).xy;
     let distance = length(seed - vec2f(texel));
-    // Half a texel to each side of the rim is half inked.
-    let inked = clamp(0.5 * params.width - 0.5 - distance, 0.0, 1.0);
+    // From half a texel within the rim to half a texel beyond it ink falls off.
+    let inked = clamp(0.5 * params.width - distance, 0.0, 1.0);
     let strength = select(inked, 0.0, seed.x < 0.0);
     return line_color(strength, params.edge_color, params.background_color);
 }

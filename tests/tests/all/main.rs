@@ -22,6 +22,8 @@ mod gpu_joins;
 #[cfg(feature = "gpu")]
 mod gpu_layouts;
 #[cfg(feature = "gpu")]
+mod gpu_lines;
+#[cfg(feature = "gpu")]
 mod gpu_render;
 #[cfg(feature = "gpu")]
 mod gpu_scenes;
