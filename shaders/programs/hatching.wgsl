@@ -30,8 +30,11 @@ struct HatchingVarying {
     @location(2) @interpolate(flat) part: u32,
     @location(3) point_in_object: vec3f,
     @location(4) normal_in_object: vec3f,
-    @location(5) weights_123: vec3f,
-    @location(6) weights_456: vec3f,
+    // Of the outside, and of the inside: a vertex at a contour has both.
+    @location(5) outside_123: vec3f,
+    @location(6) outside_456: vec3f,
+    @location(7) inside_123: vec3f,
+    @location(8) inside_456: vec3f,
 }
 
 struct Weights {
@@ -96,7 +99,9 @@ fn hatched(
 fn hatching_vertex(vertex: SurfaceVertex) -> HatchingVarying {
     let at = surface_varying(vertex);
     let surface = surface_of(at.point_in_world, at.normal_in_world);
-    let weights = weights_of(params.brightness * max(dot(surface.normal, surface.to_light), 0.0));
+    let light = params.brightness * dot(surface.normal, surface.to_light);
+    let outside = weights_of(max(light, 0.0));
+    let inside = weights_of(max(-light, 0.0));
     return HatchingVarying(
         at.position,
         at.point_in_world,
@@ -104,15 +109,21 @@ fn hatching_vertex(vertex: SurfaceVertex) -> HatchingVarying {
         at.part,
         vertex.position,
         vertex.normal,
-        weights.of_123,
-        weights.of_456,
+        outside.of_123,
+        outside.of_456,
+        inside.of_123,
+        inside.of_456,
     );
 }
 
 @fragment
-fn per_vertex(at: HatchingVarying) -> @location(0) vec4f {
+fn per_vertex(at: HatchingVarying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
     let texel = textureSample(base_texture, base_sampler, at.texcoord);
-    let weights = Weights(at.weights_123, at.weights_456);
+    let is_outside = is_front == (object.mirror > 0.0);
+    let weights = Weights(
+        select(at.inside_123, at.outside_123, is_outside),
+        select(at.inside_456, at.outside_456, is_outside),
+    );
     let color = hatched(
         at.part,
         texel,

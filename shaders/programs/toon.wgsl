@@ -18,7 +18,8 @@ struct ToonVarying {
     @location(0) point_in_world: vec3f,
     @location(1) texcoord: vec2f,
     @location(2) @interpolate(flat) part: u32,
-    @location(3) intensity: f32,
+    // Of the outside, and of the inside: a vertex at a contour has both.
+    @location(3) intensities: vec2f,
 }
 
 // Equation 4.4.
@@ -58,20 +59,22 @@ fn per_pixel(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @loca
 @vertex
 fn toon_vertex(vertex: SurfaceVertex) -> ToonVarying {
     let at = surface_varying(vertex);
-    var surface = surface_of(at.point_in_world, at.normal_in_world);
-    // There is no side to a vertex; the one that looks at the eye is the one that shows.
-    surface.normal *= select(1.0, -1.0, dot(surface.normal, surface.to_eye) < 0.0);
     let material = materials[surface_parts[at.part].material];
-    let light = light_intensity(surface, material);
-    return ToonVarying(at.position, at.point_in_world, at.texcoord, at.part, light);
+    let outside = surface_of(at.point_in_world, at.normal_in_world);
+    let inside = surface_of(at.point_in_world, -at.normal_in_world);
+    let intensities = vec2f(light_intensity(outside, material), light_intensity(inside, material));
+    return ToonVarying(at.position, at.point_in_world, at.texcoord, at.part, intensities);
 }
 
 @fragment
-fn per_vertex(at: ToonVarying) -> @location(0) vec4f {
+fn per_vertex(at: ToonVarying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
     let texel = textureSample(base_texture, base_sampler, at.texcoord);
-    let light_a_pixel = fwidth(at.intensity);
+    let a_pixel = fwidth(at.intensities);
     if is_cut_away(at.point_in_world) {
         discard;
     }
-    return stepped(at.intensity, light_a_pixel, material_at(at.part, texel));
+    let is_outside = is_front == (object.mirror > 0.0);
+    let light = select(at.intensities.y, at.intensities.x, is_outside);
+    let light_a_pixel = select(a_pixel.y, a_pixel.x, is_outside);
+    return stepped(light, light_a_pixel, material_at(at.part, texel));
 }

@@ -4,6 +4,7 @@ mod adapter;
 mod brushes;
 mod demo;
 mod failure;
+mod figures;
 mod gallery;
 mod images;
 mod mesh;
@@ -22,6 +23,7 @@ Tasks:
   demo              draw every model in models/ in every technique, into target/demo/
   test [-- ARGS]    run all tests, those that need a Vulkan adapter too; ARGS go to the test programs
   gallery MODEL...  draw every technique on some models, into docs/gallery/
+  figures FOLDER    draw figures of the papers with models of a folder, into docs/figures/
   models            write the project's own models to models/
   mesh --triangles N -o FILE
                     write a large organic mesh of about N triangles, for benches
@@ -52,6 +54,8 @@ fn run(args: &[&str]) -> Result<(), Failure> {
         ["test", "--", rest @ ..] => test::run(rest),
         ["gallery", models @ ..] if !models.is_empty() => gallery::run(models),
         ["gallery"] => Err(Failure::usage("use `cargo xtask gallery MODEL...`")),
+        ["figures", models] => figures::run(models),
+        ["figures", ..] => Err(Failure::usage("use `cargo xtask figures FOLDER`")),
         ["models"] => models::run(),
         ["brushes"] => brushes::run(),
         ["mesh", "--triangles", count, "-o", path] => mesh::run(count, path),
@@ -86,7 +90,7 @@ mod tests {
 
     #[test]
     fn help_names_every_task() {
-        for task in ["demo", "test", "gallery", "models", "mesh", "brushes", "help"] {
+        for task in ["demo", "test", "gallery", "figures", "models", "mesh", "brushes", "help"] {
             assert!(HELP.contains(&format!("\n  {task} ")), "`{task}` is missing");
         }
     }

@@ -271,6 +271,39 @@ fn transparency_leaves_every_kind_of_paper_out() {
     }
 }
 
+/// A vertex at a contour belongs to a face that is seen though its normal looks away, and
+/// an open surface shows its inside: the light by the vertex is that by the pixel, but for
+/// what triangles are too coarse for.
+#[test]
+fn light_by_the_vertex_is_on_the_side_that_is_seen() {
+    let folder = tempfile::tempdir().unwrap();
+    let draw = |model: &str, camera: &dyn Fn(&EdgeMesh) -> Camera, pass: &str| {
+        let technique = written(folder.path(), &[("light.toml", &format!("[[pass]]\n{pass}"))]);
+        let mesh = own_model(model);
+        picture(&mesh, &camera(&mesh), &technique, 256, 1)
+    };
+    let default = |mesh: &EdgeMesh| Camera::default_view(&mesh.bounds);
+    let behind = |mesh: &EdgeMesh| {
+        let camera = Camera::default_view(&mesh.bounds);
+        Camera { eye: 2.0 * camera.target - camera.eye, ..camera }
+    };
+    let toon = "toon_map = \"toon_maps:gradient:1\"\ncomponent = \"render_toon";
+    let hatching = "from_material = false\nscale = 0.1\ncomponent = \"render_hatching";
+    for (passes, most, few) in [
+        ([format!("{toon}\""), format!("{toon}_per_vertex\"")], 40, 0),
+        ([format!("{hatching}\""), format!("{hatching}_per_vertex\"")], 90, 30),
+    ] {
+        for model in ["torus_knot", "plane_with_hole"] {
+            for camera in [&default as &dyn Fn(&EdgeMesh) -> Camera, &behind] {
+                let [pixel, vertex] = passes.each_ref().map(|pass| draw(model, camera, pass));
+                let differences = pixel.iter().zip(vertex.iter()).map(|(a, b)| a.abs_diff(*b));
+                let far = differences.filter(|difference| *difference > most).count();
+                assert!(far <= few, "{}, {model}: {far} values by more than {most}", passes[1]);
+            }
+        }
+    }
+}
+
 #[test]
 fn a_technique_whose_passes_are_all_switched_off_draws_nothing() {
     let mesh = own_model("cube");
