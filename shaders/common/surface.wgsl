@@ -73,9 +73,12 @@ fn surface_varying(vertex: SurfaceVertex) -> SurfaceVarying {
 // are lit as if they were the front ones.
 fn surface_at(at: SurfaceVarying, is_front: bool) -> Surface {
     cut(at);
-    let is_outside = is_front == (object.mirror > 0.0);
-    let side = select(-1.0, 1.0, is_outside);
-    return surface_of(at.point_in_world, side * at.normal_in_world);
+    return surface_of(at.point_in_world, side_seen(is_front) * at.normal_in_world);
+}
+
+// 1 where the outside of a surface is seen, -1 where its inside is.
+fn side_seen(is_front: bool) -> f32 {
+    return select(-1.0, 1.0, is_front == (object.mirror > 0.0));
 }
 
 fn surface_of(point: vec3f, normal: vec3f) -> Surface {

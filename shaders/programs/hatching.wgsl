@@ -119,7 +119,7 @@ fn hatching_vertex(vertex: SurfaceVertex) -> HatchingVarying {
 @fragment
 fn per_vertex(at: HatchingVarying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
     let texel = textureSample(base_texture, base_sampler, at.texcoord);
-    let is_outside = is_front == (object.mirror > 0.0);
+    let is_outside = side_seen(is_front) > 0.0;
     let weights = Weights(
         select(at.inside_123, at.outside_123, is_outside),
         select(at.inside_456, at.outside_456, is_outside),
@@ -143,9 +143,7 @@ fn per_pixel(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @loca
     let texel = textureSample(base_texture, base_sampler, at.texcoord);
     // Across the faces of the object, whatever their shading says.
     let normal = unit(cross(dpdx(at.point_in_object), dpdy(at.point_in_object)));
-    let is_outside = is_front == (object.mirror > 0.0);
-    let side = select(-1.0, 1.0, is_outside);
-    let surface = surface_of(at.point_in_world, side * at.normal_in_world);
+    let surface = surface_of(at.point_in_world, side_seen(is_front) * at.normal_in_world);
     let weights = weights_of(params.brightness * diffuse_factor(surface));
     let color = hatched(at.part, texel, at.texcoord, at.point_in_object, normal, weights);
     cut(at);

@@ -50,10 +50,20 @@ fn stepped(light: f32, light_a_pixel: f32, material: MaterialUniform) -> vec4f {
 @fragment
 fn per_pixel(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
     let texel = textureSample(base_texture, base_sampler, at.texcoord);
+    // Not fwidth of the light: of neighbours beside a triangle the material is undefined.
+    let point_x = dpdx(at.point_in_world);
+    let point_y = dpdy(at.point_in_world);
+    let normal_x = dpdx(at.normal_in_world);
+    let normal_y = dpdy(at.normal_in_world);
     let surface = surface_at(at, is_front);
+    let side = side_seen(is_front);
+    let right = surface_of(at.point_in_world + point_x, side * (at.normal_in_world + normal_x));
+    let below = surface_of(at.point_in_world + point_y, side * (at.normal_in_world + normal_y));
     let material = material_at(at.part, texel);
     let light = light_intensity(surface, material);
-    return stepped(light, fwidth(light), material);
+    let light_a_pixel = abs(light_intensity(right, material) - light)
+        + abs(light_intensity(below, material) - light);
+    return stepped(light, light_a_pixel, material);
 }
 
 @vertex
@@ -73,7 +83,7 @@ fn per_vertex(at: ToonVarying, @builtin(front_facing) is_front: bool) -> @locati
     if is_cut_away(at.point_in_world) {
         discard;
     }
-    let is_outside = is_front == (object.mirror > 0.0);
+    let is_outside = side_seen(is_front) > 0.0;
     let light = select(at.intensities.y, at.intensities.x, is_outside);
     let light_a_pixel = select(a_pixel.y, a_pixel.x, is_outside);
     return stepped(light, light_a_pixel, material_at(at.part, texel));

@@ -1,10 +1,12 @@
 //! Techniques on the GPU: what passes hand to each other, and pictures of those that
 //! ship.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use edgemesh::camera::Camera;
 use edgemesh::edge_mesh::EdgeMesh;
+use glam::DVec3;
 use image::RgbaImage;
 use strokes::readback::read_texels;
 use testkit::compare::Golden;
@@ -302,6 +304,28 @@ fn light_by_the_vertex_is_on_the_side_that_is_seen() {
             }
         }
     }
+}
+
+/// Borders of steps are smooth for a pixel, and no triangle of a flat cap shows.
+#[test]
+fn steps_of_light_do_not_show_triangles() {
+    let folder = tempfile::tempdir().unwrap();
+    let pass = "[[pass]]\ncomponent = \"render_toon\"\ntoon_map = \"toon_maps:three_steps:0\"";
+    let technique = written(folder.path(), &[("steps.toml", pass)]);
+    let mesh = own_model("cylinder");
+    let camera = Camera { eye: DVec3::new(0.0, 5.0, 0.0), ..Camera::default_view(&mesh.bounds) };
+    let camera = Camera { target: DVec3::ZERO, ..camera };
+    let picture = picture(&mesh, &camera, &technique, 256, 1);
+    let mut colors: BTreeMap<[u8; 4], usize> = BTreeMap::new();
+    for pixel in picture.pixels() {
+        *colors.entry(pixel.0).or_default() += 1;
+    }
+    let mut counts: Vec<usize> = colors.into_values().collect();
+    counts.sort_unstable();
+    // The paper, and two steps; the border between them is not longer than the cap is wide.
+    let between: usize = counts[..counts.len() - 3].iter().sum();
+    assert!(counts[counts.len() - 3] > 1000, "two steps: {counts:?}");
+    assert!(between < 150, "{between} pixels are between steps");
 }
 
 #[test]
