@@ -76,8 +76,10 @@ impl Watcher {
             }
             while self.events.recv_timeout(QUIET).is_ok() {}
             let now = self.stamps_now();
-            // An empty file is one that is about to be written.
-            let is_whole = now.values().all(|(_, length)| *length > 0);
+            // A file that has become empty is about to be written; one that always was is
+            // nothing to wait for.
+            let is_known = |path, stamp| self.stamps.get(path) == Some(stamp);
+            let is_whole = now.iter().all(|(path, stamp)| stamp.1 > 0 || is_known(path, stamp));
             if is_whole && now != self.stamps {
                 self.stamps = now;
                 return true;
@@ -172,6 +174,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("mine.wgsl");
         std::fs::write(&path, "fn one() {}\n").unwrap();
+        std::fs::write(folder.path().join("always_empty.toml"), "").unwrap();
         let mut watcher = Watcher::new(&[folder.path().to_owned()], &[]).unwrap();
         std::fs::write(&path, "").unwrap();
         assert!(!watcher.wait(SHORT), "it is about to be written");

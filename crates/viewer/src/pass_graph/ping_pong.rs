@@ -12,7 +12,7 @@ use super::Encoding;
 use super::bindings::Sources;
 use super::build::Builder;
 use super::params::Iteration;
-use super::pipeline::{PassPipeline, PipelineTarget};
+use super::pipeline::{GroupBuffers, PassPipeline, PipelineTarget};
 use super::screen_pass::{color_attachment, draw, own_program, screen_pipeline};
 use super::textures::target_texture;
 use crate::technique::pass::Pass;
@@ -31,7 +31,7 @@ pub(crate) struct PingPong {
     last: PassPipeline,
     temporary: [wgpu::TextureView; 2],
     /// Of each run.
-    buffers: Vec<Vec<Vec<wgpu::Buffer>>>,
+    buffers: Vec<GroupBuffers>,
     count: usize,
 }
 
@@ -76,8 +76,7 @@ impl PingPong {
             let number = |number: usize| i32::try_from(number).unwrap_or(i32::MAX);
             let iteration = Iteration { index: number(index), count: number(count) };
             let pipeline = if index + 1 >= count { &last } else { &between };
-            let groups = pipeline.groups.iter();
-            groups.map(|group| group.plan.buffers(device, pass, iteration)).collect()
+            pipeline.buffers(device, pass, iteration)
         });
         Ok(Self { buffers: buffers.collect(), between, last, temporary, count })
     }
@@ -97,13 +96,8 @@ impl PingPong {
             let is_last = index + 1 == runs;
             let pipeline = if is_last { &self.last } else { &self.between };
             let before = index.checked_sub(1).map(|before| &self.temporary[before % 2]);
-            let mut groups = Vec::new();
-            for (group, buffers) in pipeline.groups.iter().zip(&self.buffers[index]) {
-                let input = before.map(|view| (INPUT, view));
-                let bound =
-                    group.plan.group(encoding.gpu, &group.layout, buffers, sources, input)?;
-                groups.push((group.index, bound));
-            }
+            let input = before.map(|view| (INPUT, view));
+            let groups = pipeline.bind(encoding.gpu, &self.buffers[index], sources, input)?;
             if is_last {
                 let timestamps = match runs {
                     1 => timer.map(|timer| timer.render(0)),

@@ -5,8 +5,10 @@ use strokes::fill::push_away;
 use strokes::gpu::Gpu;
 use strokes::targets::TargetFormats;
 
-use super::bindings::{GroupPlan, PASS_GROUP, VERTEX_GROUP};
+use super::bindings::{GroupPlan, PASS_GROUP, Sources, VERTEX_GROUP};
+use super::params::Iteration;
 use super::surface::VERTEX_ATTRIBUTES;
+use crate::technique::pass::Pass;
 use crate::technique::plan::Read;
 use crate::technique::program::Program;
 
@@ -24,6 +26,12 @@ pub(crate) struct PassGroup {
     pub(crate) plan: GroupPlan,
     pub(crate) layout: wgpu::BindGroupLayout,
 }
+
+/// Uniform buffers, by group of a pipeline.
+pub(crate) type GroupBuffers = Vec<Vec<wgpu::Buffer>>;
+
+/// Bind groups with their numbers.
+pub(crate) type BoundGroups = Vec<(u32, wgpu::BindGroup)>;
 
 /// What a pipeline draws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -112,6 +120,32 @@ impl PassPipeline {
         });
         let pipeline = render_pipeline(gpu, &layout, programs, geometry, target)?;
         Ok(Self { pipeline, groups: [pass, vertex].into_iter().flatten().collect() })
+    }
+
+    /// Uniform buffers with the values of `pass`, by group.
+    pub(crate) fn buffers(
+        &self,
+        device: &wgpu::Device,
+        pass: &Pass,
+        iteration: Iteration,
+    ) -> GroupBuffers {
+        self.groups.iter().map(|group| group.plan.buffers(device, pass, iteration)).collect()
+    }
+
+    /// Binds `buffers` and the textures as they are now; `replaced` stands for the
+    /// texture variable of that name.
+    pub(crate) fn bind(
+        &self,
+        gpu: &Gpu,
+        buffers: &GroupBuffers,
+        sources: &mut Sources,
+        replaced: Option<(&str, &wgpu::TextureView)>,
+    ) -> Result<BoundGroups, Failure> {
+        let bind = |(group, buffers): (&PassGroup, &Vec<wgpu::Buffer>)| {
+            let bound = group.plan.group(gpu, &group.layout, buffers, sources, replaced)?;
+            Ok((group.index, bound))
+        };
+        self.groups.iter().zip(buffers).map(bind).collect()
     }
 }
 

@@ -8,7 +8,7 @@ use super::Encoding;
 use super::bindings::Sources;
 use super::build::Builder;
 use super::params::Iteration;
-use super::pipeline::{Geometry, PassPipeline, Programs};
+use super::pipeline::{Geometry, GroupBuffers, PassPipeline, Programs};
 use super::screen_pass::{color_attachment, screen_vertex};
 use super::surface::Surfaces;
 use crate::technique::pass::Pass;
@@ -19,10 +19,10 @@ use crate::technique::plan::{PassPlan, Target};
 pub(crate) struct ScenePass {
     surfaces: PassPipeline,
     /// What is behind them, where a program draws it.
-    background: Option<(PassPipeline, Vec<Vec<wgpu::Buffer>>)>,
+    background: Option<(PassPipeline, GroupBuffers)>,
     /// Parameters by look: the first ones are those of objects without a look of their
     /// own.
-    buffers: Vec<Vec<Vec<wgpu::Buffer>>>,
+    buffers: Vec<GroupBuffers>,
     /// The look of each object, as a number among `buffers`; none for objects that are
     /// not drawn.
     looks: Vec<Option<usize>>,
@@ -38,8 +38,11 @@ impl ScenePass {
         frame: &wgpu::BindGroupLayout,
         surfaces: &Surfaces,
     ) -> Result<Self, Failure> {
+        let buffers_of = |pipeline: &PassPipeline, pass: &Pass| {
+            pipeline.buffers(&builder.gpu.device, pass, Iteration::default())
+        };
         let missing = || Failure::fault(format!("the pass '{}' has no program", pass.name));
-        let (gpu, device) = (builder.gpu, &builder.gpu.device);
+        let gpu = builder.gpu;
         let target = builder.target(pass, plan);
         let vertex = plan.vertex.as_ref().ok_or_else(missing)?;
         let fragment = plan.fragment.as_ref().ok_or_else(missing)?;
@@ -53,19 +56,19 @@ impl ScenePass {
                 let programs = Programs { vertex: &vertex, fragment, ..programs };
                 let pipeline =
                     PassPipeline::new(gpu, frame, group, programs, Geometry::Screen, &target)?;
-                let buffers = buffers_of(&pipeline, device, pass);
+                let buffers = buffers_of(&pipeline, pass);
                 Some((pipeline, buffers))
             }
             _ => None,
         };
-        let mut buffers = vec![buffers_of(&pipeline, device, pass)];
+        let mut buffers = vec![buffers_of(&pipeline, pass)];
         let of_scene = pass.is_rendered().then_some(0);
         let mut of_look = vec![of_scene; builder.looks.len()];
         for (at, look) in builder.looks.iter().enumerate() {
             let own = look.pass(&pass.name).filter(|own| own.component == pass.component);
             if let Some(own) = own {
                 of_look[at] = own.is_rendered().then_some(buffers.len());
-                buffers.push(buffers_of(&pipeline, device, own));
+                buffers.push(buffers_of(&pipeline, own));
             }
         }
         let objects = builder.scene.objects.iter();
@@ -89,13 +92,8 @@ impl ScenePass {
         timer: Option<TimedPasses>,
     ) -> Result<(), Failure> {
         let gpu = encoding.gpu;
-        let mut bind = |pipeline: &PassPipeline, buffers: &[Vec<wgpu::Buffer>]| {
-            let groups = pipeline.groups.iter().zip(buffers);
-            let bound = groups.map(|(group, buffers)| {
-                let bound = group.plan.group(gpu, &group.layout, buffers, sources, None)?;
-                Ok((group.index, bound))
-            });
-            bound.collect::<Result<Vec<(u32, wgpu::BindGroup)>, Failure>>()
+        let mut bind = |pipeline: &PassPipeline, buffers: &GroupBuffers| {
+            pipeline.bind(gpu, buffers, sources, None)
         };
         let background = self.background.as_ref();
         let background =
@@ -189,13 +187,3 @@ type Attachments<'a> = (
     Vec<Option<wgpu::RenderPassColorAttachment<'a>>>,
     Option<wgpu::RenderPassDepthStencilAttachment<'a>>,
 );
-
-/// The parameters of all groups with the values of a pass.
-fn buffers_of(
-    pipeline: &PassPipeline,
-    device: &wgpu::Device,
-    pass: &Pass,
-) -> Vec<Vec<wgpu::Buffer>> {
-    let groups = pipeline.groups.iter();
-    groups.map(|group| group.plan.buffers(device, pass, Iteration::default())).collect()
-}

@@ -8,7 +8,7 @@ use super::Encoding;
 use super::bindings::Sources;
 use super::build::Builder;
 use super::params::Iteration;
-use super::pipeline::{Geometry, PassPipeline, Programs};
+use super::pipeline::{Geometry, GroupBuffers, PassPipeline, Programs};
 use crate::technique::mistake::{Place, SourceText};
 use crate::technique::pass::Pass;
 use crate::technique::plan::{PassPlan, Read, ReadSource, Target};
@@ -18,7 +18,7 @@ use crate::technique::program::{Program, ProgramKind, ShaderFiles};
 #[derive(Debug)]
 pub(crate) struct ScreenPass {
     pub(crate) pipeline: PassPipeline,
-    buffers: Vec<Vec<wgpu::Buffer>>,
+    buffers: GroupBuffers,
     /// Whether it would be paper behind the scene where none is wanted.
     is_unwanted_paper: bool,
 }
@@ -44,15 +44,11 @@ impl ScreenPass {
         frame: &wgpu::BindGroupLayout,
     ) -> Result<Self, Failure> {
         let pipeline = screen_pipeline(builder, pass, plan, frame, &builder.target(pass, plan))?;
-        let device = &builder.gpu.device;
-        let buffers = |group: &super::pipeline::PassGroup| {
-            group.plan.buffers(device, pass, Iteration::default())
-        };
+        let buffers = pipeline.buffers(&builder.gpu.device, pass, Iteration::default());
         let is_generated = |read: &Read| matches!(read.source, ReadSource::Generated(_));
         let is_unwanted_paper = builder.options.is_transparent
             && plan.target == Target::Framebuffer
             && !plan.reads.iter().any(is_generated);
-        let buffers = pipeline.groups.iter().map(buffers).collect();
         Ok(Self { pipeline, buffers, is_unwanted_paper })
     }
 
@@ -69,11 +65,7 @@ impl ScreenPass {
             skip(encoder, timer);
             return Ok(());
         }
-        let mut groups = Vec::new();
-        for (group, buffers) in self.pipeline.groups.iter().zip(&self.buffers) {
-            let bound = group.plan.group(encoding.gpu, &group.layout, buffers, sources, None)?;
-            groups.push((group.index, bound));
-        }
+        let groups = self.pipeline.bind(encoding.gpu, &self.buffers, sources, None)?;
         let timestamps = timer.map(|timer| timer.render(0));
         draw(encoder, encoding, plan, sources, &self.pipeline, &groups, timestamps);
         Ok(())

@@ -7,7 +7,7 @@
 //!   --set, the window ----------------+          |
 //!   shader files  -------------------------------+--> Plan: checked, nothing run yet
 //!                                                          |
-//!                                              crate::graph: pipelines, textures, pictures
+//!                                              crate::pass_graph: pipelines, textures, pictures
 //! ```
 //!
 //! - [`value`], [`texture_name`]: types and values of variables.
