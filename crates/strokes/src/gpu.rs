@@ -7,8 +7,8 @@
 use thiserror::Error;
 use wgpu::{Adapter, AdapterInfo, Backends, DownlevelFlags, Features, Instance, Limits};
 
-/// A device with its queue.
-#[derive(Debug)]
+/// A device with its queue. Cheap to clone: all clones are the same device.
+#[derive(Debug, Clone)]
 pub struct Gpu {
     /// What the adapter says of itself.
     pub info: AdapterInfo,

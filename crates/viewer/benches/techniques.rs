@@ -26,13 +26,13 @@ const FRAMES: usize = 11;
 const PLAIN: &str = "phong";
 
 /// A technique on the GPU.
-struct Runner<'a> {
+struct Runner {
     name: String,
-    renderer: PictureRenderer<'a>,
+    renderer: PictureRenderer,
     times_ms: Vec<f64>,
 }
 
-impl Runner<'_> {
+impl Runner {
     fn median(&self) -> f64 {
         let mut times = self.times_ms.clone();
         times.sort_by(f64::total_cmp);

@@ -145,8 +145,8 @@ impl Default for PictureOptions {
 
 /// A scene on the GPU with everything that its pictures need.
 #[derive(Debug)]
-pub struct PictureRenderer<'a> {
-    gpu: &'a Gpu,
+pub struct PictureRenderer {
+    gpu: Gpu,
     /// None only while it is rebuilt.
     graph: Option<PassGraph>,
     options: GraphOptions,
@@ -171,7 +171,7 @@ pub struct FrameStatistics {
     pub frame_ms: f64,
 }
 
-impl<'a> PictureRenderer<'a> {
+impl PictureRenderer {
     /// Checks `technique`, uploads the scene, and builds the pipelines. An object whose
     /// look is a number of `looks` takes what is drawn object by object, its fill and
     /// its strokes, from there.
@@ -180,7 +180,7 @@ impl<'a> PictureRenderer<'a> {
     /// Where something is wrong with the technique or its shaders, or the picture or a
     /// mesh is too large for the adapter.
     pub fn new(
-        gpu: &'a Gpu,
+        gpu: &Gpu,
         scene: &Scene,
         technique: &Technique,
         looks: &[Technique],
@@ -195,7 +195,7 @@ impl<'a> PictureRenderer<'a> {
     }
 
     fn make(
-        gpu: &'a Gpu,
+        gpu: &Gpu,
         scene: &Scene,
         technique: &Technique,
         plan: Plan,
@@ -212,7 +212,7 @@ impl<'a> PictureRenderer<'a> {
         };
         let graph = PassGraph::new(gpu, scene, technique, &plan, looks, &graph_options)?;
         Ok(Self {
-            gpu,
+            gpu: gpu.clone(),
             timer: timer_for(gpu, &graph),
             graph: Some(graph),
             options: graph_options,
@@ -240,7 +240,7 @@ impl<'a> PictureRenderer<'a> {
         let shaders = ShaderFiles::new(&technique.folders, self.shaders.clone());
         let plan =
             Plan::of(technique, &shaders).map_err(|mistakes| technique_failure(&mistakes))?;
-        let (gpu, options) = (self.gpu, self.options);
+        let (gpu, options) = (&self.gpu, self.options);
         let before = self.graph.take();
         let made = gpu.make(|| match before {
             Some(before) => before.rebuilt(gpu, scene, technique, &plan, looks, &options),
@@ -270,8 +270,8 @@ impl<'a> PictureRenderer<'a> {
             .poll(wgpu::PollType::wait_indefinitely())
             .map_err(|error| Failure::fault(format!("the graphics adapter was lost: {error}")))?;
         let frame_ms = started.elapsed().as_secs_f64() * 1e3;
-        let picture = read_picture(self.gpu, self.graph()?.picture()).map_err(lost)?;
-        let tally = self.graph()?.tally(self.gpu).map_err(lost)?;
+        let picture = read_picture(&self.gpu, self.graph()?.picture()).map_err(lost)?;
+        let tally = self.graph()?.tally(&self.gpu).map_err(lost)?;
         let statistics = FrameStatistics { tally, passes: self.read_passes()?, frame_ms };
         Ok((picture, statistics))
     }
@@ -286,7 +286,7 @@ impl<'a> PictureRenderer<'a> {
         let Some(object) = group.and_then(|group| group.objects.get(object)) else {
             return Ok(None);
         };
-        object.read_graph(self.gpu).map_err(lost)
+        object.read_graph(&self.gpu).map_err(lost)
     }
 
     /// The texture that passes call `<generated>:name`, as it is after the last picture.
@@ -302,7 +302,7 @@ impl<'a> PictureRenderer<'a> {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let timer = self.timer.as_ref().map(|timer| timer.passes_from(0));
         let graph = self.graph.as_mut().ok_or_else(no_graph)?;
-        graph.encode(self.gpu, &mut encoder, &view, &around, timer)?;
+        graph.encode(&self.gpu, &mut encoder, &view, &around, timer)?;
         if let Some(timer) = &self.timer {
             timer.resolve(&mut encoder);
         }
@@ -311,7 +311,7 @@ impl<'a> PictureRenderer<'a> {
     }
 
     fn read_passes(&self) -> Result<Vec<(String, Option<f64>)>, Failure> {
-        let times = self.timer.as_ref().map(|timer| timer.read(self.gpu)).transpose();
+        let times = self.timer.as_ref().map(|timer| timer.read(&self.gpu)).transpose();
         let times = times.map_err(lost)?.map_or_else(Vec::new, |times| times.passes_ms);
         let times = times.into_iter().map(Some).chain(std::iter::repeat(None));
         Ok(self.graph()?.time_names().into_iter().zip(times).collect())

@@ -85,7 +85,7 @@ struct Comparison<'a> {
     brush: String,
     brush_aspect: f32,
     /// In the order of [`Way::ALL`].
-    renderers: [PictureRenderer<'a>; 3],
+    renderers: [PictureRenderer; 3],
 }
 
 impl CompareStrokesCommand {

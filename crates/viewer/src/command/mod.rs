@@ -4,6 +4,7 @@ mod adapters;
 mod compare_strokes;
 mod components;
 mod options;
+mod picture_arguments;
 mod render;
 mod techniques;
 

@@ -15,24 +15,24 @@ use crate::technique::value::{VariableType, parse_color};
 /// Where techniques, components, shaders and images come from.
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Techniques")]
-pub(super) struct LibraryOptions {
+pub(crate) struct LibraryOptions {
     /// Your own folder with techniques, components, shaders and images
     /// [default: edgemesh in the folder for settings, as ~/.config/edgemesh]
     #[arg(long, value_name = "DIR", global = true)]
-    pub(super) folder: Option<PathBuf>,
+    pub(crate) folder: Option<PathBuf>,
     /// Take shaders from this copy of shaders/ instead of the shipped ones
     #[arg(long, value_name = "DIR", global = true)]
-    pub(super) shaders: Option<PathBuf>,
+    pub(crate) shaders: Option<PathBuf>,
 }
 
 impl LibraryOptions {
-    pub(super) fn load(&self) -> Library {
+    pub(crate) fn load(&self) -> Library {
         let folder = self.folder.clone().or_else(Library::default_folder);
         Library::load(folder.as_deref())
     }
 
     /// A technique by name or file; what was put right in it is told.
-    pub(super) fn technique(
+    pub(crate) fn technique(
         &self,
         library: &Library,
         name: &str,
@@ -46,7 +46,7 @@ impl LibraryOptions {
 }
 
 /// Sets a variable; what was put right is told.
-pub(super) fn set(
+pub(crate) fn set(
     technique: &mut Technique,
     assignment: &str,
     is_quiet: bool,
@@ -59,7 +59,7 @@ pub(super) fn set(
 
 /// Tells mistakes on the standard error stream.
 #[expect(clippy::print_stderr, reason = "messages of a command")]
-pub(super) fn print_mistakes(mistakes: &Mistakes, is_quiet: bool) {
+pub(crate) fn print_mistakes(mistakes: &Mistakes, is_quiet: bool) {
     if !is_quiet && !mistakes.list.is_empty() {
         eprint!("{mistakes}");
     }
@@ -68,7 +68,7 @@ pub(super) fn print_mistakes(mistakes: &Mistakes, is_quiet: bool) {
 /// The light, and what cuts the scene.
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Light")]
-pub(super) struct LightingOptions {
+pub(crate) struct LightingOptions {
     /// Where the light comes from: a direction in the camera's space (right, up,
     /// toward the viewer), world:X,Y,Z, or point:X,Y,Z [default: -0.5,0.7,1]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_light, allow_hyphen_values = true)]
@@ -83,14 +83,14 @@ pub(super) struct LightingOptions {
 
 /// A colour as an option has it.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct LightColor([f32; 3]);
+pub(crate) struct LightColor([f32; 3]);
 
 /// A plane as an option has it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ClipPlane([f64; 4]);
+pub(crate) struct ClipPlane([f64; 4]);
 
 impl LightingOptions {
-    pub(super) fn lighting(&self) -> Result<Lighting, Failure> {
+    pub(crate) fn lighting(&self) -> Result<Lighting, Failure> {
         let most = strokes::frame::MAX_CLIP_PLANES;
         if self.clip.len() > most {
             return Err(Failure::usage(format!("--clip: there are at most {most} planes")));

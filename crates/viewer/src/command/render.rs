@@ -8,29 +8,24 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use edgemesh::camera::Camera;
-use edgemesh::command::input::InputOptions;
-use edgemesh::command::options::CameraOptions;
 use edgemesh::command::{ExitStatus, Failure, print_to_stdout, print_warnings, write_file};
 use edgemesh::oracle::FeatureCounts;
 use glam::DQuat;
 use image::RgbaImage;
 use serde::Serialize;
-use strokes::brush::Brush;
 use strokes::gpu::{self, Gpu};
-use strokes::mesh_buffers::Layout;
-use strokes::renderer::DetectionPath;
 
 use crate::animation::{AnimationKind, encode_animation};
 use crate::picture::{DEFAULT_REFERENCE_THRESHOLD, compare, encode_png, read_png, straight_alpha};
-use crate::render::{FrameStatistics, PictureOptions, PictureRenderer, Scene, adapter_failure};
-use crate::scene_file::{SceneObject, is_scene_file, read_scene_file};
+use crate::render::{FrameStatistics, PictureRenderer, Scene, adapter_failure};
+use crate::scene_file::SceneObject;
 use crate::technique::Technique;
 use crate::technique::library::Library;
 use crate::watch::Watcher;
 
-use super::options::{LibraryOptions, LightingOptions, set};
+use super::picture_arguments::{PictureArguments, objects_of};
 
 /// Renders models to a PNG, without a window
 #[derive(Debug, Clone, Args)]
@@ -46,36 +41,8 @@ pub(super) struct RenderCommand {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = parse_size)]
     size: [u32; 2],
-    /// How it looks: a technique by its name, or a file that describes one; see
-    /// viewer techniques list
-    #[arg(long, value_name = "NAME|FILE", default_value = "ink")]
-    technique: String,
-    /// Set a variable of the technique; repeatable
-    #[arg(long, value_name = "PASS.VARIABLE=VALUE")]
-    set: Vec<String>,
-    /// The brush of all visible strokes: a PNG file, or pen, charcoal, watercolor,
-    /// fur, dash, none
-    #[arg(long, value_name = "FILE")]
-    brush: Option<String>,
     #[command(flatten)]
-    library: LibraryOptions,
-    #[command(flatten)]
-    lighting: LightingOptions,
-    /// How the edges lie in memory; the replicated layouts are the paper's
-    #[arg(long, value_name = "LAYOUT", default_value = "indexed")]
-    layout: LayoutName,
-    /// Where features are detected; in the vertex shader is the paper's way
-    #[arg(long, value_name = "PATH", default_value = "compute")]
-    detection: PathName,
-    /// Samples a pixel
-    #[arg(long, value_name = "N", default_value = "4", value_parser = ["1", "4"])]
-    samples: String,
-    /// The adapter whose name contains this [default: the best]
-    #[arg(long, value_name = "NAME")]
-    adapter: Option<String>,
-    /// No paper behind the model
-    #[arg(long)]
-    transparent: bool,
+    picture: PictureArguments,
     /// Turn the camera around the target in N steps and write numbered pictures,
     /// or one animated one where OUT ends in .gif or .apng
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
@@ -94,52 +61,6 @@ pub(super) struct RenderCommand {
     /// The share of pixels that may differ
     #[arg(long, value_name = "T", default_value_t = DEFAULT_REFERENCE_THRESHOLD, value_parser = parse_share)]
     reference_threshold: f64,
-    #[command(flatten)]
-    camera: CameraOptions,
-    #[command(flatten)]
-    input: InputOptions,
-}
-
-/// The layouts by name.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum LayoutName {
-    /// 20 bytes an edge, everything else shared with the faces
-    Indexed,
-    /// Four vertices an edge, in 32-bit floats
-    ReplicatedF32,
-    /// Four vertices an edge, at 16 bits
-    ReplicatedI16,
-    /// Card and Mitchell's fins, with face normals: contours and boundaries only
-    FaceNormals,
-}
-
-impl From<LayoutName> for Layout {
-    fn from(name: LayoutName) -> Self {
-        match name {
-            LayoutName::Indexed => Self::Indexed,
-            LayoutName::ReplicatedF32 => Self::Replicated,
-            LayoutName::ReplicatedI16 => Self::Replicated16,
-            LayoutName::FaceNormals => Self::FaceNormals,
-        }
-    }
-}
-
-/// The detection paths by name.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum PathName {
-    /// In compute shaders, which list the edges to draw
-    Compute,
-    /// In the vertex shader, through which every edge goes
-    Vertex,
-}
-
-impl From<PathName> for DetectionPath {
-    fn from(name: PathName) -> Self {
-        match name {
-            PathName::Compute => Self::Compute,
-            PathName::Vertex => Self::Vertex,
-        }
-    }
 }
 
 pub(super) const EXAMPLES: &str = "Examples:\n  \
@@ -192,11 +113,11 @@ struct PassTime {
 impl RenderCommand {
     pub(super) fn run(&self, is_quiet: bool) -> Result<(), Failure> {
         self.check_outputs()?;
-        let (library, technique) = self.technique(is_quiet)?;
+        let (library, technique) = self.picture.technique(is_quiet)?;
         let watcher = self.watch.then(|| self.watcher(&technique)).transpose()?;
         let reference = self.reference.as_deref().map(read_png).transpose()?;
-        let objects = self.objects()?;
-        let looks = self.object_techniques(&objects, &library, &technique, is_quiet)?;
+        let objects = objects_of(&self.models)?;
+        let looks = self.picture.object_techniques(&objects, &library, &technique, is_quiet)?;
         let (gpu, scene) = self.open_and_load(&objects, is_quiet)?;
         if !is_quiet {
             for model in &scene.models {
@@ -204,17 +125,8 @@ impl RenderCommand {
             }
         }
         log::info!("drawing on {} ({})", gpu.info.name, gpu.info.backend);
-        let camera = self.camera.camera(&scene.bounds, &scene.frame)?;
-        let samples = if self.samples == "1" { 1 } else { 4 };
-        let options = PictureOptions {
-            size: self.size,
-            samples,
-            layout: self.layout.into(),
-            path: self.detection.into(),
-            is_transparent: self.transparent,
-            lighting: self.lighting.lighting()?,
-            shaders: self.library.shaders.clone(),
-        };
+        let camera = self.picture.camera.camera(&scene.bounds, &scene.frame)?;
+        let options = self.picture.picture_options(self.size)?;
         let mut renderer = PictureRenderer::new(&gpu, &scene, &technique, &looks, &options)?;
         let statistics = match self.turntable {
             Some(steps) => self.write_turntable(&mut renderer, &camera, steps)?,
@@ -237,37 +149,11 @@ impl RenderCommand {
         }
     }
 
-    /// The files, and the technique as they and the options have it.
-    fn technique(&self, is_quiet: bool) -> Result<(Library, Technique), Failure> {
-        let library = self.library.load();
-        let mut technique = self.library.technique(&library, &self.technique, is_quiet)?;
-        match self.brush.as_deref() {
-            None => {}
-            Some(name) if name == "none" || Brush::NAMES.contains(&name) => {
-                set(&mut technique, &format!("strokes.brush={name}"), is_quiet)?;
-            }
-            Some(path) => {
-                if !Path::new(path).is_file() {
-                    let names = Brush::NAMES.join(", ");
-                    return Err(Failure::fault(format!(
-                        "--brush {path}: there is no such file; a brush is a PNG file, or one of \
-                         none, {names}"
-                    )));
-                }
-                technique.set_brush_file(path).map_err(Failure::usage)?;
-            }
-        }
-        for assignment in &self.set {
-            set(&mut technique, assignment, is_quiet)?;
-        }
-        Ok((library, technique))
-    }
-
     /// Watches the folders that a technique is read from.
     fn watcher(&self, technique: &Technique) -> Result<Watcher, Failure> {
         let mut folders = technique.folders.clone();
-        folders.extend(self.library.shaders.clone());
-        folders.extend(self.brush.iter().filter_map(|brush| {
+        folders.extend(self.picture.library.shaders.clone());
+        folders.extend(self.picture.brush.iter().filter_map(|brush| {
             let path = Path::new(brush);
             path.is_file().then(|| path.parent().map_or_else(PathBuf::new, Path::to_owned))
         }));
@@ -288,50 +174,10 @@ impl RenderCommand {
         camera: &Camera,
         is_quiet: bool,
     ) -> Result<(), Failure> {
-        let (library, technique) = self.technique(is_quiet)?;
-        let looks = self.object_techniques(objects, &library, &technique, is_quiet)?;
+        let (library, technique) = self.picture.technique(is_quiet)?;
+        let looks = self.picture.object_techniques(objects, &library, &technique, is_quiet)?;
         renderer.reload(scene, &technique, &looks)?;
         self.write_picture(renderer, camera, None).map(drop)
-    }
-
-    /// The objects of all models and scene files, in order.
-    fn objects(&self) -> Result<Vec<SceneObject>, Failure> {
-        let mut objects = Vec::new();
-        for path in &self.models {
-            if is_scene_file(path) {
-                objects.extend(read_scene_file(path)?);
-            } else {
-                objects.push(SceneObject::plain(path));
-            }
-        }
-        Ok(objects)
-    }
-
-    /// The technique of each object: its own or `default`, and what it sets.
-    fn object_techniques(
-        &self,
-        objects: &[SceneObject],
-        library: &Library,
-        default: &Technique,
-        is_quiet: bool,
-    ) -> Result<Vec<Technique>, Failure> {
-        let of_object = |object: &SceneObject| {
-            let mut technique = match &object.technique {
-                Some(name) => self.library.technique(library, name, is_quiet)?,
-                None => default.clone(),
-            };
-            for setting in &object.settings {
-                set(&mut technique, setting, is_quiet).map_err(|failure| Failure {
-                    message: format!("{}: {}", object.model.display(), failure.message),
-                    ..failure
-                })?;
-            }
-            Ok(technique)
-        };
-        if objects.iter().all(|object| object.technique.is_none() && object.settings.is_empty()) {
-            return Ok(Vec::new());
-        }
-        objects.iter().map(of_object).collect()
     }
 
     /// The device opens while the models are read: each takes its time alone.
@@ -341,8 +187,9 @@ impl RenderCommand {
         is_quiet: bool,
     ) -> Result<(Gpu, Scene), Failure> {
         thread::scope(|scope| {
-            let opening = scope.spawn(|| pollster::block_on(gpu::open(self.adapter.as_deref())));
-            let scene = Scene::load(objects, &self.input, is_quiet);
+            let opening =
+                scope.spawn(|| pollster::block_on(gpu::open(self.picture.adapter.as_deref())));
+            let scene = Scene::load(objects, &self.picture.input, is_quiet);
             let gpu = opening.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
             // What is wrong with the model is told first; it is likelier and nearer.
             let scene = scene?;
@@ -457,7 +304,7 @@ impl RenderCommand {
     }
 
     fn write_png(&self, path: &Path, picture: &RgbaImage) -> Result<(), Failure> {
-        write_result(path, &encode_png(picture, self.transparent)?)
+        write_result(path, &encode_png(picture, self.picture.transparent)?)
     }
 
     fn write_statistics(

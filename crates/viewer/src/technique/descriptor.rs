@@ -12,6 +12,7 @@ use std::sync::Arc;
 
 use super::core::CoreComponent;
 use super::mistake::Place;
+use super::texture_name::{TextureName, TextureSource};
 use super::value::{Value, VariableType};
 
 /// What is known of a variable of a component.
@@ -77,6 +78,21 @@ impl VariableDescriptor {
     #[must_use]
     pub const fn is_parameter(&self) -> bool {
         self.vertex_parameter || self.fragment_parameter
+    }
+
+    /// A value with the variable's own directory, where it is an image without one;
+    /// `None` where the variable has none.
+    #[must_use]
+    pub fn in_directory(&self, value: Value) -> Option<Value> {
+        let Value::Texture(TextureName {
+            source: TextureSource::Image { directory: None, image },
+            is_filtered,
+        }) = value
+        else {
+            return Some(value);
+        };
+        let source = TextureSource::Image { directory: Some(self.directory.clone()?), image };
+        Some(Value::Texture(TextureName { source, is_filtered }))
     }
 
     /// The number of a word among those that the string can be.

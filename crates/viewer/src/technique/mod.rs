@@ -16,7 +16,9 @@
 //! - [`mistake`]: everything that is wrong with a file, underlined.
 //! - [`program`]: what a shader wants to be given.
 //! - [`plan`]: a technique with everything checked.
+//! - [`changes`], [`write`]: a technique that was changed, as settings and as a file.
 
+pub mod changes;
 pub(crate) mod class_pass;
 mod component_file;
 pub mod core;
@@ -35,6 +37,7 @@ pub mod texture_format;
 pub mod texture_name;
 mod toml_file;
 pub mod value;
+pub mod write;
 
 use std::path::PathBuf;
 

@@ -2,7 +2,7 @@
 
 use super::descriptor::{SharedDescriptor, VariableDescriptor};
 use super::mistake::{Mistake, Mistakes, Place};
-use super::texture_name::{TextureName, TextureSource};
+use super::texture_name::TextureName;
 use super::value::Value;
 
 /// A pass of a technique.
@@ -183,18 +183,14 @@ fn checked(
             }
             Some(Value::String(word))
         }
-        Value::Texture(TextureName {
-            source: TextureSource::Image { directory: None, image },
-            is_filtered,
-        }) => {
-            let Some(directory) = variable.directory.clone() else {
-                let message = format!("'{image}' has no directory");
+        Value::Texture(name) => {
+            let found = variable.in_directory(Value::Texture(name.clone()));
+            if found.is_none() {
+                let message = format!("'{name}' has no directory");
                 let note = "a texture is directory:image, <generated>:name, or a file as paper.png";
                 mistakes.add(error(message).note(note));
-                return None;
-            };
-            let source = TextureSource::Image { directory: Some(directory), image };
-            Some(Value::Texture(TextureName { source, is_filtered }))
+            }
+            found
         }
         value => {
             let clamped = value.clamped(variable.minimum.as_ref(), variable.maximum.as_ref());

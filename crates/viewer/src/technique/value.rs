@@ -200,6 +200,24 @@ pub fn parse_color(text: &str, of: VariableType) -> Option<Vec<f32>> {
     Some((0..of.number_count()).map(|channel_at| channel(2 * channel_at)).collect())
 }
 
+/// A colour as `#rrggbb` or `#rrggbbaa`, where its values are those of bytes, so that
+/// [`parse_color`] reads the same ones again.
+#[must_use]
+pub fn color_text(numbers: &[f32]) -> Option<String> {
+    let of = match numbers.len() {
+        3 => VariableType::Rgb,
+        4 => VariableType::Rgba,
+        _ => return None,
+    };
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    let byte = |number: &f32| (number * 255.0).round().clamp(0.0, 255.0) as u8;
+    let is_opaque = numbers.get(3).is_none_or(|alpha| byte(alpha) == 255);
+    let shown = if is_opaque { &numbers[..3] } else { numbers };
+    let digits: String = shown.iter().map(|number| format!("{:02x}", byte(number))).collect();
+    let text = format!("#{digits}");
+    (parse_color(&text, of).as_deref() == Some(numbers)).then_some(text)
+}
+
 impl Value {
     /// Whether it is of a type.
     #[must_use]

@@ -1,0 +1,126 @@
+//! What was changed in a technique, as command lines have it.
+//!
+//! The window changes values in place; a copied command and a picture's own text must
+//! lead to the same values again. So changes are not kept as they were made: they are
+//! read off the technique as it is, beside the one that it was.
+
+use super::Technique;
+use super::pass::Pass;
+use super::value::{Value, VariableType, color_text};
+
+/// The settings, as `--set` takes them, that lead from `before` to `after`, which has
+/// the passes of `before`, and those that were split from them for classes of edges.
+/// `None` where no settings lead there.
+///
+/// [`Technique::set`] changes a pass and all that were split from it. So those that are
+/// split are made first, then the others are set, then what differs in the split ones.
+#[must_use]
+pub fn changes(before: &Technique, after: &Technique) -> Option<Vec<String>> {
+    let mut settings = Vec::new();
+    let mut reached = before.clone();
+    let is_new = |pass: &&Pass| before.pass(&pass.name).is_none();
+    // A new pass goes right behind the one that it is split from: the last is made first.
+    for pass in after.passes.iter().rev().filter(is_new) {
+        let (index, _) = pass.component.variable("render")?;
+        add(&mut settings, &mut reached, pass, index)?;
+    }
+    for is_split in [false, true] {
+        for pass in after.passes.iter().filter(|pass| is_new(pass) == is_split) {
+            for (index, value) in pass.values().iter().enumerate() {
+                if reached.pass(&pass.name)?.values().get(index) != Some(value) {
+                    add(&mut settings, &mut reached, pass, index)?;
+                }
+            }
+        }
+    }
+    let is_same = |(one, other): (&Pass, &Pass)| {
+        one.name == other.name && one.component == other.component && one.values() == other.values()
+    };
+    let all_same = reached.passes.len() == after.passes.len()
+        && reached.passes.iter().zip(&after.passes).all(is_same);
+    all_same.then_some(settings)
+}
+
+/// Sets a variable of a pass as `--set` does.
+fn add(
+    settings: &mut Vec<String>,
+    reached: &mut Technique,
+    pass: &Pass,
+    index: usize,
+) -> Option<()> {
+    let (variable, value) = (pass.component.variables.get(index)?, pass.values().get(index)?);
+    let setting = format!("{}.{}={}", pass.name, variable.name, argument(variable.kind, value));
+    reached.set(&setting).ok()?;
+    settings.push(setting);
+    Some(())
+}
+
+/// A value as [`VariableType::parse`] reads it.
+#[must_use]
+pub fn argument(kind: VariableType, value: &Value) -> String {
+    match value {
+        Value::Numbers(numbers) => match color_text(numbers).filter(|_| kind.is_color()) {
+            Some(color) => color,
+            None => {
+                let numbers: Vec<String> = numbers.iter().map(ToString::to_string).collect();
+                numbers.join(",")
+            }
+        },
+        Value::String(text) => text.clone(),
+        Value::Texture(name) => name.to_string(),
+        Value::Bool(_) | Value::Int(_) => value.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::technique::library::Library;
+
+    fn shipped(name: &str) -> Technique {
+        Library::shipped().technique(name).unwrap().0
+    }
+
+    #[test]
+    fn what_was_not_changed_needs_no_settings() {
+        for name in ["ink", "hatching", "outline_combined"] {
+            assert_eq!(changes(&shipped(name), &shipped(name)), Some(Vec::new()));
+        }
+    }
+
+    #[test]
+    fn settings_lead_to_the_same_technique_however_it_came_about() {
+        let before = shipped("ink");
+        let mut after = before.clone();
+        for setting in [
+            "valley.width=4",
+            "strokes.color=0.1,0.2,0.3",
+            "strokes.width=2.7182817",
+            "strokes.brush=charcoal",
+            "strokes.fade=3,8",
+            "hidden-contour.render=true",
+            "ridge.color=#00ff0080",
+        ] {
+            after.set(setting).unwrap();
+        }
+        let settings = changes(&before, &after).unwrap();
+        assert!(settings.contains(&"strokes.width=2.7182817".to_owned()), "{settings:?}");
+        assert!(settings.contains(&"ridge.color=#00ff0080".to_owned()), "{settings:?}");
+        let mut again = before;
+        for setting in &settings {
+            again.set(setting).unwrap();
+        }
+        let names = |technique: &Technique| -> Vec<String> {
+            technique.passes.iter().map(|pass| pass.name.clone()).collect()
+        };
+        assert_eq!(names(&again), names(&after));
+        for (one, other) in again.passes.iter().zip(&after.passes) {
+            assert_eq!(one.values(), other.values(), "{}", one.name);
+        }
+    }
+
+    #[test]
+    fn another_technique_cannot_be_reached() {
+        assert_eq!(changes(&shipped("ink"), &shipped("phong")), None);
+    }
+}
