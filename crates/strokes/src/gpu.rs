@@ -95,11 +95,16 @@ impl Gpu {
 #[must_use]
 pub fn instance() -> (Instance, Backends) {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+    descriptor.backends = backends();
+    (Instance::new(descriptor), backends())
+}
+
+/// The backends of [`instance`].
+#[must_use]
+pub fn backends() -> Backends {
     let wanted = Backends::from_env().unwrap_or(Backends::PRIMARY) - Backends::NOOP;
     // Only what this platform has, so that a message names nothing else.
-    descriptor.backends = wanted & Instance::enabled_backend_features();
-    let backends = descriptor.backends;
-    (Instance::new(descriptor), backends)
+    wanted & Instance::enabled_backend_features()
 }
 
 /// What `adapter` lacks of what every picture needs; empty where it will do.
@@ -145,11 +150,8 @@ pub async fn open_with(
         Some(name) => Some(find_by_name(&instance, backends, name).await?),
     };
     let adapter = adapter.ok_or_else(|| GpuError::NoAdapter { tried: names_of(backends) })?;
+    check(&adapter)?;
     let info = adapter.get_info();
-    let lacks = lacking(&adapter);
-    if !lacks.is_empty() {
-        return Err(GpuError::Unsuitable { name: info.name, lacks });
-    }
     let mut descriptor = device_descriptor(&adapter);
     adjust(&mut descriptor.required_limits);
     let (device, queue) = adapter.request_device(&descriptor).await.map_err(|error| {
@@ -158,7 +160,56 @@ pub async fn open_with(
     Ok(Gpu { info, device, queue })
 }
 
-fn device_descriptor(adapter: &Adapter) -> wgpu::DeviceDescriptor<'static> {
+fn check(adapter: &Adapter) -> Result<(), GpuError> {
+    let lacks = lacking(adapter);
+    match lacks.is_empty() {
+        true => Ok(()),
+        false => Err(GpuError::Unsuitable { name: adapter.get_info().name, lacks }),
+    }
+}
+
+/// Of some adapters that whose name contains `name` (any case), or the best one that can
+/// draw to `surface`.
+///
+/// # Errors
+/// As [`open`].
+pub fn choose(
+    adapters: &[Adapter],
+    name: Option<&str>,
+    surface: Option<&wgpu::Surface>,
+) -> Result<Adapter, GpuError> {
+    let fits =
+        |adapter: &&Adapter| surface.is_none_or(|surface| adapter.is_surface_supported(surface));
+    let fitting: Vec<&Adapter> = adapters.iter().filter(fits).collect();
+    let found = match name {
+        // Real cards before those that are built in, and software last.
+        None => fitting.into_iter().min_by_key(|adapter| match adapter.get_info().device_type {
+            wgpu::DeviceType::DiscreteGpu => 0,
+            wgpu::DeviceType::IntegratedGpu => 1,
+            wgpu::DeviceType::VirtualGpu => 2,
+            wgpu::DeviceType::Other => 3,
+            wgpu::DeviceType::Cpu => 4,
+        }),
+        Some(name) => {
+            let wanted = name.to_lowercase();
+            let is_wanted =
+                |adapter: &&Adapter| adapter.get_info().name.to_lowercase().contains(&wanted);
+            let found = fitting.iter().map(|adapter| adapter.get_info().name).collect();
+            let known = fitting.into_iter().find(is_wanted);
+            if known.is_none() && !adapters.is_empty() {
+                return Err(GpuError::UnknownAdapter { wanted: name.into(), found });
+            }
+            known
+        }
+    };
+    let adapter = found.ok_or_else(|| GpuError::NoAdapter { tried: names_of(backends()) })?;
+    check(adapter)?;
+    Ok(adapter.clone())
+}
+
+/// What is asked of an adapter: the features and limits that the crate uses.
+#[must_use]
+pub fn device_descriptor(adapter: &Adapter) -> wgpu::DeviceDescriptor<'static> {
     let has = adapter.limits();
     wgpu::DeviceDescriptor {
         label: Some("edgemesh"),

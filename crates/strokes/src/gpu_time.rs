@@ -4,7 +4,7 @@
 use wgpu::Features;
 
 use crate::gpu::Gpu;
-use crate::readback::{ReadbackError, read_buffer};
+use crate::readback::{PendingRead, ReadbackError, read_buffer};
 
 /// Two timestamps a pass.
 #[derive(Debug)]
@@ -72,14 +72,31 @@ impl GpuTimer {
     /// # Errors
     /// Where the device is lost.
     pub fn read(&self, gpu: &Gpu) -> Result<GpuTimes, ReadbackError> {
-        let ticks: Vec<u64> = read_buffer(gpu, &self.resolved, 2 * self.pass_count as usize)?;
+        Ok(self.times(gpu, &read_buffer(gpu, &self.resolved, self.tick_count())?))
+    }
+
+    /// Begins to read the ticks of the last submission, for [`Self::times`].
+    ///
+    /// # Errors
+    /// Where the device is lost.
+    pub fn begin_read(&self, gpu: &Gpu) -> Result<PendingRead<u64>, ReadbackError> {
+        PendingRead::begin(gpu, &self.resolved, self.tick_count())
+    }
+
+    const fn tick_count(&self) -> usize {
+        2 * self.pass_count as usize
+    }
+
+    /// What the ticks of all passes are in milliseconds.
+    #[must_use]
+    pub fn times(&self, gpu: &Gpu, ticks: &[u64]) -> GpuTimes {
         let ns_per_tick = f64::from(gpu.queue.get_timestamp_period());
         #[expect(clippy::cast_precision_loss, reason = "a frame takes far less than 2^52 ticks")]
         let ms = |start: u64, end: u64| end.saturating_sub(start) as f64 * ns_per_tick / 1e6;
         let passes_ms = ticks.as_chunks::<2>().0.iter().map(|&[start, end]| ms(start, end));
         let first = ticks.iter().min().copied().unwrap_or_default();
         let last = ticks.iter().max().copied().unwrap_or_default();
-        Ok(GpuTimes { passes_ms: passes_ms.collect(), frame_ms: ms(first, last) })
+        GpuTimes { passes_ms: passes_ms.collect(), frame_ms: ms(first, last) }
     }
 }
 

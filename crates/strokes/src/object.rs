@@ -19,7 +19,7 @@ use crate::graph::link::LinkDraw;
 use crate::graph::path::PathDraw;
 use crate::look::{MAX_DRAWS, Visibility};
 use crate::mesh_buffers::{ChunkBuffers, ChunkUniform, EdgeSource, MeshBuffers};
-use crate::readback::{ReadbackError, read_buffer};
+use crate::readback::{PendingRead, ReadbackError, read_buffer};
 use crate::renderer::{DetectionPath, PreparedDraw, PreparedLook, Renderer};
 use crate::stroke_layouts::StrokeLayouts;
 use crate::view_buffers::{ObjectBuffers, Tally, ViewBuffers};
@@ -246,6 +246,14 @@ impl Object {
     pub fn read_tally(&self, gpu: &Gpu) -> Result<Tally, ReadbackError> {
         let tallies: Vec<Tally> = self.read_tallies(gpu)?;
         Ok(tallies.iter().fold(Tally::default(), |sum, tally| sum.plus(tally)))
+    }
+
+    /// Begins to read the counts of each chunk in the last view.
+    ///
+    /// # Errors
+    /// Where the device is lost.
+    pub fn begin_read_tallies(&self, gpu: &Gpu) -> Result<PendingRead<Tally>, ReadbackError> {
+        PendingRead::begin(gpu, &self.whole.tallies, self.parts.len())
     }
 
     fn read_tallies(&self, gpu: &Gpu) -> Result<Vec<Tally>, ReadbackError> {

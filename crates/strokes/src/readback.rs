@@ -1,5 +1,8 @@
 //! From the GPU back to memory: pictures and buffers.
 
+use std::marker::PhantomData;
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
 use bytemuck::Pod;
 use image::RgbaImage;
 use thiserror::Error;
@@ -80,6 +83,47 @@ pub fn read_buffer<T: Pod>(
     Ok(bytemuck::pod_collect_to_vec(&map(gpu, &buffer)?))
 }
 
+/// A read of a buffer that is under way.
+#[derive(Debug)]
+pub struct PendingRead<T> {
+    buffer: wgpu::Buffer,
+    answer: Receiver<Result<(), wgpu::BufferAsyncError>>,
+    items: PhantomData<T>,
+}
+
+impl<T: Pod> PendingRead<T> {
+    /// Begins to read the first `count` items of a buffer that may be copied from, as it
+    /// is after everything that was submitted.
+    ///
+    /// # Errors
+    /// Where the device is lost or has no room for the copy.
+    pub fn begin(gpu: &Gpu, source: &wgpu::Buffer, count: usize) -> Result<Self, ReadbackError> {
+        let byte_count = (count * size_of::<T>()) as u64;
+        let buffer = staging(gpu, byte_count)?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        encoder.copy_buffer_to_buffer(source, 0, &buffer, 0, byte_count);
+        gpu.queue.submit([encoder.finish()]);
+        Ok(Self { answer: begin_map(&buffer), buffer, items: PhantomData })
+    }
+
+    /// The items, if they are there; does not wait.
+    ///
+    /// # Errors
+    /// Where the device is lost.
+    pub fn poll(&self, gpu: &Gpu) -> Result<Option<Vec<T>>, ReadbackError> {
+        gpu.device.poll(wgpu::PollType::Poll).map_err(ReadbackError::new)?;
+        match self.answer.try_recv() {
+            Err(TryRecvError::Empty) => Ok(None),
+            Err(error) => Err(ReadbackError::new(error)),
+            Ok(answer) => {
+                answer.map_err(ReadbackError::new)?;
+                let bytes = self.buffer.get_mapped_range(..).map_err(ReadbackError::new)?;
+                Ok(Some(bytemuck::pod_collect_to_vec(&bytes)))
+            }
+        }
+    }
+}
+
 fn staging(gpu: &Gpu, size: u64) -> Result<wgpu::Buffer, ReadbackError> {
     let descriptor = wgpu::BufferDescriptor {
         label: Some("readback"),
@@ -90,12 +134,17 @@ fn staging(gpu: &Gpu, size: u64) -> Result<wgpu::Buffer, ReadbackError> {
     gpu.make(|| gpu.device.create_buffer(&descriptor)).map_err(ReadbackError::new)
 }
 
-fn map(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Vec<u8>, ReadbackError> {
-    let (sender, receiver) = std::sync::mpsc::channel();
+fn begin_map(buffer: &wgpu::Buffer) -> Receiver<Result<(), wgpu::BufferAsyncError>> {
+    let (sender, receiver) = channel();
     buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-        // The receiver waits below; if it is gone, nobody wants the answer.
+        // If the receiver is gone, nobody wants the answer.
         let _ = sender.send(result);
     });
+    receiver
+}
+
+fn map(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Vec<u8>, ReadbackError> {
+    let receiver = begin_map(buffer);
     gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(ReadbackError::new)?;
     receiver.recv().map_err(ReadbackError::new)?.map_err(ReadbackError::new)?;
     let bytes = buffer.get_mapped_range(..).map_err(ReadbackError::new)?.to_vec();

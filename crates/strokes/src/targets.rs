@@ -92,10 +92,10 @@ impl Targets {
         let view =
             |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
-        let picture =
-            texture("picture", formats.color, 1, attachment | wgpu::TextureUsages::COPY_SRC);
-        let sampled = (samples > 1).then(|| texture("samples", formats.color, samples, attachment));
         let read = wgpu::TextureUsages::TEXTURE_BINDING;
+        let picture =
+            texture("picture", formats.color, 1, attachment | read | wgpu::TextureUsages::COPY_SRC);
+        let sampled = (samples > 1).then(|| texture("samples", formats.color, samples, attachment));
         let depth = texture("depth", formats.depth, samples, attachment | read);
         let alone = |aspect| {
             let descriptor = wgpu::TextureViewDescriptor { aspect, ..Default::default() };

@@ -25,3 +25,4 @@ pub mod render;
 pub mod scene_file;
 pub mod technique;
 pub mod watch;
+pub mod window;

@@ -6,7 +6,7 @@ use std::time::Instant;
 use edgemesh::build::{BuildOptions, Frame};
 use edgemesh::camera::Camera;
 use edgemesh::command::input::{InputOptions, Loaded};
-use edgemesh::command::{ExitStatus, Failure};
+use edgemesh::command::{ExitStatus, Failure, Listener};
 use edgemesh::edge_mesh::Bounds;
 use glam::DMat4;
 use image::RgbaImage;
@@ -14,7 +14,7 @@ use strokes::gpu::{Gpu, GpuError, ResourceError};
 use strokes::gpu_time::GpuTimer;
 use strokes::mesh_buffers::Layout;
 use strokes::object::GraphReadback;
-use strokes::readback::{ReadbackError, read_picture};
+use strokes::readback::{PendingRead, ReadbackError, read_picture};
 use strokes::renderer::DetectionPath;
 use strokes::targets::Targets;
 use strokes::view_buffers::Tally;
@@ -59,11 +59,11 @@ impl Scene {
     /// has look number n.
     ///
     /// # Errors
-    /// The first model that cannot be read.
+    /// The first model that cannot be read, or where the listener wants no more.
     pub fn load(
         objects: &[SceneObject],
         input: &InputOptions,
-        is_quiet: bool,
+        listener: Listener,
     ) -> Result<Self, Failure> {
         let mut paths: Vec<PathBuf> = Vec::new();
         let mut placed = Vec::new();
@@ -81,7 +81,7 @@ impl Scene {
         let built = input.creases.build_options();
         Ok(Self {
             thresholds: [built.ridge_angle_rad, built.valley_angle_rad],
-            ..Self::placed(input.load_scene(&paths, is_moved, is_quiet)?, placed)
+            ..Self::placed(input.load_scene(&paths, is_moved, listener)?, placed)
         })
     }
 
@@ -143,19 +143,29 @@ impl Default for PictureOptions {
     }
 }
 
+impl PictureOptions {
+    const fn of_graph(&self) -> GraphOptions {
+        GraphOptions {
+            size: self.size,
+            samples: self.samples,
+            layout: self.layout,
+            path: self.path,
+            is_transparent: self.is_transparent,
+            clips: !self.lighting.clip_planes.is_empty(),
+        }
+    }
+}
+
 /// A scene on the GPU with everything that its pictures need.
 #[derive(Debug)]
 pub struct PictureRenderer {
     gpu: Gpu,
-    /// None only while it is rebuilt.
+    /// None only where a technique could be checked and not be built.
     graph: Option<PassGraph>,
-    options: GraphOptions,
-    shaders: Option<PathBuf>,
+    options: PictureOptions,
     plan: Plan,
     bounds: Bounds,
     frame: Frame,
-    size: [u32; 2],
-    lighting: Lighting,
     timer: Option<GpuTimer>,
 }
 
@@ -169,6 +179,14 @@ pub struct FrameStatistics {
     pub passes: Vec<(String, Option<f64>)>,
     /// From the submission until the GPU was done.
     pub frame_ms: f64,
+}
+
+/// What a picture drew and cost, not yet read.
+#[derive(Debug)]
+pub struct PendingStatistics {
+    tallies: Vec<PendingRead<Tally>>,
+    ticks: Option<PendingRead<u64>>,
+    started: Instant,
 }
 
 impl PictureRenderer {
@@ -190,43 +208,23 @@ impl PictureRenderer {
         let shaders = ShaderFiles::new(&technique.folders, options.shaders.clone());
         let plan =
             Plan::of(technique, &shaders).map_err(|mistakes| technique_failure(&mistakes))?;
-        let made = gpu.make(|| Self::make(gpu, scene, technique, plan, looks, options));
-        made.map_err(|error| resource_failure(&error, options.size, options.samples))?
-    }
-
-    fn make(
-        gpu: &Gpu,
-        scene: &Scene,
-        technique: &Technique,
-        plan: Plan,
-        looks: &[Technique],
-        options: &PictureOptions,
-    ) -> Result<Self, Failure> {
-        let graph_options = GraphOptions {
-            size: options.size,
-            samples: options.samples,
-            layout: options.layout,
-            path: options.path,
-            is_transparent: options.is_transparent,
-            clips: !options.lighting.clip_planes.is_empty(),
-        };
-        let graph = PassGraph::new(gpu, scene, technique, &plan, looks, &graph_options)?;
+        let graph_options = options.of_graph();
+        let made = gpu.make(|| PassGraph::new(gpu, scene, technique, &plan, looks, &graph_options));
+        let graph =
+            made.map_err(|error| resource_failure(&error, options.size, options.samples))??;
         Ok(Self {
             gpu: gpu.clone(),
             timer: timer_for(gpu, &graph),
             graph: Some(graph),
-            options: graph_options,
-            shaders: options.shaders.clone(),
+            options: options.clone(),
             plan,
             bounds: scene.bounds,
             frame: scene.frame,
-            size: options.size,
-            lighting: options.lighting.clone(),
         })
     }
 
-    /// Goes on with a technique, and looks, that have changed; what did not change stays
-    /// on the GPU, and textures keep what is in them.
+    /// Goes on with a technique, looks and options that have changed; what did not change
+    /// stays on the GPU, and textures keep what is in them.
     ///
     /// # Errors
     /// As [`Self::new`]. Mistakes in the technique or its shaders leave everything as it
@@ -236,22 +234,46 @@ impl PictureRenderer {
         scene: &Scene,
         technique: &Technique,
         looks: &[Technique],
+        options: &PictureOptions,
     ) -> Result<(), Failure> {
-        let shaders = ShaderFiles::new(&technique.folders, self.shaders.clone());
+        check_size(&self.gpu, options.size)?;
+        let shaders = ShaderFiles::new(&technique.folders, options.shaders.clone());
         let plan =
             Plan::of(technique, &shaders).map_err(|mistakes| technique_failure(&mistakes))?;
-        let (gpu, options) = (&self.gpu, self.options);
-        let before = self.graph.take();
+        let graph_options = options.of_graph();
+        let (gpu, options_before) = (&self.gpu, self.options.of_graph());
+        let is_alike = (graph_options.layout, graph_options.path)
+            == (options_before.layout, options_before.path);
+        let before = self.graph.take().filter(|_| is_alike);
         let made = gpu.make(|| match before {
-            Some(before) => before.rebuilt(gpu, scene, technique, &plan, looks, &options),
-            None => PassGraph::new(gpu, scene, technique, &plan, looks, &options),
+            Some(before) => before.rebuilt(gpu, scene, technique, &plan, looks, &graph_options),
+            None => PassGraph::new(gpu, scene, technique, &plan, looks, &graph_options),
         });
         let graph =
             made.map_err(|error| resource_failure(&error, options.size, options.samples))??;
         self.timer = timer_for(gpu, &graph);
         self.graph = Some(graph);
         self.plan = plan;
+        self.options = options.clone();
+        (self.bounds, self.frame) = (scene.bounds, scene.frame);
         Ok(())
+    }
+
+    /// How it draws.
+    #[must_use]
+    pub const fn options(&self) -> &PictureOptions {
+        &self.options
+    }
+
+    /// Another light, and other planes that cut the scene; false where that needs a
+    /// [`Self::reload`], as there were none before, or are none any more.
+    pub fn set_lighting(&mut self, lighting: &Lighting) -> bool {
+        let is_cut = |lighting: &Lighting| !lighting.clip_planes.is_empty();
+        let can = is_cut(lighting) == is_cut(&self.options.lighting);
+        if can {
+            self.options.lighting = lighting.clone();
+        }
+        can
     }
 
     fn graph(&self) -> Result<&PassGraph, Failure> {
@@ -264,7 +286,7 @@ impl PictureRenderer {
     /// Where the device is lost, or an image cannot be read.
     pub fn render(&mut self, camera: &Camera) -> Result<(RgbaImage, FrameStatistics), Failure> {
         let started = Instant::now();
-        self.submit(camera)?;
+        self.draw(camera)?;
         self.gpu
             .device
             .poll(wgpu::PollType::wait_indefinitely())
@@ -295,10 +317,20 @@ impl PictureRenderer {
         self.graph.as_ref()?.generated(&self.plan, name)
     }
 
-    fn submit(&mut self, camera: &Camera) -> Result<(), Failure> {
-        let [width, height] = self.size;
+    /// The picture that was drawn last, or is being drawn.
+    #[must_use]
+    pub fn picture(&self) -> Option<&wgpu::Texture> {
+        self.graph.as_ref().map(PassGraph::picture)
+    }
+
+    /// Submits a picture and does not wait for it.
+    ///
+    /// # Errors
+    /// Where an image cannot be read.
+    pub fn draw(&mut self, camera: &Camera) -> Result<(), Failure> {
+        let [width, height] = self.options.size;
         let view = camera.view(&self.bounds, f64::from(width) / f64::from(height));
-        let around = self.lighting.surroundings(&view, &self.bounds, &self.frame);
+        let around = self.options.lighting.surroundings(&view, &self.bounds, &self.frame);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let timer = self.timer.as_ref().map(|timer| timer.passes_from(0));
         let graph = self.graph.as_mut().ok_or_else(no_graph)?;
@@ -310,10 +342,51 @@ impl PictureRenderer {
         Ok(())
     }
 
+    /// Begins to read what the last picture drew and cost.
+    ///
+    /// # Errors
+    /// Where the device is lost.
+    pub fn begin_statistics(&self) -> Result<PendingStatistics, Failure> {
+        let graph = self.graph()?;
+        let objects = graph.counted_objects().iter();
+        let tallies = objects.map(|object| object.begin_read_tallies(&self.gpu));
+        let tallies = tallies.collect::<Result<Vec<_>, _>>().map_err(lost)?;
+        let ticks = self.timer.as_ref().map(|timer| timer.begin_read(&self.gpu));
+        let ticks = ticks.transpose().map_err(lost)?;
+        Ok(PendingStatistics { tallies, ticks, started: Instant::now() })
+    }
+
+    /// What a picture drew and cost, once that is known; `pending` is of the last picture
+    /// of this renderer, which was not reloaded since.
+    ///
+    /// # Errors
+    /// Where the device is lost.
+    pub fn statistics(
+        &self,
+        pending: &PendingStatistics,
+    ) -> Result<Option<FrameStatistics>, Failure> {
+        let mut sum = None;
+        for pending in &pending.tallies {
+            let Some(tallies) = pending.poll(&self.gpu).map_err(lost)? else { return Ok(None) };
+            let before = sum.unwrap_or_default();
+            sum = Some(tallies.iter().fold(before, |sum: Tally, tally| sum.plus(tally)));
+        }
+        let mut passes_ms = Vec::new();
+        if let (Some(timer), Some(ticks)) = (&self.timer, &pending.ticks) {
+            let Some(ticks) = ticks.poll(&self.gpu).map_err(lost)? else { return Ok(None) };
+            passes_ms = timer.times(&self.gpu, &ticks).passes_ms;
+        }
+        let frame_ms = pending.started.elapsed().as_secs_f64() * 1e3;
+        Ok(Some(FrameStatistics { tally: sum, passes: self.named(passes_ms)?, frame_ms }))
+    }
+
     fn read_passes(&self) -> Result<Vec<(String, Option<f64>)>, Failure> {
         let times = self.timer.as_ref().map(|timer| timer.read(&self.gpu)).transpose();
-        let times = times.map_err(lost)?.map_or_else(Vec::new, |times| times.passes_ms);
-        let times = times.into_iter().map(Some).chain(std::iter::repeat(None));
+        self.named(times.map_err(lost)?.map_or_else(Vec::new, |times| times.passes_ms))
+    }
+
+    fn named(&self, passes_ms: Vec<f64>) -> Result<Vec<(String, Option<f64>)>, Failure> {
+        let times = passes_ms.into_iter().map(Some).chain(std::iter::repeat(None));
         Ok(self.graph()?.time_names().into_iter().zip(times).collect())
     }
 }

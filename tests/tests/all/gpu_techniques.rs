@@ -119,9 +119,9 @@ fn passes_run_once_or_when_something_has_changed() {
             (0..count).for_each(|_| drop(renderer.render(&camera).unwrap()));
         };
         frames(&mut renderer, 3);
-        renderer.reload(&scene, &technique, &[]).unwrap();
+        renderer.reload(&scene, &technique, &[], &small([8, 8])).unwrap();
         technique.set("count.step=2,1").unwrap();
-        renderer.reload(&scene, &technique, &[]).unwrap();
+        renderer.reload(&scene, &technique, &[], &small([8, 8])).unwrap();
         frames(&mut renderer, 2);
         let texels: Vec<[f32; 4]> =
             read_texels(gpu(), renderer.generated("sum_color").unwrap(), 16).unwrap();

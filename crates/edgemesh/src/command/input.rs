@@ -11,7 +11,7 @@ use glam::DVec3;
 
 use super::marks::read_marks;
 use super::options::CreaseOptions;
-use super::progress::Progress;
+use super::progress::Listener;
 use super::{Failure, strict_failure};
 use crate::build::{BuildOptions, Frame, Welding, box_of, build_edge_mesh, reclassify};
 use crate::edge_mesh::EdgeMesh;
@@ -19,6 +19,11 @@ use crate::file::{FileError, HEADER_BYTES, is_edge_mesh, parse, stated_length};
 use crate::model::Model;
 use crate::read::{Format, read_model_as, read_model_stream};
 use crate::report::Report;
+
+/// What is named instead of a file for the project's own model, a torus knot.
+pub const DEMO: &str = "demo:";
+
+const DEMO_MODEL: &[u8] = include_bytes!("../../../../models/torus_knot.obj");
 
 /// How the input is read and what is made of it.
 #[derive(Debug, Clone, Default, Args)]
@@ -120,36 +125,42 @@ impl InputOptions {
     /// Where it cannot be read, and, with `--strict`, where there is a warning.
     pub fn load(&self, path: &Path, with_fill: bool, is_quiet: bool) -> Result<Loaded, Failure> {
         let options = self.build_options(with_fill)?;
-        let input = self.read(path, is_quiet)?;
-        self.finish(input, &options, is_quiet)
+        let listener = Listener::terminal(is_quiet);
+        let input = self.read(path, listener)?;
+        self.finish(input, &options, listener)
     }
 
     /// Reads several inputs that lie in one scene, in one frame: that of all of
     /// them, unless `keeps_coordinates` asks for the files' own numbers.
     ///
     /// # Errors
-    /// As [`Self::load`], for the first one that fails.
+    /// As [`Self::load`], for the first one that fails, and where the listener wants no
+    /// more.
     pub fn load_scene(
         &self,
         paths: &[PathBuf],
         keeps_coordinates: bool,
-        is_quiet: bool,
+        listener: Listener,
     ) -> Result<Vec<Loaded>, Failure> {
         let inputs: Vec<Input> =
-            paths.iter().map(|path| self.read(path, is_quiet)).collect::<Result<_, _>>()?;
+            paths.iter().map(|path| self.read(path, listener)).collect::<Result<_, _>>()?;
         let frame = match keeps_coordinates {
             true => Some(Frame::default()),
             false => Some(frame_of(&inputs)).filter(|_| inputs.len() > 1),
         };
         let options = BuildOptions { frame, ..self.build_options(true)? };
-        inputs.into_iter().map(|input| self.finish(input, &options, is_quiet)).collect()
+        inputs.into_iter().map(|input| self.finish(input, &options, listener)).collect()
     }
 
-    fn read(&self, path: &Path, is_quiet: bool) -> Result<Input, Failure> {
-        let _progress = Progress::start(format!("reading {}", path.display()), is_quiet);
+    fn read(&self, path: &Path, listener: Listener) -> Result<Input, Failure> {
+        let _progress = listener.begin(&format!("reading {}", path.display()))?;
         let format = self.format.map(InputFormat::of_model);
         if path == Path::new("-") {
             return self.read_standard_input();
+        }
+        if path == Path::new(DEMO) {
+            let (model, report) = read_model_stream(DEMO_MODEL, path, Some(Format::Obj))?;
+            return Ok(Input::Model(Box::new(model), report));
         }
         if format == Some(None) || format.is_none() && is_edge_mesh_file(path) {
             let stream = File::open(path).map_err(|error| unreadable(path, &error))?;
@@ -190,11 +201,11 @@ impl InputOptions {
         &self,
         input: Input,
         options: &BuildOptions,
-        is_quiet: bool,
+        listener: Listener,
     ) -> Result<Loaded, Failure> {
         let loaded = match input {
             Input::Model(model, mut report) => {
-                let _progress = Progress::start(format!("building {}", model.name), is_quiet);
+                let _progress = listener.begin(&format!("building {}", model.name))?;
                 let mesh = build_edge_mesh(&model, options, &mut report);
                 Loaded { name: model.name, mesh, report }
             }

@@ -24,7 +24,7 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag::register_conditional_shutdown;
 
 pub use output::{print_to_stdout, write_file};
-pub use progress::Progress;
+pub use progress::{Listener, Progress};
 use serde::Serialize;
 
 use crate::read::{ReadError, ReadErrorKind};
@@ -125,7 +125,8 @@ fn strict_failure(model_name: &str, report: &Report) -> Failure {
 }
 
 /// A warning with its first place, the word for its level, how many more there are, and its code.
-fn warning_line(model_name: &str, level: &str, warning: &Warning) -> String {
+#[must_use]
+pub fn warning_line(model_name: &str, level: &str, warning: &Warning) -> String {
     let Warning { code, count, place, message } = warning;
     let more = match count {
         1 => String::new(),

@@ -10,6 +10,49 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::Failure;
+
+/// Who is told what is being done.
+#[derive(Clone, Copy)]
+pub enum Listener<'a> {
+    /// Nobody.
+    Nobody,
+    /// Who sits at the terminal, if standard error is one.
+    Terminal,
+    /// Called with each stage of the work as it begins; false ends the work.
+    Other(&'a (dyn Fn(&str) -> bool + Sync)),
+}
+
+impl std::fmt::Debug for Listener<'_> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(match self {
+            Self::Nobody => "Nobody",
+            Self::Terminal => "Terminal",
+            Self::Other(_) => "Other",
+        })
+    }
+}
+
+impl Listener<'_> {
+    /// Whoever is at the terminal, unless the command is to be quiet.
+    #[must_use]
+    pub const fn terminal(is_quiet: bool) -> Self {
+        if is_quiet { Self::Nobody } else { Self::Terminal }
+    }
+
+    /// Says that a stage begins, which ends when the result is dropped.
+    ///
+    /// # Errors
+    /// Where the listener wants no more of it.
+    pub fn begin(&self, what: &str) -> Result<Progress, Failure> {
+        match self {
+            Self::Other(tell) if !tell(what) => Err(Failure::fault("it was cancelled")),
+            Self::Terminal => Ok(Progress::start(what.to_owned(), false)),
+            Self::Other(_) | Self::Nobody => Ok(Progress::start(String::new(), true)),
+        }
+    }
+}
+
 /// How long work may take without a word.
 const PATIENCE: Duration = Duration::from_secs(1);
 

@@ -37,7 +37,7 @@ use crate::edge_word::{EdgeWord, edge_words};
 use crate::index::NONE;
 use crate::record::{EdgeFlags, EdgeRecord};
 use facing::faces_eye;
-use feature::{ClassTable, EdgeFaces, Line, LineBits, classify_edge, eye_is_outside};
+use feature::{ClassTable, EdgeClass, EdgeFaces, Line, LineBits, classify_edge, eye_is_outside};
 
 /// How many edges belong to each class in a view; an edge can be in several.
 /// Edges that more than two faces share are in none.
@@ -58,6 +58,22 @@ pub struct FeatureCounts {
     pub material: u32,
     /// Edges between two smoothing groups.
     pub smoothing: u32,
+}
+
+impl FeatureCounts {
+    /// The count of a class.
+    #[must_use]
+    pub const fn of(&self, class: EdgeClass) -> u32 {
+        match class {
+            EdgeClass::Contour => self.contour,
+            EdgeClass::Marked => self.marked,
+            EdgeClass::Boundary => self.boundary,
+            EdgeClass::Material => self.material,
+            EdgeClass::Smoothing => self.smoothing,
+            EdgeClass::Ridge => self.ridge,
+            EdgeClass::Valley => self.valley,
+        }
+    }
 }
 
 /// One facing bit a face: whether it faces `eye` (w = 1), or the direction to

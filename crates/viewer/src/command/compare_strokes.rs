@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use edgemesh::camera::Camera;
 use edgemesh::command::input::{InputOptions, Loaded};
-use edgemesh::command::{Failure, print_warnings, write_file};
+use edgemesh::command::{Failure, Listener, print_warnings, write_file};
 use edgemesh::oracle::feature::EdgeClass;
 use edgemesh::oracle::stroke_segment::Parameterization;
 use glam::Vec2;
@@ -95,7 +95,8 @@ impl CompareStrokesCommand {
         let gpu = pollster::block_on(gpu::open(self.adapter.as_deref()));
         let mut scenes = Vec::new();
         for object in &objects {
-            scenes.push(Scene::load(std::slice::from_ref(object), &self.input, is_quiet)?);
+            let listener = Listener::terminal(is_quiet);
+            scenes.push(Scene::load(std::slice::from_ref(object), &self.input, listener)?);
         }
         let gpu = gpu.map_err(|error| adapter_failure(&error))?;
         std::fs::create_dir_all(&self.output).map_err(|error| {

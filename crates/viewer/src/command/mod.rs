@@ -4,25 +4,47 @@ mod adapters;
 mod compare_strokes;
 mod components;
 mod options;
-mod picture_arguments;
+pub mod picture_arguments;
 mod render;
 mod techniques;
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{CommandFactory as _, Parser, Subcommand};
+use clap::{Args, CommandFactory as _, Parser, Subcommand};
 use edgemesh::command::manual::{CompletionsCommand, ManCommand};
 use edgemesh::command::options::MessageOptions;
 use edgemesh::command::run;
 
-/// Draws 3D models as line art
+use self::picture_arguments::PictureArguments;
+
+/// Draws 3D models as line art; without a verb it opens a window
 #[derive(Debug, Parser)]
-#[command(version, propagate_version = true)]
+#[command(version, propagate_version = true, args_conflicts_with_subcommands = true)]
+#[command(after_help = EXAMPLES)]
 struct Viewer {
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
+    #[command(flatten)]
+    window: Box<WindowCommand>,
     #[command(flatten)]
     messages: MessageOptions,
+}
+
+const EXAMPLES: &str = "Examples:\n  \
+    viewer\n  \
+    viewer bunny.obj --technique pen\n  \
+    viewer render bunny.obj -o bunny.png";
+
+/// Opens the window.
+#[derive(Debug, Args)]
+struct WindowCommand {
+    /// Models (OBJ, PLY, STL, glTF, VRML), edge meshes, or scene files (.toml)
+    /// [default: a model of our own]
+    #[arg(value_name = "MODEL")]
+    models: Vec<PathBuf>,
+    #[command(flatten)]
+    picture: PictureArguments,
 }
 
 #[derive(Debug, Subcommand)]
@@ -44,7 +66,11 @@ enum Command {
 pub fn main() -> ExitCode {
     let arguments = Viewer::parse();
     arguments.messages.start_logging();
-    run(move || match arguments.command {
+    let Some(command) = arguments.command else {
+        let WindowCommand { models, picture } = *arguments.window;
+        return run(std::panic::AssertUnwindSafe(move || crate::window::run(&models, picture)));
+    };
+    run(move || match command {
         Command::Render(command) => command.run(arguments.messages.quiet),
         Command::CompareStrokes(command) => command.run(arguments.messages.quiet),
         Command::Components(command) => command.run(arguments.messages.quiet),

@@ -18,7 +18,7 @@ use crate::technique::library::Library;
 
 /// Everything that makes a picture but the models and its size.
 #[derive(Debug, Clone, Args)]
-pub(crate) struct PictureArguments {
+pub struct PictureArguments {
     /// How it looks: a technique by its name, or a file that describes one; see
     /// viewer techniques list
     #[arg(long, value_name = "NAME|FILE", default_value = "ink")]
@@ -143,6 +143,37 @@ impl PictureArguments {
         })
     }
 
+    /// The arguments that the window does not change, as a command line has them: how
+    /// models are read and how edges lie in memory. Folders and the adapter are those of
+    /// a machine, not of a picture.
+    pub(crate) fn fixed_words(&self) -> Vec<String> {
+        let mut words = Vec::new();
+        let mut add = |name: &str, value: Option<String>| {
+            words.extend(value.into_iter().flat_map(|value| [name.to_owned(), value]));
+        };
+        let name_of = |value: Option<clap::builder::PossibleValue>| {
+            value.map(|value| value.get_name().to_owned())
+        };
+        let is_usual = matches!(self.layout, LayoutName::Indexed);
+        add("--layout", name_of(self.layout.to_possible_value()).filter(|_| !is_usual));
+        let is_usual = matches!(self.detection, PathName::Compute);
+        add("--detection", name_of(self.detection.to_possible_value()).filter(|_| !is_usual));
+        add("--samples", Some(self.samples.clone()).filter(|samples| samples != "4"));
+        let input = &self.input;
+        let format = input.format.and_then(|format| format.to_possible_value());
+        add("--format", name_of(format));
+        let number = |number: Option<f64>| number.map(|number| number.to_string());
+        add("--weld", number(input.weld));
+        add("--marks", input.marks.as_ref().map(|path| path.display().to_string()));
+        add("--crease", number(input.creases.crease));
+        add("--ridge", number(input.creases.ridge));
+        add("--valley", number(input.creases.valley));
+        for (name, is_given) in [("--no-weld", input.no_weld), ("--strict", input.strict)] {
+            words.extend(is_given.then(|| name.to_owned()));
+        }
+        words
+    }
+
     /// The technique of each object: its own or `default`, and what it sets; empty where
     /// no object has anything of its own.
     pub(crate) fn object_techniques(
@@ -173,7 +204,7 @@ impl PictureArguments {
 }
 
 /// The objects of all models and scene files, in order.
-pub(crate) fn objects_of(models: &[PathBuf]) -> Result<Vec<SceneObject>, Failure> {
+pub fn objects_of(models: &[PathBuf]) -> Result<Vec<SceneObject>, Failure> {
     let mut objects = Vec::new();
     for path in models {
         if is_scene_file(path) {

@@ -10,7 +10,9 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use edgemesh::camera::Camera;
-use edgemesh::command::{ExitStatus, Failure, print_to_stdout, print_warnings, write_file};
+use edgemesh::command::{
+    ExitStatus, Failure, Listener, print_to_stdout, print_warnings, write_file,
+};
 use edgemesh::oracle::FeatureCounts;
 use glam::DQuat;
 use image::RgbaImage;
@@ -176,7 +178,7 @@ impl RenderCommand {
     ) -> Result<(), Failure> {
         let (library, technique) = self.picture.technique(is_quiet)?;
         let looks = self.picture.object_techniques(objects, &library, &technique, is_quiet)?;
-        renderer.reload(scene, &technique, &looks)?;
+        renderer.reload(scene, &technique, &looks, &self.picture.picture_options(self.size)?)?;
         self.write_picture(renderer, camera, None).map(drop)
     }
 
@@ -189,7 +191,7 @@ impl RenderCommand {
         thread::scope(|scope| {
             let opening =
                 scope.spawn(|| pollster::block_on(gpu::open(self.picture.adapter.as_deref())));
-            let scene = Scene::load(objects, &self.picture.input, is_quiet);
+            let scene = Scene::load(objects, &self.picture.input, Listener::terminal(is_quiet));
             let gpu = opening.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
             // What is wrong with the model is told first; it is likelier and nearer.
             let scene = scene?;

@@ -177,12 +177,19 @@ impl PassGraph {
     /// # Errors
     /// Where the device is lost.
     pub fn tally(&self, gpu: &Gpu) -> Result<Option<Tally>, strokes::readback::ReadbackError> {
-        let Some(group) = self.stroke_groups().next() else { return Ok(None) };
-        if self.strokes.as_ref().is_some_and(StrokePasses::counts_nothing) {
+        let objects = self.counted_objects();
+        if objects.is_empty() {
             return Ok(None);
         }
-        let tallies = group.objects.iter().map(|object| object.read_tally(gpu));
-        tallies.sum_tallies().map(Some)
+        let mut tallies = objects.iter().map(|object| object.read_tally(gpu));
+        tallies.try_fold(Tally::default(), |sum, tally| Ok(sum.plus(&tally?))).map(Some)
+    }
+
+    /// The objects whose strokes are counted.
+    pub(crate) fn counted_objects(&self) -> &[strokes::object::Object] {
+        let counts_nothing = self.strokes.as_ref().is_some_and(StrokePasses::counts_nothing);
+        let group = self.stroke_groups().next().filter(|_| !counts_nothing);
+        group.map_or(&[], |group| &group.objects)
     }
 
     /// Encodes a frame, to be submitted before the next one is encoded.
@@ -326,20 +333,6 @@ impl Step {
         }
         self.run.is_done = true;
         Ok(())
-    }
-}
-
-/// Sums of counts.
-trait SumTallies {
-    fn sum_tallies(self) -> Result<Tally, strokes::readback::ReadbackError>;
-}
-
-impl<I> SumTallies for I
-where
-    I: Iterator<Item = Result<Tally, strokes::readback::ReadbackError>>,
-{
-    fn sum_tallies(mut self) -> Result<Tally, strokes::readback::ReadbackError> {
-        self.try_fold(Tally::default(), |sum, tally| Ok(sum.plus(&tally?)))
     }
 }
 

@@ -33,12 +33,7 @@ pub fn changes(before: &Technique, after: &Technique) -> Option<Vec<String>> {
             }
         }
     }
-    let is_same = |(one, other): (&Pass, &Pass)| {
-        one.name == other.name && one.component == other.component && one.values() == other.values()
-    };
-    let all_same = reached.passes.len() == after.passes.len()
-        && reached.passes.iter().zip(&after.passes).all(is_same);
-    all_same.then_some(settings)
+    (reached.passes == after.passes).then_some(settings)
 }
 
 /// Sets a variable of a pass as `--set` does.

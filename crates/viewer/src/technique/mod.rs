@@ -45,7 +45,7 @@ use self::mistake::{Mistake, Mistakes};
 use self::pass::Pass;
 
 /// A technique: passes in order.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Technique {
     /// Its name: that of its file.
     pub name: String,

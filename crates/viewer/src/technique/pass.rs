@@ -1,5 +1,7 @@
 //! A pass: a component with the values of its variables.
 
+use std::sync::Arc;
+
 use super::descriptor::{SharedDescriptor, VariableDescriptor};
 use super::mistake::{Mistake, Mistakes, Place};
 use super::texture_name::TextureName;
@@ -20,6 +22,16 @@ pub struct Pass {
     pub place: Place,
     /// The pass that this one was split from, where it was.
     pub split_from: Option<String>,
+}
+
+/// What a pass does is its component and its values; where they were set is not part of it.
+impl PartialEq for Pass {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+            && (Arc::ptr_eq(&self.component, &other.component) || self.component == other.component)
+            && self.values == other.values
+            && self.split_from == other.split_from
+    }
 }
 
 /// What it takes to set a variable.

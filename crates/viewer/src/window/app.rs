@@ -1,0 +1,488 @@
+//! One frame of the window: what has arrived is taken, hands move, the canvas draws,
+//! panels show; what panels ask is done.
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use edgemesh::command::{ExitStatus, Failure, write_file};
+use egui::{CentralPanel, Panel, Sense, Ui};
+use strokes::gpu;
+
+use super::canvas::Canvas;
+use super::hands::Hands;
+use super::loading::{self, Loading};
+use super::panels;
+use super::recipe::Recipe;
+use super::remembered::Remembered;
+use super::session::{Request, Session};
+use super::style;
+use super::watching::{Change, Watching};
+use crate::command::picture_arguments::PictureArguments;
+use crate::render::PictureRenderer;
+use crate::technique::library::Library;
+use crate::technique::write::written;
+
+/// What the window is called, and where it remembers.
+const APP_ID: &str = "edgemesh";
+
+/// The key under which the window remembers.
+const REMEMBERED: &str = "remembered";
+
+/// How often a lost device is replaced, within [`RECOVERY_TIME`].
+const MOST_RECOVERIES: usize = 3;
+
+/// How long recoveries count.
+const RECOVERY_TIME: Duration = Duration::from_secs(10);
+
+/// How often what the GPU tells is asked for while it is not there.
+const ASK_AGAIN: Duration = Duration::from_millis(15);
+
+/// Opens the window and returns when it is closed.
+///
+/// A device that is lost takes its window with it: another window takes its place, with
+/// the same session.
+///
+/// # Errors
+/// Where something is wrong with the command line, there is no adapter or no display, or
+/// the device was lost again and again.
+pub(crate) fn run(models: &[PathBuf], arguments: PictureArguments) -> Result<(), Failure> {
+    let library = arguments.library.load();
+    let recipe = Recipe::new(models, arguments, &library)?;
+    let adapter = recipe.arguments.adapter.clone();
+    let kept = Arc::new(Mutex::new(Some(Kept { library, recipe, remembered: None })));
+    let mut losses: Vec<Instant> = Vec::new();
+    loop {
+        let is_lost = Arc::new(AtomicBool::new(false));
+        let opened = open(&kept, &is_lost, adapter.as_deref());
+        let has_kept = || kept.lock().unwrap_or_else(PoisonError::into_inner).is_some();
+        if !is_lost.load(Ordering::Relaxed) || !has_kept() {
+            return opened;
+        }
+        losses.push(Instant::now());
+        losses.retain(|loss| loss.elapsed() < RECOVERY_TIME);
+        if losses.len() > MOST_RECOVERIES {
+            return Err(Failure {
+                message: format!(
+                    "the graphics adapter was lost {} times within {} seconds; try another one \
+                     with --adapter, or a newer driver",
+                    losses.len(),
+                    RECOVERY_TIME.as_secs()
+                ),
+                status: ExitStatus::NoAdapter,
+            });
+        }
+        log::warn!("the graphics adapter was lost; the window opens again");
+    }
+}
+
+/// What goes on from one window to the next.
+struct Kept {
+    library: Library,
+    recipe: Recipe,
+    /// None before the first window.
+    remembered: Option<Remembered>,
+}
+
+/// Opens one window, until it is closed or its device is lost.
+fn open(
+    kept: &Arc<Mutex<Option<Kept>>>,
+    is_lost: &Arc<AtomicBool>,
+    adapter: Option<&str>,
+) -> Result<(), Failure> {
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title("Edgemesh")
+            .with_app_id(APP_ID)
+            .with_inner_size([1280.0, 800.0])
+            .with_min_inner_size([320.0, 240.0]),
+        wgpu_options: egui_wgpu::WgpuConfiguration {
+            wgpu_setup: window_setup(adapter).into(),
+            ..egui_wgpu::WgpuConfiguration::default()
+        },
+        // What is drawn is drawn with the colours that files have.
+        dithering: false,
+        ..eframe::NativeOptions::default()
+    };
+    let (creator_kept, creator_lost) = (kept.clone(), is_lost.clone());
+    let made = eframe::run_native(
+        APP_ID,
+        options,
+        Box::new(move |context| Ok(Box::new(Window::new(context, creator_kept, creator_lost)?))),
+    );
+    made.map_err(|error| window_failure(&error))
+}
+
+/// The adapter and the device, asked for as `viewer render` does.
+fn window_setup(adapter: Option<&str>) -> egui_wgpu::WgpuSetupCreateNew {
+    let mut setup = egui_wgpu::WgpuSetupCreateNew::without_display_handle();
+    setup.instance_descriptor.backends = gpu::backends();
+    let wanted = adapter.map(str::to_lowercase);
+    setup.native_adapter_selector = Some(Arc::new(move |adapters, surface| {
+        gpu::choose(adapters, wanted.as_deref(), surface).map_err(|error| error.to_string())
+    }));
+    setup.device_descriptor = Arc::new(gpu::device_descriptor);
+    setup
+}
+
+fn window_failure(error: &eframe::Error) -> Failure {
+    match error {
+        eframe::Error::Wgpu(error) => {
+            let text = error.to_string();
+            let message = text.strip_prefix("Adapter selection failed: ").unwrap_or(&text);
+            Failure { message: message.to_owned(), status: ExitStatus::NoAdapter }
+        }
+        eframe::Error::AppCreation(error) => Failure::fault(error.to_string()),
+        error => Failure::fault(format!(
+            "no window can be opened: {error}; is there a display? (DISPLAY or WAYLAND_DISPLAY \
+             says which.) viewer render draws without one"
+        )),
+    }
+}
+
+/// The window.
+struct Window {
+    session: Session,
+    canvas: Canvas,
+    hands: Hands,
+    loading: Option<Loading>,
+    watching: Option<Watching>,
+    /// What dialogs on other threads have led to.
+    arrived: Receiver<Arrival>,
+    sender: Sender<Arrival>,
+    /// The size of the picture, in pixels.
+    size: [u32; 2],
+    title: String,
+    kept: Arc<Mutex<Option<Kept>>>,
+    is_lost: Arc<AtomicBool>,
+    faults: Arc<Mutex<Vec<String>>>,
+}
+
+/// What comes from other threads.
+enum Arrival {
+    Files(Vec<PathBuf>),
+    TechniqueFile(PathBuf),
+    PictureFile(PathBuf),
+    Done(Result<String, String>),
+}
+
+impl Window {
+    fn new(
+        context: &eframe::CreationContext,
+        kept: Arc<Mutex<Option<Kept>>>,
+        is_lost: Arc<AtomicBool>,
+    ) -> Result<Self, String> {
+        let before = kept.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let Kept { library, recipe, remembered } = before.ok_or("there is nothing to show")?;
+        let window = context.wgpu_render_state.clone().ok_or("the window has no device")?;
+        let faults = Arc::new(Mutex::new(Vec::new()));
+        watch_device(&window.device, &context.egui_ctx, &is_lost, &faults);
+        let stored = || {
+            let storage = context.storage?;
+            eframe::get_value(storage, REMEMBERED)
+        };
+        let remembered = remembered.or_else(stored).unwrap_or_default();
+        style::apply(&context.egui_ctx);
+        let canvas = Canvas::new(window);
+        let mut session = Session::new(library, recipe, remembered);
+        session.adapter.clone_from(&canvas.gpu().info.name);
+        let models = session.recipe.models.clone();
+        let (sender, arrived) = channel();
+        let mut this = Self {
+            session,
+            canvas,
+            hands: Hands::default(),
+            loading: None,
+            watching: None,
+            arrived,
+            sender,
+            size: [1, 1],
+            title: String::new(),
+            kept,
+            is_lost,
+            faults,
+        };
+        this.load(models, &context.egui_ctx);
+        Ok(this)
+    }
+
+    fn load(&mut self, models: Vec<PathBuf>, context: &egui::Context) {
+        let recipe = &self.session.recipe;
+        let Ok(options) = recipe.picture_options(self.size) else { return };
+        let request = loading::Request {
+            models,
+            arguments: recipe.arguments.clone(),
+            gpu: Some(self.canvas.gpu().clone()),
+            technique: recipe.appearance.technique.clone(),
+            options,
+        };
+        let context = context.clone();
+        self.loading = Some(Loading::start(request, move || context.request_repaint()));
+    }
+
+    /// Takes what other threads have made.
+    fn take_arrivals(&mut self, context: &egui::Context) {
+        if let Some(loaded) = self.loading.as_ref().and_then(Loading::take) {
+            self.loading = None;
+            match loaded {
+                Ok(loaded) => {
+                    let scene = loaded.scene.clone();
+                    let taken = self.session.take_scene(loaded.models, scene, loaded.objects);
+                    if let Err(failure) = taken {
+                        self.session.messages.error(failure.message);
+                    }
+                    self.canvas.take_scene(loaded.scene, loaded.renderer);
+                }
+                Err(failure) => self.session.messages.error(failure.message),
+            }
+        }
+        let told = self.loading.as_ref();
+        self.session.loading = told.map(|loading| (loading.stage(), loading.started.elapsed()));
+        if self.loading.is_some() {
+            context.request_repaint_after(Duration::from_millis(100));
+        }
+        while let Ok(arrival) = self.arrived.try_recv() {
+            match arrival {
+                Arrival::Files(files) => self.load(files, context),
+                Arrival::TechniqueFile(path) => self.save_technique(&path),
+                Arrival::PictureFile(path) => self.save_picture(path, context),
+                Arrival::Done(Ok(note)) => self.session.messages.note(note),
+                Arrival::Done(Err(what)) => self.session.messages.error(what),
+            }
+        }
+        for fault in self.faults.lock().unwrap_or_else(PoisonError::into_inner).drain(..) {
+            self.session.messages.error(fault);
+        }
+    }
+
+    /// Watches the files of the technique, and reads them when they have changed.
+    fn follow_files(&mut self, context: &egui::Context) {
+        let folders = self.session.watched_folders();
+        if self.watching.as_ref().is_none_or(|watching| !watching.is_of(&folders)) {
+            let context = context.clone();
+            let started = Watching::start(&folders, move || context.request_repaint());
+            // Without it files are read when they are opened.
+            self.watching = started.inspect_err(|what| log::warn!("{what}")).ok();
+        }
+        let Some(change) = self.watching.as_ref().and_then(Watching::take) else { return };
+        match self.session.read_again() {
+            Ok(()) => self.canvas.forget(change),
+            Err(failure) if change == Change::Settled => {
+                self.session.messages.technique = Some(failure.message);
+            }
+            Err(_) => {}
+        }
+    }
+
+    /// Does what panels and keys ask.
+    fn answer(&mut self, context: &egui::Context, time: f64) {
+        for request in std::mem::take(&mut self.session.requests) {
+            match request {
+                Request::ChooseFiles => self.ask(context, |dialog| {
+                    let dialog = dialog.set_title("Open models");
+                    dialog.pick_files().map(Arrival::Files)
+                }),
+                Request::Open(files) => self.load(files, context),
+                Request::Reload => self.load(self.session.recipe.models.clone(), context),
+                Request::CancelLoading => self.loading = None,
+                Request::SaveTechnique => {
+                    let name = format!("{}.toml", self.session.recipe.appearance.technique.name);
+                    self.ask(context, move |dialog| {
+                        let dialog = dialog.set_title("Save technique").set_file_name(name);
+                        let dialog = dialog.add_filter("Technique", &["toml"]);
+                        dialog.save_file().map(Arrival::TechniqueFile)
+                    });
+                }
+                Request::SavePicture => self.ask(context, |dialog| {
+                    let dialog = dialog.set_title("Save picture").set_file_name("picture.png");
+                    let dialog = dialog.add_filter("PNG", &["png"]);
+                    dialog.save_file().map(Arrival::PictureFile)
+                }),
+                Request::Copy(text, note) => {
+                    context.copy_text(text);
+                    self.session.messages.note(note);
+                }
+                Request::GoTo(view) => {
+                    self.hands.go_to(&self.session, view, time);
+                    context.request_repaint();
+                }
+                Request::Quit => context.send_viewport_cmd(egui::ViewportCommand::Close),
+            }
+        }
+    }
+
+    /// Asks for files by a dialog on a thread of its own.
+    fn ask(
+        &self,
+        context: &egui::Context,
+        dialog: impl FnOnce(rfd::FileDialog) -> Option<Arrival> + Send + 'static,
+    ) {
+        let (sender, context) = (self.sender.clone(), context.clone());
+        std::thread::spawn(move || {
+            if let Some(arrival) = dialog(rfd::FileDialog::new()) {
+                // The window may be closed.
+                let _ = sender.send(arrival);
+                context.request_repaint();
+            }
+        });
+    }
+
+    fn save_technique(&mut self, path: &std::path::Path) {
+        let appearance = &self.session.recipe.appearance;
+        let about = appearance.technique.about.clone();
+        let saved = written(&appearance.technique, &about)
+            .and_then(|text| write_file(path, text.as_bytes()).map_err(|failure| failure.message));
+        match saved {
+            Err(what) => self.session.messages.error(what),
+            Ok(()) => {
+                let name = path.display().to_string();
+                self.session.messages.note(format!("saved as {name}"));
+                self.session.take_technique(&name);
+            }
+        }
+    }
+
+    /// Draws a picture of the size that is asked for, on a thread of its own.
+    fn save_picture(&mut self, path: PathBuf, context: &egui::Context) {
+        let Some(scene) = self.session.scene.clone() else { return };
+        let recipe = self.session.recipe.clone();
+        let size = self.session.remembered.picture_size.unwrap_or(self.size);
+        let gpu = self.canvas.gpu().clone();
+        let looks = self.session.object_looks();
+        let (sender, context) = (self.sender.clone(), context.clone());
+        std::thread::spawn(move || {
+            let draw = || -> Result<String, Failure> {
+                let Some(viewpoint) = recipe.viewpoint else {
+                    return Err(Failure::fault("there is no model to draw"));
+                };
+                let options = recipe.picture_options(size)?;
+                let technique = &recipe.appearance.technique;
+                let mut renderer =
+                    PictureRenderer::new(&gpu, &scene, technique, &looks?, &options)?;
+                let (picture, _) = renderer.render(&viewpoint.camera(&scene.frame))?;
+                let bytes = crate::picture::encode_png(&picture, options.is_transparent)?;
+                write_file(&path, &bytes)?;
+                Ok(format!("saved as {}", path.display()))
+            };
+            let _ = sender.send(Arrival::Done(draw().map_err(|failure| failure.message)));
+            context.request_repaint();
+        });
+    }
+
+    /// The picture, and what hands do over it.
+    fn picture(&mut self, ui: &mut Ui) {
+        let rect = ui.available_rect_before_wrap();
+        let response = ui.allocate_rect(rect, Sense::click_and_drag());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "The picture"));
+        self.hands.pointer(ui, &response, &mut self.session);
+        if self.hands.go_on(ui, rect, &mut self.session) {
+            ui.ctx().request_repaint();
+        }
+        let scale = ui.ctx().pixels_per_point();
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
+        let pixels = |points: f32| (points * scale).round().max(1.0) as u32;
+        self.size = [pixels(rect.width()), pixels(rect.height())];
+        self.canvas.draw(&mut self.session, self.size);
+        if let Some(texture) = self.canvas.texture() {
+            let whole = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+            // Paper is white where a technique draws none.
+            ui.painter().rect_filled(rect, 0.0, egui::Color32::WHITE);
+            ui.painter().image(texture, rect, whole, egui::Color32::WHITE);
+        }
+        let (known, waits) = self.canvas.statistics();
+        if let Some(statistics) = known {
+            self.session.keep(statistics);
+            ui.ctx().request_repaint();
+        }
+        if waits {
+            ui.ctx().request_repaint_after(ASK_AGAIN);
+        }
+        panels::notes(ui, &mut self.session, rect);
+    }
+}
+
+/// Has a lost device and faults of ours told instead of ending the program.
+fn watch_device(
+    device: &wgpu::Device,
+    context: &egui::Context,
+    is_lost: &Arc<AtomicBool>,
+    faults: &Arc<Mutex<Vec<String>>>,
+) {
+    let (lost, repaint) = (is_lost.clone(), context.clone());
+    device.set_device_lost_callback(move |reason, what| {
+        log::error!("the graphics adapter was lost ({reason:?}): {what}");
+        lost.store(true, Ordering::Relaxed);
+        repaint.request_repaint();
+    });
+    let (lost, faults) = (is_lost.clone(), faults.clone());
+    device.on_uncaptured_error(Arc::new(move |error| {
+        // A lost device has more to say than anyone wants to hear.
+        if lost.load(Ordering::Relaxed) {
+            return;
+        }
+        let text = format!("a fault in the use of the graphics adapter, please report it: {error}");
+        log::error!("{text}");
+        let mut faults = faults.lock().unwrap_or_else(PoisonError::into_inner);
+        if !faults.contains(&text) {
+            faults.push(text);
+        }
+    }));
+}
+
+impl eframe::App for Window {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        let context = ui.ctx().clone();
+        if self.is_lost.load(Ordering::Relaxed) {
+            context.send_viewport_cmd(egui::ViewportCommand::Close);
+            return;
+        }
+        self.take_arrivals(&context);
+        self.follow_files(&context);
+        let dropped: Vec<PathBuf> = context.input(|input| {
+            let files = input.raw.dropped_files.iter();
+            files.map(|file| file.path().to_owned()).collect()
+        });
+        if !dropped.is_empty() {
+            self.load(dropped, &context);
+        }
+        let time = context.input(|input| input.time);
+        self.session.watch_changes(time);
+        self.hands.keys(ui, &mut self.session, self.size);
+        context.set_theme(self.session.remembered.theme);
+        if self.session.remembered.shows_panels {
+            Panel::top("top").show(ui, |ui| {
+                panels::top_bar(ui, &mut self.session, self.size);
+            });
+            Panel::bottom("status").show(ui, |ui| panels::status_bar(ui, &self.session));
+            Panel::right("side").default_size(340.0).size_range(260.0..=560.0).show(ui, |ui| {
+                panels::side_panel(ui, &mut self.session, self.size);
+            });
+        }
+        CentralPanel::no_frame().show(ui, |ui| self.picture(ui));
+        if self.session.shows_keys {
+            panels::keys_sheet(ui, &mut self.session);
+        }
+        self.answer(&context, time);
+        let title = format!("{} – Edgemesh", self.session.recipe.title());
+        if title != self.title {
+            context.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        eframe::set_value(storage, REMEMBERED, &self.session.remembered);
+    }
+
+    fn on_exit(&mut self) {
+        // Only a lost device is followed by another window.
+        if self.is_lost.load(Ordering::Relaxed) {
+            let recipe = self.session.recipe.clone();
+            let remembered = Some(self.session.remembered.clone());
+            let kept = Kept { library: self.session.library.clone(), recipe, remembered };
+            *self.kept.lock().unwrap_or_else(PoisonError::into_inner) = Some(kept);
+        }
+    }
+}

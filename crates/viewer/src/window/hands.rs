@@ -1,0 +1,292 @@
+//! What the pointer and the keys do over the picture.
+
+use egui::{Key, Modifiers, PointerButton, Rect, Response, Ui};
+use glam::{DVec2, DVec3};
+
+use super::navigation::{Canvas, between, flown, looked_around, panned, rolled, turned, zoomed};
+use super::session::{Request, Session};
+use super::viewpoint::{NamedView, Viewpoint};
+
+/// How long it takes to go to a viewpoint, in seconds.
+const FLIGHT_SECONDS: f64 = 0.25;
+
+/// Distances to the target that are flown in a second.
+const FLY_SPEED: f64 = 0.8;
+
+/// What of the hands goes on from frame to frame.
+#[derive(Debug, Default)]
+pub struct Hands {
+    flight: Option<Flight>,
+}
+
+/// On the way to a viewpoint.
+#[derive(Debug, Clone, Copy)]
+struct Flight {
+    from: Viewpoint,
+    to: Viewpoint,
+    /// The window's time at its beginning.
+    since: f64,
+}
+
+/// A key with what it does, for the sheet of keys and for the keys themselves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Command {
+    /// One of the sides.
+    Side(NamedView),
+    /// Perspective or orthographic.
+    Projection,
+    /// All models in the picture.
+    Fit,
+    /// The first view.
+    Home,
+    /// A quarter turn of the picture, to the left or to the right.
+    Roll(bool),
+    /// Panels on and off.
+    Panels,
+    /// The sheet of keys on and off.
+    Keys,
+    /// The technique before or after.
+    Technique(bool),
+    /// Files are chosen and opened.
+    Open,
+    /// The files again.
+    Reload,
+    /// A picture is saved.
+    SavePicture,
+    /// The technique is saved.
+    SaveTechnique,
+    /// The command line of the picture, on the clipboard.
+    CopyCommand,
+    /// The camera options, on the clipboard.
+    CopyCamera,
+    /// One change back.
+    Undo,
+    /// One change forward again.
+    Redo,
+    /// The window closes.
+    Quit,
+}
+
+/// The keys: which, with what, and what it does in words.
+pub const KEYS: &[(Key, Modifiers, Command, &str)] = &[
+    (Key::Num1, Modifiers::NONE, Command::Side(NamedView::Front), "front"),
+    (Key::Num1, Modifiers::COMMAND, Command::Side(NamedView::Back), "back"),
+    (Key::Num3, Modifiers::NONE, Command::Side(NamedView::Right), "right"),
+    (Key::Num3, Modifiers::COMMAND, Command::Side(NamedView::Left), "left"),
+    (Key::Num7, Modifiers::NONE, Command::Side(NamedView::Top), "top"),
+    (Key::Num7, Modifiers::COMMAND, Command::Side(NamedView::Bottom), "bottom"),
+    (Key::Num9, Modifiers::NONE, Command::Side(NamedView::Isometric), "isometric"),
+    (Key::Num5, Modifiers::NONE, Command::Projection, "perspective or orthographic"),
+    (Key::Num4, Modifiers::NONE, Command::Roll(false), "roll to the left"),
+    (Key::Num6, Modifiers::NONE, Command::Roll(true), "roll to the right"),
+    (Key::F, Modifiers::NONE, Command::Fit, "fit the model"),
+    (Key::Enter, Modifiers::NONE, Command::Home, "the first view"),
+    (Key::N, Modifiers::NONE, Command::Panels, "hide or show panels"),
+    (Key::Questionmark, Modifiers::NONE, Command::Keys, "this sheet"),
+    (Key::H, Modifiers::NONE, Command::Keys, "this sheet"),
+    (Key::OpenBracket, Modifiers::NONE, Command::Technique(false), "technique before"),
+    (Key::CloseBracket, Modifiers::NONE, Command::Technique(true), "next technique"),
+    (Key::O, Modifiers::COMMAND, Command::Open, "open files"),
+    (Key::F5, Modifiers::NONE, Command::Reload, "read the files again"),
+    (Key::F12, Modifiers::NONE, Command::SavePicture, "save a picture"),
+    (Key::S, Modifiers::COMMAND, Command::SaveTechnique, "save the technique"),
+    (Key::C, Modifiers::NONE, Command::CopyCommand, "copy as viewer render"),
+    (Key::C, Modifiers::SHIFT, Command::CopyCamera, "copy the camera (Ctrl+V pastes it)"),
+    (Key::Z, Modifiers { shift: true, ..Modifiers::COMMAND }, Command::Redo, "redo"),
+    (Key::Z, Modifiers::COMMAND, Command::Undo, "undo"),
+    (Key::Q, Modifiers::COMMAND, Command::Quit, "quit"),
+];
+
+impl Hands {
+    /// Goes to a viewpoint, from where the window is now.
+    pub fn go_to(&mut self, session: &Session, to: Viewpoint, time: f64) {
+        let from = session.recipe.viewpoint;
+        self.flight = from.map(|from| Flight { from, to, since: time });
+    }
+
+    /// What the pointer does over the picture, at `rect`.
+    pub fn pointer(&mut self, ui: &Ui, response: &Response, session: &mut Session) {
+        let Some(view) = session.recipe.viewpoint else { return };
+        let canvas = canvas_of(response.rect);
+        let mut new = view;
+        let delta = response.drag_delta();
+        let pixels = DVec2::new(f64::from(delta.x), f64::from(delta.y));
+        let (up, mode) = (session.remembered.up, session.remembered.turn_mode);
+        let is_shifted = ui.input(|input| input.modifiers.shift);
+        if response.dragged_by(PointerButton::Middle)
+            || response.dragged_by(PointerButton::Primary) && is_shifted
+        {
+            new = panned(&view, canvas, pixels);
+        } else if response.dragged_by(PointerButton::Primary) {
+            new = turned(&view, mode, up, canvas, pixels);
+        } else if response.dragged_by(PointerButton::Secondary) {
+            new = looked_around(&view, up, canvas, pixels);
+        }
+        if let Some(pointer) = response.hover_pos().filter(|_| response.hovered()) {
+            let at = position_in(response.rect, pointer);
+            let (scroll, pinch) =
+                ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
+            let factor = (-f64::from(scroll) / 300.0).exp() / f64::from(pinch);
+            if (factor - 1.0).abs() > 1e-9 {
+                new = zoomed(&new, factor, under(session, &canvas, &new, at));
+            }
+            if response.double_clicked() {
+                let point = under(session, &canvas, &view, at);
+                let to = super::navigation::focused(&view, point);
+                self.go_to(session, to, ui.input(|input| input.time));
+            }
+        }
+        if new != view {
+            // A hand is stronger than a flight.
+            self.flight = None;
+            session.recipe.viewpoint = Some(new);
+        }
+    }
+
+    /// What keys do that are held, and what is on its way; whether there is more to come.
+    pub fn go_on(&mut self, ui: &Ui, rect: Rect, session: &mut Session) -> bool {
+        let Some(view) = session.recipe.viewpoint else { return false };
+        let (time, seconds) = ui.input(|input| (input.time, f64::from(input.stable_dt.min(0.1))));
+        let mut is_moving = false;
+        if let Some(flight) = self.flight {
+            let share = ((time - flight.since) / FLIGHT_SECONDS).clamp(0.0, 1.0);
+            // Slow at both ends.
+            let eased = share * share * (3.0 - 2.0 * share);
+            session.recipe.viewpoint = Some(between(&flight.from, &flight.to, eased));
+            is_moving = share < 1.0;
+            self.flight = Some(flight).filter(|_| is_moving);
+        }
+        if ui.ctx().egui_wants_keyboard_input() {
+            return is_moving;
+        }
+        let held = |key: Key| ui.input(|input| input.key_down(key) && input.modifiers.is_none());
+        let axis = |plus: Key, minus: Key| {
+            f64::from(u8::from(held(plus))) - f64::from(u8::from(held(minus)))
+        };
+        let steps = DVec3::new(axis(Key::D, Key::A), axis(Key::E, Key::Q), axis(Key::W, Key::S));
+        let turns =
+            DVec2::new(axis(Key::ArrowLeft, Key::ArrowRight), axis(Key::ArrowUp, Key::ArrowDown));
+        let nearer = axis(Key::Plus, Key::Minus) + axis(Key::Equals, Key::Minus).max(0.0);
+        if steps == DVec3::ZERO && turns == DVec2::ZERO && nearer == 0.0 {
+            return is_moving;
+        }
+        self.flight = None;
+        let canvas = canvas_of(rect);
+        let mut new = flown(&view, steps * (FLY_SPEED * seconds));
+        // Half a turn in three seconds.
+        let pixels = turns * (canvas.size.y * seconds / 3.0);
+        new = turned(&new, session.remembered.turn_mode, session.remembered.up, canvas, pixels);
+        new = zoomed(&new, (-nearer * seconds).exp(), new.target);
+        session.recipe.viewpoint = Some(new);
+        true
+    }
+
+    /// What keys do that are pressed.
+    pub fn keys(&mut self, ui: &Ui, session: &mut Session, size: [u32; 2]) {
+        let pasted = ui.input(|input| {
+            input.events.iter().find_map(|event| match event {
+                egui::Event::Paste(text) => Some(text.clone()),
+                _ => None,
+            })
+        });
+        if ui.ctx().egui_wants_keyboard_input() {
+            return;
+        }
+        if let (Some(text), Some(view)) = (pasted, session.recipe.viewpoint) {
+            match view.pasted(&text) {
+                Ok(to) => session.ask(Request::GoTo(to)),
+                Err(what) => session.messages.note(format!("nothing was pasted: {what}")),
+            }
+        }
+        let pressed: Vec<Command> = ui.input_mut(|input| {
+            let is_pressed = |input: &mut egui::InputState, key, modifiers: Modifiers| {
+                // Keys that need shift on some keyboards do not need to be held with it.
+                let typed = matches!(key, Key::Questionmark | Key::OpenBracket | Key::CloseBracket);
+                if typed && !input.modifiers.command {
+                    return input.key_pressed(key);
+                }
+                input.modifiers.matches_exact(modifiers) && input.consume_key(modifiers, key)
+            };
+            let all = KEYS.iter();
+            all.filter(|(key, modifiers, ..)| is_pressed(input, *key, *modifiers))
+                .map(|(_, _, command, _)| *command)
+                .collect()
+        });
+        for command in pressed {
+            run(command, session, size);
+        }
+    }
+}
+
+/// Does what a key or a button asks.
+pub fn run(command: Command, session: &mut Session, size: [u32; 2]) {
+    let view = session.recipe.viewpoint;
+    match command {
+        Command::Side(side) => session.go_to_side(side),
+        Command::Projection => {
+            if let Some(view) = &mut session.recipe.viewpoint {
+                view.is_orthographic = !view.is_orthographic;
+            }
+        }
+        Command::Fit => {
+            if let Some(view) = view {
+                session.ask(Request::GoTo(session.fitted(&view)));
+            }
+        }
+        Command::Home => session.go_home(),
+        Command::Roll(is_right) => {
+            let angle = if is_right { -15_f64 } else { 15.0 };
+            if let Some(view) = view {
+                session.ask(Request::GoTo(rolled(&view, angle.to_radians())));
+            }
+        }
+        Command::Panels => session.remembered.shows_panels = !session.remembered.shows_panels,
+        Command::Keys => session.shows_keys = !session.shows_keys,
+        Command::Technique(is_next) => {
+            let names: Vec<String> = session.library.technique_names().map(str::to_owned).collect();
+            let now = &session.recipe.appearance.technique_name;
+            let at = names.iter().position(|name| name == now).unwrap_or(0);
+            let step = if is_next { 1 } else { names.len() - 1 };
+            let name = names[(at + step) % names.len()].clone();
+            session.take_technique(&name);
+            session.messages.note(name);
+        }
+        Command::Open => session.ask(Request::ChooseFiles),
+        Command::Reload => session.ask(Request::Reload),
+        Command::SavePicture => session.ask(Request::SavePicture),
+        Command::SaveTechnique => session.ask(Request::SaveTechnique),
+        Command::CopyCommand => match session.command(size) {
+            Some(line) => session.ask(Request::Copy(line, "the command is on the clipboard")),
+            None => session.messages.error(
+                "no settings lead to the technique as it is; save it as a file and copy again",
+            ),
+        },
+        Command::CopyCamera => {
+            if let Some(view) = view {
+                let line = super::recipe::shell_line(&view.options());
+                session.ask(Request::Copy(line, "the camera is on the clipboard"));
+            }
+        }
+        Command::Undo => session.undo(),
+        Command::Redo => session.redo(),
+        Command::Quit => session.ask(Request::Quit),
+    }
+}
+
+/// The point of the models under a position, or of the plane through the target.
+fn under(session: &Session, canvas: &Canvas, view: &Viewpoint, at: DVec2) -> DVec3 {
+    let hit = session.scene.as_ref().and_then(|scene| {
+        let (start, direction) = canvas.ray(view, at);
+        super::picking::hit(scene, start, direction)
+    });
+    hit.map_or_else(|| canvas.point_on_target_plane(view, at), |hit| hit.point)
+}
+
+fn canvas_of(rect: Rect) -> Canvas {
+    Canvas { size: DVec2::new(f64::from(rect.width()), f64::from(rect.height()).max(1.0)) }
+}
+
+fn position_in(rect: Rect, at: egui::Pos2) -> DVec2 {
+    let at = at - rect.min;
+    DVec2::new(f64::from(at.x), f64::from(at.y))
+}

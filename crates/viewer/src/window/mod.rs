@@ -1,0 +1,31 @@
+//! The window: a picture that is turned, and panels that change it.
+//!
+//! ```text
+//!   command line, files, drops --> Session <--> panels
+//!   pointer, keys -------------->    |
+//!                                  Canvas --> PictureRenderer --> texture --> window
+//! ```
+//!
+//! - `session`: what is shown and known, without GPU; `recipe`, `viewpoint`: what makes a
+//!   picture, as a command line; `messages`, `remembered`.
+//! - `navigation`: from hands to viewpoints. `loading`: models on another thread.
+//!   `picking`: what is under the pointer. `watching`: files that change.
+//! - `canvas`: the session as a picture, drawn when something changed.
+//! - `app`: one frame of the window. `panels`: what is beside the picture.
+
+mod app;
+mod canvas;
+pub mod hands;
+pub mod loading;
+pub mod messages;
+pub mod navigation;
+pub mod panels;
+pub mod picking;
+pub mod recipe;
+pub mod remembered;
+pub mod session;
+mod style;
+pub mod viewpoint;
+pub mod watching;
+
+pub(crate) use app::run;

@@ -1,0 +1,163 @@
+//! The bars above and below the picture.
+
+use egui::{Align, Layout, Ui};
+
+use crate::window::hands::{Command, run};
+use crate::window::remembered::{Theme, name_of};
+use crate::window::session::{Request, Session};
+use crate::window::viewpoint::NamedView;
+
+/// The bar above the picture: files, the technique, views, pictures.
+pub fn top_bar(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
+    ui.horizontal(|ui| {
+        ui.menu_button("File", |ui| file_menu(ui, session, size));
+        ui.menu_button("Edit", |ui| edit_menu(ui, session, size));
+        ui.menu_button("View", |ui| view_menu(ui, session, size));
+        ui.separator();
+        technique_box(ui, session);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let panels = &mut session.remembered.shows_panels;
+            ui.toggle_value(panels, "Panels").on_hover_text("N");
+            ui.toggle_value(&mut session.shows_keys, "?").on_hover_text("keys");
+        });
+    });
+}
+
+fn technique_box(ui: &mut Ui, session: &mut Session) {
+    let names: Vec<String> = session.library.technique_names().map(str::to_owned).collect();
+    let appearance = &session.recipe.appearance;
+    let mut chosen = None;
+    let changed = if appearance.is_changed() { " *" } else { "" };
+    let label = ui.label("Technique");
+    egui::ComboBox::from_id_salt("technique")
+        .selected_text(format!("{}{changed}", appearance.technique_name))
+        .height(480.0)
+        .width(170.0)
+        .show_ui(ui, |ui| {
+            for name in &names {
+                let is_it = *name == appearance.technique_name;
+                if ui.selectable_label(is_it, name).clicked() {
+                    chosen = Some(name.clone());
+                }
+            }
+        })
+        .response
+        .labelled_by(label.id);
+    if let Some(name) = chosen {
+        session.take_technique(&name);
+    }
+}
+
+fn file_menu(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
+    item(ui, session, size, "Open…", Command::Open);
+    let recent = session.remembered.recent.clone();
+    ui.add_enabled_ui(!recent.is_empty(), |ui| {
+        ui.menu_button("Open recent", |ui| {
+            for models in recent {
+                let paths: Vec<String> =
+                    models.iter().map(|path| path.display().to_string()).collect();
+                if ui.button(name_of(&models)).on_hover_text(paths.join("\n")).clicked() {
+                    session.ask(Request::Open(models));
+                }
+            }
+        });
+    });
+    item(ui, session, size, "Read again", Command::Reload);
+    ui.separator();
+    item(ui, session, size, "Save picture…", Command::SavePicture);
+    item(ui, session, size, "Save technique…", Command::SaveTechnique);
+    ui.separator();
+    item(ui, session, size, "Quit", Command::Quit);
+}
+
+fn edit_menu(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
+    let (has_undo, has_redo) = (session.has_undo(), session.has_redo());
+    ui.add_enabled_ui(has_undo, |ui| item(ui, session, size, "Undo", Command::Undo));
+    ui.add_enabled_ui(has_redo, |ui| item(ui, session, size, "Redo", Command::Redo));
+    ui.separator();
+    item(ui, session, size, "Copy command", Command::CopyCommand);
+    item(ui, session, size, "Copy camera", Command::CopyCamera);
+}
+
+fn view_menu(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
+    for view in NamedView::ALL {
+        item(ui, session, size, view.name(), Command::Side(view));
+    }
+    ui.separator();
+    item(ui, session, size, "First view", Command::Home);
+    item(ui, session, size, "Fit", Command::Fit);
+    item(ui, session, size, "Perspective or orthographic", Command::Projection);
+    ui.separator();
+    for (theme, name) in [
+        (Theme::System, "As the system is"),
+        (Theme::Light, "Light window"),
+        (Theme::Dark, "Dark window"),
+    ] {
+        ui.radio_value(&mut session.remembered.theme, theme, name);
+    }
+}
+
+/// An entry of a menu, with its key.
+fn item(ui: &mut Ui, session: &mut Session, size: [u32; 2], name: &str, command: Command) {
+    let key = super::keys::key_of(ui, command).unwrap_or_default();
+    let button = egui::Button::new(name).shortcut_text(key);
+    if ui.add(button).clicked() {
+        run(command, session, size);
+        ui.close();
+    }
+}
+
+/// The bar below the picture: what is drawn, and what it costs.
+pub fn status_bar(ui: &mut Ui, session: &Session) {
+    ui.horizontal(|ui| {
+        if let Some(scene) = &session.scene {
+            let counts = |count: fn(&edgemesh::edge_mesh::MeshCounts) -> usize| {
+                let objects = scene.objects.iter();
+                objects.map(|at| count(&scene.models[at.model].mesh.counts)).sum::<usize>()
+            };
+            ui.label(session.recipe.title());
+            ui.separator();
+            let triangles = counts(|counts| counts.triangles);
+            ui.label(format!("{} triangles", grouped(triangles)));
+            ui.label(format!("{} edges", grouped(counts(|counts| counts.edges.edges))));
+        }
+        if let Some(last) = session.statistics.last() {
+            if let Some(tally) = last.tally {
+                ui.label(format!("{} strokes", grouped(tally.stroke_count as usize)));
+            }
+            let times: Vec<f64> = last.passes.iter().filter_map(|pass| pass.1).collect();
+            if !times.is_empty() {
+                ui.separator();
+                ui.label(format!("{:.1} ms", times.iter().sum::<f64>()))
+                    .on_hover_text("the time of the last picture on the graphics adapter");
+            }
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.weak(&session.adapter);
+        });
+    });
+}
+
+/// A number with its thousands apart.
+pub(super) fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (at, digit) in digits.chars().enumerate() {
+        if at > 0 && (digits.len() - at).is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::grouped;
+
+    #[test]
+    fn thousands_are_apart() {
+        let texts = [7, 1234, 1_234_567].map(|number| grouped(number).replace('\u{202f}', " "));
+        assert_eq!(texts, ["7", "1 234", "1 234 567"]);
+    }
+}

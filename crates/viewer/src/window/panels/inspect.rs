@@ -1,0 +1,112 @@
+//! What there is to know: where the time goes, what was repaired.
+
+use std::collections::BTreeMap;
+
+use egui::{Grid, Ui};
+use egui_plot::{Legend, Line, Plot, PlotPoints};
+
+use super::bar::grouped;
+use crate::window::session::{KEPT_FRAMES, Session};
+
+/// The inspection panel.
+pub(super) fn inspect_panel(ui: &mut Ui, session: &mut Session) {
+    ui.heading("Looks for looking");
+    ui.horizontal_wrapped(|ui| {
+        for (technique, name) in [
+            ("debug_features", "Edge classes"),
+            ("wireframe", "Wireframe"),
+            ("debug_normals", "Normals"),
+            ("debug_depth", "Depth"),
+            ("debug_ids", "Regions"),
+        ] {
+            let is_it = session.recipe.appearance.technique_name == technique;
+            if ui.selectable_label(is_it, name).clicked() && !is_it {
+                session.take_technique(technique);
+            }
+        }
+    });
+    ui.add_space(8.0);
+    counts(ui, session);
+    ui.add_space(8.0);
+    times(ui, session);
+    ui.add_space(8.0);
+    repairs(ui, session);
+}
+
+fn counts(ui: &mut Ui, session: &Session) {
+    let Some(tally) = session.statistics.last().and_then(|last| last.tally) else { return };
+    ui.heading("Edges in this view");
+    Grid::new("counts").num_columns(2).spacing([16.0, 2.0]).show(ui, |ui| {
+        let features = tally.features();
+        for class in edgemesh::oracle::feature::EdgeClass::ALL {
+            ui.label(class.name());
+            ui.label(grouped(features.of(class) as usize));
+            ui.end_row();
+        }
+        ui.label("strokes");
+        ui.label(grouped(tally.stroke_count as usize));
+        ui.end_row();
+    });
+}
+
+/// Milliseconds of each pass over the last pictures.
+fn times(ui: &mut Ui, session: &Session) {
+    ui.heading("Time on the graphics adapter");
+    let mut by_pass: BTreeMap<&str, Vec<[f64; 2]>> = BTreeMap::new();
+    for (at, frame) in session.statistics.iter().enumerate() {
+        for (name, ms) in &frame.passes {
+            if let Some(ms) = ms {
+                #[expect(clippy::cast_precision_loss, reason = "a few frames")]
+                by_pass.entry(name).or_default().push([at as f64, *ms]);
+            }
+        }
+    }
+    if by_pass.is_empty() {
+        ui.weak("This adapter tells no times, or nothing was drawn yet.");
+        return;
+    }
+    #[expect(clippy::cast_precision_loss, reason = "a few frames")]
+    let most = KEPT_FRAMES as f64;
+    Plot::new("times")
+        .height(160.0)
+        .legend(Legend::default())
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .include_x(0.0)
+        .include_x(most)
+        .include_y(0.0)
+        .y_axis_label("ms")
+        .show_x(false)
+        .show(ui, |plot| {
+            for (name, points) in &by_pass {
+                let is_shown = points.iter().any(|point| point[1] >= 0.05);
+                if is_shown {
+                    plot.line(Line::new(*name, PlotPoints::from(points.clone())));
+                }
+            }
+        });
+    Grid::new("times now").num_columns(2).spacing([16.0, 2.0]).show(ui, |ui| {
+        let last = session.statistics.last().map_or(&[][..], |last| &last.passes);
+        for (name, ms) in last {
+            ui.label(name);
+            ui.label(ms.map_or_else(|| "—".to_owned(), |ms| format!("{ms:.2} ms")));
+            ui.end_row();
+        }
+    });
+}
+
+/// What the loader repaired, model by model.
+fn repairs(ui: &mut Ui, session: &Session) {
+    let Some(scene) = &session.scene else { return };
+    ui.heading("What was repaired");
+    for model in &scene.models {
+        let warnings = model.report.warnings();
+        if warnings.is_empty() {
+            ui.weak(format!("{}: nothing", model.name));
+        }
+        for warning in warnings {
+            ui.label(edgemesh::command::warning_line(&model.name, "", warning));
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! The classes of lines: on and off, with their counts, and what they look like.
+
+use edgemesh::oracle::feature::EdgeClass;
+use egui::{Grid, Ui};
+
+use super::bar::grouped;
+use crate::technique::class_pass::classes_of;
+use crate::technique::core::CoreComponent;
+use crate::technique::mistake::Mistakes;
+use crate::technique::pass::Pass;
+use crate::technique::value::Value;
+use crate::window::session::Session;
+
+/// The line panel.
+pub(super) fn lines_panel(ui: &mut Ui, session: &mut Session) {
+    let counts = session.statistics.last().and_then(|last| last.tally);
+    let features = counts.map(|tally| tally.features());
+    let technique = &mut session.recipe.appearance.technique;
+    if !technique.passes.iter().any(is_strokes) {
+        ui.label("This technique draws no strokes: its lines are found in the picture.");
+        return;
+    }
+    ui.heading("Visible");
+    Grid::new("classes").num_columns(3).spacing([12.0, 4.0]).show(ui, |ui| {
+        for class in EdgeClass::ALL {
+            let mut is_drawn = draws(&technique.passes, class, "visible");
+            let name = capitalized(class.name());
+            if ui.checkbox(&mut is_drawn, name).changed() {
+                set_drawn(&mut technique.passes, class, is_drawn);
+            }
+            let count = features.map(|features| features.of(class));
+            ui.label(count.map_or_else(String::new, |count| grouped(count as usize)));
+            ui.end_row();
+        }
+    });
+    ui.add_space(8.0);
+    for pass in technique.passes.iter_mut().filter(|pass| is_strokes(pass)) {
+        stroke(ui, pass);
+    }
+}
+
+/// What strokes of a pass look like, in short.
+fn stroke(ui: &mut Ui, pass: &mut Pass) {
+    ui.push_id(pass.name.clone(), |ui| {
+        ui.horizontal(|ui| {
+            let mut is_on = pass.is_rendered();
+            let name = egui::RichText::new(&pass.name).heading();
+            if ui.checkbox(&mut is_on, name).changed() {
+                set(pass, "render", Value::Bool(is_on));
+            }
+            ui.weak(pass.string("visibility").to_owned());
+        });
+        Grid::new("stroke").num_columns(2).spacing([12.0, 4.0]).show(ui, |ui| {
+            for name in ["width", "color", "brush", "parameterization", "linked"] {
+                let Some((index, variable)) = pass.component.variable(name) else { continue };
+                let label = ui.label(name).on_hover_text(&variable.about).id;
+                let value = &pass.values()[index];
+                let variable = variable.clone();
+                let new = super::variable::variable_widget(ui, &variable, value, label, &[]);
+                if let Some(new) = new {
+                    pass.set_value(index, new, None, &mut Mistakes::default());
+                }
+                ui.end_row();
+            }
+        });
+    });
+}
+
+fn is_strokes(pass: &Pass) -> bool {
+    pass.component.core == CoreComponent::Strokes
+}
+
+/// The passes that draw a class.
+fn has_class(pass: &Pass, class: EdgeClass, visibility: &str) -> bool {
+    is_strokes(pass)
+        && pass.string("visibility") == visibility
+        && classes_of(pass.string("classes")).is_ok_and(|classes| classes.contains(&class))
+}
+
+fn draws(passes: &[Pass], class: EdgeClass, visibility: &str) -> bool {
+    passes.iter().any(|pass| pass.is_rendered() && has_class(pass, class, visibility))
+}
+
+/// Has a class drawn by the first pass of visible strokes, or by none.
+fn set_drawn(passes: &mut [Pass], class: EdgeClass, is_drawn: bool) {
+    for pass in passes.iter_mut().filter(|pass| pass.string("visibility") == "visible") {
+        if !is_strokes(pass) {
+            continue;
+        }
+        let mut classes = classes_of(pass.string("classes")).unwrap_or_default();
+        if is_drawn {
+            if !classes.contains(&class) {
+                classes.push(class);
+            }
+            // In the order that all files have.
+            classes = EdgeClass::ALL.into_iter().filter(|known| classes.contains(known)).collect();
+        } else {
+            classes.retain(|known| *known != class);
+        }
+        let text = match classes.len() == EdgeClass::ALL.len() {
+            true => "all".to_owned(),
+            false => {
+                let names: Vec<&str> = classes.iter().map(|class| class.name()).collect();
+                names.join(", ")
+            }
+        };
+        set(pass, "classes", Value::String(text));
+        set(pass, "render", Value::Bool(pass.is_rendered() || is_drawn));
+        if is_drawn {
+            return;
+        }
+    }
+}
+
+fn set(pass: &mut Pass, name: &str, value: Value) {
+    if let Some((index, _)) = pass.component.variable(name) {
+        pass.set_value(index, value, None, &mut Mistakes::default());
+    }
+}
+
+fn capitalized(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or_else(String::new, |first| {
+        first.to_uppercase().collect::<String>() + letters.as_str()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::technique::library::Library;
+
+    #[test]
+    fn classes_go_off_and_come_back() {
+        let before = Library::shipped().technique("ink").unwrap().0;
+        let mut passes = before.passes.clone();
+        set_drawn(&mut passes, EdgeClass::Ridge, false);
+        assert!(!draws(&passes, EdgeClass::Ridge, "visible"));
+        assert!(draws(&passes, EdgeClass::Contour, "visible"));
+        set_drawn(&mut passes, EdgeClass::Ridge, true);
+        assert_eq!(passes, before.passes);
+    }
+}

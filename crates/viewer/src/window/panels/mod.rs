@@ -1,0 +1,50 @@
+//! What is beside the picture. Panels read and change the session, and ask the window for
+//! what takes more than that.
+//!
+//! - `bar`: above and below the picture. `look`, with `variable`: the technique.
+//! - `lines`, `light`, `view`, `inspect`, `output`: the other panels.
+//! - `notes`: what there is to say. `keys`: the sheet of keys.
+
+mod bar;
+mod inspect;
+mod keys;
+mod light;
+mod lines;
+mod look;
+mod notes;
+mod output;
+mod variable;
+mod view;
+
+pub use bar::{status_bar, top_bar};
+pub use keys::keys_sheet;
+pub use notes::notes;
+
+use egui::{ScrollArea, Ui};
+
+use super::remembered::Tab;
+use super::session::Session;
+
+/// The panel at the side: its tabs, and the one that is open. `size` is that of the
+/// picture in pixels.
+pub fn side_panel(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
+    ui.add_space(6.0);
+    ui.horizontal(|ui| {
+        for (tab, name) in Tab::ALL {
+            ui.selectable_value(&mut session.remembered.tab, tab, name);
+        }
+    });
+    ui.separator();
+    let tab = session.remembered.tab;
+    ScrollArea::vertical().id_salt(tab as u8).auto_shrink([false, false]).show(ui, |ui| {
+        match tab {
+            Tab::Look => look::look_panel(ui, session),
+            Tab::Lines => lines::lines_panel(ui, session),
+            Tab::Light => light::light_panel(ui, session),
+            Tab::View => view::view_panel(ui, session),
+            Tab::Inspect => inspect::inspect_panel(ui, session),
+            Tab::Output => output::output_panel(ui, session, size),
+        }
+        ui.add_space(12.0);
+    });
+}

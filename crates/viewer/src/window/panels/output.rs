@@ -1,0 +1,43 @@
+//! Pictures and commands.
+
+use egui::{DragValue, Ui};
+
+use crate::window::hands::{Command, run};
+use crate::window::session::Session;
+
+/// The output panel; `size` is that of the picture in the window, in pixels.
+pub(super) fn output_panel(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
+    ui.heading("Picture");
+    let mut is_own = session.remembered.picture_size.is_some();
+    if ui.checkbox(&mut is_own, "A size of its own").changed() {
+        session.remembered.picture_size = is_own.then_some([2048, 2048]);
+    }
+    if let Some([width, height]) = &mut session.remembered.picture_size {
+        ui.horizontal(|ui| {
+            for (name, side) in [("Width", width), ("Height", height)] {
+                let label = ui.label(name);
+                ui.add(DragValue::new(side).range(1..=65_536).suffix(" px")).labelled_by(label.id);
+            }
+        });
+    } else {
+        ui.weak(format!("{} × {} pixels, as in the window", size[0], size[1]));
+    }
+    ui.checkbox(&mut session.recipe.appearance.is_transparent, "No paper behind the models");
+    if ui.button("Save picture…").on_hover_text("F12").clicked() {
+        run(Command::SavePicture, session, size);
+    }
+    ui.add_space(8.0);
+    ui.heading("Command");
+    let size = session.remembered.picture_size.unwrap_or(size);
+    match session.command(size) {
+        Some(command) => {
+            ui.label(egui::RichText::new(command).monospace());
+            if ui.button("Copy command").clicked() {
+                run(Command::CopyCommand, session, size);
+            }
+        }
+        None => {
+            ui.label("No settings lead to the technique as it is; save it as a file.");
+        }
+    }
+}

@@ -1,0 +1,304 @@
+//! Everything that makes a picture but its pixels: the models, the technique as it was
+//! changed, the camera, the light, the cuts.
+//!
+//! ```text
+//!   command line --> Recipe <--> panels
+//!                      |  ^
+//!     viewer render ...v  | text in a PNG, undo
+//! ```
+//!
+//! A recipe is what a command line of `viewer render` says, so that it can be copied as
+//! one, and read back from one.
+
+use std::path::{Path, PathBuf};
+
+use clap::Parser as _;
+use edgemesh::build::Frame;
+use edgemesh::command::Failure;
+use edgemesh::command::input::DEMO;
+
+use super::viewpoint::Viewpoint;
+use crate::command::picture_arguments::PictureArguments;
+use crate::lighting::{Light, Lighting};
+use crate::render::{PictureOptions, technique_failure};
+use crate::technique::Technique;
+use crate::technique::changes::changes;
+use crate::technique::library::Library;
+use crate::technique::value::color_text;
+
+/// Everything that makes a picture but its pixels.
+#[derive(Debug, Clone)]
+pub struct Recipe {
+    /// The files, as command lines name them.
+    pub models: Vec<PathBuf>,
+    /// How it looks; can be undone.
+    pub appearance: Appearance,
+    /// Where it is seen from; none until the models are there.
+    pub viewpoint: Option<Viewpoint>,
+    /// What the window leaves as the command line has it, and how models are read.
+    pub arguments: PictureArguments,
+}
+
+/// How a picture looks: what undo and redo go through.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Appearance {
+    /// The technique's name, or its file.
+    pub technique_name: String,
+    /// The technique as its file has it.
+    pub original: Technique,
+    /// The technique as it is drawn.
+    pub technique: Technique,
+    /// The light, and what cuts the scene.
+    pub lighting: Lighting,
+    /// Whether there is no paper behind the scene.
+    pub is_transparent: bool,
+}
+
+#[derive(Debug, clap::Parser)]
+#[command(no_binary_name = true)]
+struct Words {
+    models: Vec<PathBuf>,
+    #[command(flatten)]
+    arguments: PictureArguments,
+}
+
+impl Recipe {
+    /// The recipe of a command line; without models, that of the demo.
+    ///
+    /// # Errors
+    /// What is wrong with the technique, its settings or the light.
+    pub fn new(
+        models: &[PathBuf],
+        arguments: PictureArguments,
+        library: &Library,
+    ) -> Result<Self, Failure> {
+        let original = technique(library, &arguments.technique)?;
+        let mut changed = original.clone();
+        arguments.change(&mut changed, true)?;
+        let appearance = Appearance {
+            technique_name: arguments.technique.clone(),
+            original,
+            technique: changed,
+            lighting: arguments.lighting.lighting()?,
+            is_transparent: arguments.transparent,
+        };
+        let demo = || vec![PathBuf::from(DEMO)];
+        let models = if models.is_empty() { demo() } else { models.to_owned() };
+        Ok(Self { models, appearance, viewpoint: None, arguments })
+    }
+
+    /// Reads the words of [`Self::words`].
+    ///
+    /// # Errors
+    /// Where they are no command line of this kind, or what they name is not there.
+    pub fn of_words(words: &[String], library: &Library) -> Result<Self, Failure> {
+        let read = Words::try_parse_from(words);
+        let read = read.map_err(|error| Failure::usage(error.to_string().trim().to_owned()))?;
+        Self::new(&read.models, read.arguments, library)
+    }
+
+    /// Takes the viewpoint of the command line for the models, which lie in `frame`.
+    ///
+    /// # Errors
+    /// Where the camera looks nowhere.
+    pub fn take_viewpoint(
+        &mut self,
+        bounds: &edgemesh::edge_mesh::Bounds,
+        frame: &Frame,
+    ) -> Result<(), Failure> {
+        let options = &self.arguments.camera;
+        let camera = options.camera(bounds, frame)?;
+        let mut view = Viewpoint::of_camera(&camera, frame, options.fov);
+        // The very numbers of the command line.
+        view.eye = options.eye.unwrap_or(view.eye);
+        view.target = options.target.unwrap_or(view.target);
+        self.viewpoint = Some(view);
+        Ok(())
+    }
+
+    /// The arguments of `viewer render` for this picture, without its size and name.
+    /// `None` where the technique was changed in a way that no settings lead to.
+    #[must_use]
+    pub fn words(&self) -> Option<Vec<String>> {
+        let appearance = &self.appearance;
+        let mut words: Vec<String> =
+            self.models.iter().map(|model| model.display().to_string()).collect();
+        let mut add = |name: &str, value: String| words.extend([name.to_owned(), value]);
+        add("--technique", appearance.technique_name.clone());
+        for setting in changes(&appearance.original, &appearance.technique)? {
+            add("--set", setting);
+        }
+        for (name, value) in lighting_options(&appearance.lighting) {
+            add(name, value);
+        }
+        if appearance.is_transparent {
+            words.push("--transparent".into());
+        }
+        words.extend(self.viewpoint.iter().flat_map(Viewpoint::options));
+        words.extend(self.arguments.fixed_words());
+        Some(words)
+    }
+
+    /// How the picture is drawn at a size in pixels.
+    ///
+    /// # Errors
+    /// Never for arguments that were read once.
+    pub fn picture_options(&self, size: [u32; 2]) -> Result<PictureOptions, Failure> {
+        Ok(PictureOptions {
+            lighting: self.appearance.lighting.clone(),
+            is_transparent: self.appearance.is_transparent,
+            ..self.arguments.picture_options(size)?
+        })
+    }
+
+    /// What the window calls it.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let name = |path: &PathBuf| {
+            path.file_name().map_or_else(
+                || path.display().to_string(),
+                |name| name.to_string_lossy().into_owned(),
+            )
+        };
+        match &self.models[..] {
+            [demo] if demo == Path::new(DEMO) => "Demo".to_owned(),
+            [one] => name(one),
+            [first, rest @ ..] => format!("{} and {} more", name(first), rest.len()),
+            [] => String::new(),
+        }
+    }
+}
+
+impl Appearance {
+    /// Takes another technique, as its file has it.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it.
+    pub fn take_technique(&mut self, library: &Library, name: &str) -> Result<(), Failure> {
+        self.original = technique(library, name)?;
+        self.technique = self.original.clone();
+        name.clone_into(&mut self.technique_name);
+        Ok(())
+    }
+
+    /// Reads the technique again; what was changed in it is changed again, as far as it is
+    /// still there.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it.
+    pub fn read_again(&mut self, library: &Library) -> Result<(), Failure> {
+        let settings = changes(&self.original, &self.technique).unwrap_or_default();
+        let name = self.technique_name.clone();
+        self.take_technique(library, &name)?;
+        for setting in settings {
+            if let Err(what) = self.technique.set(&setting) {
+                log::info!("{setting} is left out: {what}");
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether anything differs from the technique's file.
+    #[must_use]
+    pub fn is_changed(&self) -> bool {
+        self.technique != self.original
+    }
+}
+
+fn technique(library: &Library, name: &str) -> Result<Technique, Failure> {
+    let found = library.technique(name).map_err(|mistakes| technique_failure(&mistakes))?;
+    Ok(found.0)
+}
+
+fn lighting_options(lighting: &Lighting) -> Vec<(&'static str, String)> {
+    let default = Lighting::default();
+    let mut options = Vec::new();
+    if lighting.light != default.light {
+        options.push(("--light", light_text(&lighting.light)));
+    }
+    if lighting.color != default.color {
+        options.push(("--light-color", color_text(&lighting.color).unwrap_or_default()));
+    }
+    for [x, y, z, d] in &lighting.clip_planes {
+        options.push(("--clip", format!("{x},{y},{z},{d}")));
+    }
+    options
+}
+
+/// A light as `--light` has it.
+#[must_use]
+pub fn light_text(light: &Light) -> String {
+    let (kind, at) = match light {
+        Light::Camera(direction) => ("", direction),
+        Light::World(direction) => ("world:", direction),
+        Light::Point(point) => ("point:", point),
+    };
+    format!("{kind}{},{},{}", at.x, at.y, at.z)
+}
+
+/// Words as a shell reads them.
+#[must_use]
+pub fn shell_line(words: &[String]) -> String {
+    let is_plain = |word: &str| {
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:,=+@%".contains(c);
+        !word.is_empty() && word.chars().all(plain)
+    };
+    let quoted = |word: &String| match is_plain(word) {
+        true => word.clone(),
+        false => format!("'{}'", word.replace('\'', r"'\''")),
+    };
+    words.iter().map(quoted).collect::<Vec<String>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use edgemesh::edge_mesh::Bounds;
+    use glam::DVec3;
+
+    use super::*;
+
+    fn words(line: &str) -> Vec<String> {
+        line.split_whitespace().map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn a_recipe_is_its_own_command_line() {
+        let library = Library::shipped();
+        let line = "a.obj b.stl --technique anime --set strokes.width=3.3 --set \
+                    silhouette.color=#ff0000 --light point:1,2,3 --light-color #ffeedd --clip \
+                    0,1,0,-0.5 --clip 1,0,0,0.25 --transparent --eye 3,2,5.5 --target 0,0,0.1 \
+                    --up 0,1,0 --fov 33.3 --ortho --layout replicated-f32 --samples 1 --weld 0.001 \
+                    --crease 25";
+        let mut recipe = Recipe::of_words(&words(line), &library).unwrap();
+        let bounds = Bounds { min: [-1.0; 3], max: [1.0; 3] };
+        let frame = Frame { origin: DVec3::new(0.3, 7.0, 0.0), scale: 0.5 };
+        recipe.take_viewpoint(&bounds, &frame).unwrap();
+        let said = recipe.words().unwrap();
+        let sorted = |mut words: Vec<String>| {
+            words.sort();
+            words
+        };
+        assert_eq!(sorted(said.clone()), sorted(words(line)));
+        let mut again = Recipe::of_words(&said, &library).unwrap();
+        again.take_viewpoint(&bounds, &frame).unwrap();
+        assert_eq!(again.appearance, recipe.appearance);
+        assert_eq!((again.viewpoint, again.models), (recipe.viewpoint, recipe.models));
+    }
+
+    #[test]
+    fn without_a_model_there_is_the_demo() {
+        let recipe = Recipe::of_words(&[], &Library::shipped()).unwrap();
+        assert_eq!(
+            (recipe.models, recipe.appearance.technique_name.as_str()),
+            (vec![PathBuf::from(DEMO)], "ink")
+        );
+        assert!(Recipe::of_words(&words("--technique inc"), &Library::shipped()).is_err());
+        assert!(Recipe::of_words(&words("--output a.png"), &Library::shipped()).is_err());
+    }
+
+    #[test]
+    fn what_a_shell_would_read_otherwise_is_quoted() {
+        let words = ["a b.obj", "--set", "x.y=#fff", "it's", ""].map(str::to_owned);
+        assert_eq!(shell_line(&words), r"'a b.obj' --set 'x.y=#fff' 'it'\''s' ''");
+    }
+}

@@ -1,0 +1,152 @@
+//! What the window remembers from one time to the next.
+
+use std::path::{Path, PathBuf};
+
+use super::navigation::TurnMode;
+use super::viewpoint::UpAxis;
+
+/// The most files that are remembered.
+const MOST_RECENT: usize = 10;
+
+/// What the window remembers from one time to the next; its size and place are remembered
+/// by the window system's side of it.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub struct Remembered {
+    /// Files that were opened, the last one first; several that were opened together are
+    /// one entry.
+    pub recent: Vec<Vec<PathBuf>>,
+    /// Whether the panels are shown.
+    pub shows_panels: bool,
+    /// The panel that is open.
+    pub tab: Tab,
+    /// How a drag turns the eye.
+    pub turn_mode: TurnMode,
+    /// The axis of the models that points up.
+    pub up: UpAxis,
+    /// Light, dark, or as the system is.
+    pub theme: Theme,
+    /// Width and height of pictures that are saved; the canvas's own where there is none.
+    pub picture_size: Option<[u32; 2]>,
+}
+
+/// A panel at the side.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+pub enum Tab {
+    /// Technique, passes and variables.
+    #[default]
+    Look,
+    /// Classes of lines.
+    Lines,
+    /// Light and cuts.
+    Light,
+    /// Camera.
+    View,
+    /// What there is to know.
+    Inspect,
+    /// Pictures and commands.
+    Output,
+}
+
+impl Tab {
+    /// All of them with their names.
+    pub const ALL: [(Self, &'static str); 6] = [
+        (Self::Look, "Look"),
+        (Self::Lines, "Lines"),
+        (Self::Light, "Light"),
+        (Self::View, "View"),
+        (Self::Inspect, "Inspect"),
+        (Self::Output, "Output"),
+    ];
+}
+
+/// Light or dark.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+pub enum Theme {
+    /// As the system is.
+    #[default]
+    System,
+    /// Light.
+    Light,
+    /// Dark.
+    Dark,
+}
+
+impl From<Theme> for egui::ThemePreference {
+    fn from(theme: Theme) -> Self {
+        match theme {
+            Theme::System => Self::System,
+            Theme::Light => Self::Light,
+            Theme::Dark => Self::Dark,
+        }
+    }
+}
+
+impl Default for Remembered {
+    fn default() -> Self {
+        Self {
+            recent: Vec::new(),
+            shows_panels: true,
+            tab: Tab::default(),
+            turn_mode: TurnMode::default(),
+            up: UpAxis::default(),
+            theme: Theme::default(),
+            picture_size: None,
+        }
+    }
+}
+
+impl Remembered {
+    /// Puts files first; those that have no place of their own are not remembered.
+    pub fn opened(&mut self, models: &[PathBuf]) {
+        let absolute = |path: &PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
+        let is_file = |path: &PathBuf| path.is_file();
+        if models.is_empty() || !models.iter().all(is_file) {
+            return;
+        }
+        let models: Vec<PathBuf> = models.iter().map(absolute).collect();
+        self.recent.retain(|known| *known != models);
+        self.recent.insert(0, models);
+        self.recent.truncate(MOST_RECENT);
+    }
+}
+
+/// What a list calls files that were opened together.
+#[must_use]
+pub fn name_of(models: &[PathBuf]) -> String {
+    let name = |path: &Path| {
+        path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+    };
+    match models {
+        [] => String::new(),
+        [one] => name(one),
+        [first, rest @ ..] => format!("{} and {} more", name(first), rest.len()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_files_come_first_and_each_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str| {
+            let path = folder.path().join(name);
+            std::fs::write(&path, "").unwrap();
+            path
+        };
+        let mut remembered = Remembered::default();
+        let (a, b) = (file("a.obj"), file("b.obj"));
+        for models in [vec![a.clone()], vec![b.clone()], vec![a.clone(), b.clone()], vec![a]] {
+            remembered.opened(&models);
+        }
+        remembered.opened(&[PathBuf::from("demo:")]);
+        let names: Vec<String> = remembered.recent.iter().map(|files| name_of(files)).collect();
+        assert_eq!(names, ["a.obj", "a.obj and 1 more", "b.obj"]);
+        for index in 0..20 {
+            remembered.opened(&[file(&format!("{index}.obj"))]);
+        }
+        assert_eq!(remembered.recent.len(), MOST_RECENT);
+    }
+}

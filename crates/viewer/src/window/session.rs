@@ -1,0 +1,258 @@
+//! What the window shows and knows, without any of its pixels: panels read and change it,
+//! the canvas draws it. Knows no GPU, so that panels are tested without one.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use edgemesh::command::Failure;
+use egui::util::undoer::{Settings, Undoer};
+
+use super::messages::Messages;
+use super::recipe::{Appearance, Recipe, shell_line};
+use super::remembered::Remembered;
+use super::viewpoint::{NamedView, Viewpoint};
+use crate::render::{FrameStatistics, Scene};
+use crate::scene_file::SceneObject;
+use crate::technique::Technique;
+use crate::technique::library::Library;
+
+/// What the window shows and knows.
+#[derive(Debug)]
+pub struct Session {
+    /// Techniques and components.
+    pub library: Library,
+    /// What is drawn.
+    pub recipe: Recipe,
+    /// The models, once they are there.
+    pub scene: Option<Arc<Scene>>,
+    /// The objects of scene files.
+    pub objects: Vec<SceneObject>,
+    /// What is remembered.
+    pub remembered: Remembered,
+    /// What there is to say.
+    pub messages: Messages,
+    /// What the last pictures drew and cost, the newest last.
+    pub statistics: Vec<FrameStatistics>,
+    /// The adapter that draws.
+    pub adapter: String,
+    /// Whether the keys are shown.
+    pub shows_keys: bool,
+    /// What is being loaded, and since how long.
+    pub loading: Option<(String, Duration)>,
+    /// What panels ask of the window.
+    pub requests: Vec<Request>,
+    undoer: Undoer<Appearance>,
+}
+
+/// What panels ask of the window.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Request {
+    /// Ask for files and open them.
+    ChooseFiles,
+    /// Open these files.
+    Open(Vec<PathBuf>),
+    /// Read the files again.
+    Reload,
+    /// Stop loading.
+    CancelLoading,
+    /// Ask where to save the technique as it is, and save it.
+    SaveTechnique,
+    /// Put this on the clipboard, and say so with the second text.
+    Copy(String, &'static str),
+    /// Go to a viewpoint smoothly.
+    GoTo(Viewpoint),
+    /// Ask where to save a picture, and save it.
+    SavePicture,
+    /// Close the window.
+    Quit,
+}
+
+/// The most frames whose times are kept.
+pub const KEPT_FRAMES: usize = 120;
+
+impl Session {
+    /// A session before its models are there.
+    #[must_use]
+    pub fn new(library: Library, recipe: Recipe, remembered: Remembered) -> Self {
+        let undoer = Undoer::with_settings(Settings {
+            max_undos: 200,
+            stable_time: 0.4,
+            auto_save_interval: 30.0,
+        });
+        Self {
+            library,
+            recipe,
+            scene: None,
+            objects: Vec::new(),
+            remembered,
+            messages: Messages::default(),
+            statistics: Vec::new(),
+            adapter: String::new(),
+            shows_keys: false,
+            loading: None,
+            requests: Vec::new(),
+            undoer,
+        }
+    }
+
+    /// Asks something of the window.
+    pub fn ask(&mut self, request: Request) {
+        self.requests.push(request);
+    }
+
+    /// Takes the models that were loaded.
+    ///
+    /// # Errors
+    /// Where the camera of the command line looks nowhere.
+    pub fn take_scene(
+        &mut self,
+        models: Vec<PathBuf>,
+        scene: Arc<Scene>,
+        objects: Vec<SceneObject>,
+    ) -> Result<(), Failure> {
+        let is_first = self.recipe.viewpoint.is_none();
+        let is_same = self.recipe.models == models && !is_first;
+        self.remembered.opened(&models);
+        self.recipe.models = models;
+        let told = match (is_first, is_same) {
+            // What was opened again is seen as it was.
+            (_, true) => Ok(()),
+            (true, _) => self.recipe.take_viewpoint(&scene.bounds, &scene.frame),
+            (false, false) => {
+                let up = self.remembered.up;
+                self.recipe.viewpoint =
+                    Some(Viewpoint::default_view(&scene.bounds, &scene.frame, up));
+                Ok(())
+            }
+        };
+        if told.is_err() || self.recipe.viewpoint.is_none() {
+            let up = self.remembered.up;
+            self.recipe.viewpoint = Some(Viewpoint::default_view(&scene.bounds, &scene.frame, up));
+        }
+        self.scene = Some(scene);
+        self.objects = objects;
+        self.statistics.clear();
+        told
+    }
+
+    /// Reads techniques and components again, and the technique with what was changed in
+    /// it.
+    ///
+    /// # Errors
+    /// What is wrong with it; it stays as it was.
+    pub fn read_again(&mut self) -> Result<(), Failure> {
+        let library = self.recipe.arguments.library.load();
+        let mut appearance = self.recipe.appearance.clone();
+        appearance.read_again(&library)?;
+        self.library = library;
+        self.recipe.appearance = appearance;
+        Ok(())
+    }
+
+    /// The folders of the technique's files, and of the user's own.
+    #[must_use]
+    pub fn watched_folders(&self) -> Vec<PathBuf> {
+        let mut folders = self.recipe.appearance.technique.folders.clone();
+        folders.extend(self.recipe.arguments.library.shaders.clone());
+        folders
+    }
+
+    /// Takes another technique; what is wrong with it is told, and the one before stays.
+    pub fn take_technique(&mut self, name: &str) {
+        let mut appearance = self.recipe.appearance.clone();
+        match appearance.take_technique(&self.library, name) {
+            Ok(()) => {
+                self.recipe.appearance = appearance;
+                self.messages.technique = None;
+            }
+            Err(failure) => self.messages.technique = Some(failure.message),
+        }
+    }
+
+    /// The techniques of objects of scene files.
+    ///
+    /// # Errors
+    /// What is wrong with one of them.
+    pub fn object_looks(&self) -> Result<Vec<Technique>, Failure> {
+        let (arguments, library) = (&self.recipe.arguments, &self.library);
+        let technique = &self.recipe.appearance.technique;
+        arguments.object_techniques(&self.objects, library, technique, true)
+    }
+
+    /// Goes to one of the sides, and fits the models.
+    pub fn go_to_side(&mut self, view: NamedView) {
+        if let Some(from) = self.recipe.viewpoint {
+            let up = self.remembered.up;
+            self.ask(Request::GoTo(self.fitted(&from.from_side(view, up))));
+        }
+    }
+
+    /// Goes back to where a model is seen from at first.
+    pub fn go_home(&mut self) {
+        if let Some(scene) = &self.scene {
+            let up = self.remembered.up;
+            let home = Viewpoint::default_view(&scene.bounds, &scene.frame, up);
+            self.ask(Request::GoTo(home));
+        }
+    }
+
+    /// A viewpoint from where all is seen.
+    #[must_use]
+    pub fn fitted(&self, view: &Viewpoint) -> Viewpoint {
+        match &self.scene {
+            Some(scene) => view.fitted(&scene.bounds, &scene.frame),
+            None => *view,
+        }
+    }
+
+    /// The command that draws this picture, at a size.
+    #[must_use]
+    pub fn command(&self, size: [u32; 2]) -> Option<String> {
+        let mut words: Vec<String> = ["viewer", "render"].map(str::to_owned).into();
+        words.extend(self.recipe.words()?);
+        words.extend(["--size".to_owned(), format!("{}x{}", size[0], size[1])]);
+        words.extend(["-o", "picture.png"].map(str::to_owned));
+        Some(shell_line(&words))
+    }
+
+    /// Sees what has changed since; to be called with every frame, at the window's time in
+    /// seconds.
+    pub fn watch_changes(&mut self, time: f64) {
+        self.undoer.feed_state(time, &self.recipe.appearance);
+    }
+
+    /// Whether there is something to undo.
+    #[must_use]
+    pub fn has_undo(&self) -> bool {
+        self.undoer.has_undo(&self.recipe.appearance)
+    }
+
+    /// Whether there is something to redo.
+    #[must_use]
+    pub fn has_redo(&self) -> bool {
+        self.undoer.has_redo(&self.recipe.appearance)
+    }
+
+    /// Takes the last change back.
+    pub fn undo(&mut self) {
+        if let Some(before) = self.undoer.undo(&self.recipe.appearance).cloned() {
+            self.recipe.appearance = before;
+        }
+    }
+
+    /// Does again what was taken back.
+    pub fn redo(&mut self) {
+        if let Some(after) = self.undoer.redo(&self.recipe.appearance).cloned() {
+            self.recipe.appearance = after;
+        }
+    }
+
+    /// Keeps what a picture drew and cost.
+    pub fn keep(&mut self, statistics: FrameStatistics) {
+        if self.statistics.len() == KEPT_FRAMES {
+            self.statistics.remove(0);
+        }
+        self.statistics.push(statistics);
+    }
+}

@@ -1,0 +1,316 @@
+//! The camera of the window: in the units of the files, so that a copied command has the
+//! very numbers that the window draws with.
+
+use clap::Parser as _;
+use edgemesh::build::Frame;
+use edgemesh::camera::{Camera, DEFAULT_DIRECTION, DEFAULT_DISTANCE_RADII, DEFAULT_FOV_Y_DEG};
+use edgemesh::command::options::CameraOptions;
+use edgemesh::edge_mesh::Bounds;
+use glam::DVec3;
+
+/// Where the eye is and where it looks, in the units of the files.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Viewpoint {
+    /// The eye.
+    pub eye: DVec3,
+    /// The point looked at, around which the eye turns.
+    pub target: DVec3,
+    /// The direction that points up in the picture, across the line of sight.
+    pub up: DVec3,
+    /// Vertical field of view in degrees.
+    pub fov_y_deg: f64,
+    /// Whether lines of sight are parallel.
+    pub is_orthographic: bool,
+}
+
+/// The axis of the models that points up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+pub enum UpAxis {
+    /// +Y, as in most pictures and games.
+    #[default]
+    Y,
+    /// +Z, as in most drawings of parts and buildings.
+    Z,
+}
+
+impl UpAxis {
+    /// The axis.
+    #[must_use]
+    pub const fn direction(self) -> DVec3 {
+        match self {
+            Self::Y => DVec3::Y,
+            Self::Z => DVec3::Z,
+        }
+    }
+
+    /// A direction of a model whose +Y is up, in one whose up is this axis.
+    fn turned(self, with_y_up: DVec3) -> DVec3 {
+        match self {
+            Self::Y => with_y_up,
+            // Front (+Z) becomes -Y, as draughtsmen have it.
+            Self::Z => DVec3::new(with_y_up.x, -with_y_up.z, with_y_up.y),
+        }
+    }
+}
+
+/// A view that has a name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NamedView {
+    /// From +Z where +Y is up, from -Y where +Z is.
+    Front,
+    /// From the other side.
+    Back,
+    /// From -X.
+    Left,
+    /// From +X.
+    Right,
+    /// From above.
+    Top,
+    /// From below.
+    Bottom,
+    /// From (1, 1, 1), where all three axes are as short.
+    Isometric,
+}
+
+impl NamedView {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Front,
+        Self::Back,
+        Self::Left,
+        Self::Right,
+        Self::Top,
+        Self::Bottom,
+        Self::Isometric,
+    ];
+
+    /// Its name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Front => "Front",
+            Self::Back => "Back",
+            Self::Left => "Left",
+            Self::Right => "Right",
+            Self::Top => "Top",
+            Self::Bottom => "Bottom",
+            Self::Isometric => "Isometric",
+        }
+    }
+
+    /// From where it is seen, and what points up, in a model whose +Y is up.
+    const fn directions(self) -> (DVec3, DVec3) {
+        match self {
+            Self::Front => (DVec3::Z, DVec3::Y),
+            Self::Back => (DVec3::NEG_Z, DVec3::Y),
+            Self::Left => (DVec3::NEG_X, DVec3::Y),
+            Self::Right => (DVec3::X, DVec3::Y),
+            Self::Top => (DVec3::Y, DVec3::NEG_Z),
+            Self::Bottom => (DVec3::NEG_Y, DVec3::Z),
+            Self::Isometric => (DVec3::ONE, DVec3::Y),
+        }
+    }
+}
+
+impl Viewpoint {
+    /// The view that every command has where none is given.
+    #[must_use]
+    pub fn default_view(bounds: &Bounds, frame: &Frame, up: UpAxis) -> Self {
+        let first = Self {
+            eye: up.turned(DEFAULT_DIRECTION),
+            target: DVec3::ZERO,
+            up: up.direction(),
+            fov_y_deg: DEFAULT_FOV_Y_DEG,
+            is_orthographic: false,
+        };
+        first.fitted(bounds, frame)
+    }
+
+    /// The camera that sees the same of a scene in `frame`.
+    #[must_use]
+    pub fn camera(&self, frame: &Frame) -> Camera {
+        Camera {
+            eye: frame.to_mesh(self.eye),
+            target: frame.to_mesh(self.target),
+            up: self.up,
+            fov_y_rad: self.fov_y_deg.to_radians(),
+            is_orthographic: self.is_orthographic,
+        }
+    }
+
+    /// The same of a camera of a scene in `frame`, as options of a command line gave it.
+    #[must_use]
+    pub fn of_camera(camera: &Camera, frame: &Frame, fov_y_deg: Option<f64>) -> Self {
+        Self {
+            eye: frame.to_file(camera.eye),
+            target: frame.to_file(camera.target),
+            up: camera.up,
+            fov_y_deg: fov_y_deg.unwrap_or(DEFAULT_FOV_Y_DEG),
+            is_orthographic: camera.is_orthographic,
+        }
+    }
+
+    /// The direction of sight.
+    #[must_use]
+    pub fn forward(&self) -> DVec3 {
+        (self.target - self.eye).try_normalize().unwrap_or(DVec3::NEG_Z)
+    }
+
+    /// Right, up and toward the viewer, each of length 1 and across the others.
+    #[must_use]
+    pub fn axes(&self) -> [DVec3; 3] {
+        let back = -self.forward();
+        let right = self.up.cross(back).try_normalize();
+        let right = right.unwrap_or_else(|| back.any_orthonormal_vector());
+        [right, back.cross(right), back]
+    }
+
+    /// The distance from the eye to the target.
+    #[must_use]
+    pub fn distance(&self) -> f64 {
+        self.eye.distance(self.target)
+    }
+
+    /// The same direction of sight, from where the whole of a scene is seen.
+    #[must_use]
+    pub fn fitted(&self, bounds: &Bounds, frame: &Frame) -> Self {
+        let radius = bounds.radius() / frame.scale;
+        let radius = if radius > 0.0 { radius } else { 1.0 / frame.scale };
+        // As far as the default view is with its field of view.
+        let half = |degrees: f64| (degrees.to_radians() / 2.0).tan();
+        let distance =
+            DEFAULT_DISTANCE_RADII * radius * half(DEFAULT_FOV_Y_DEG) / half(self.fov_y_deg);
+        let target = frame.to_file(bounds.center());
+        Self { eye: target - self.forward() * distance, target, ..*self }
+    }
+
+    /// The same target and distance, seen from one of the sides.
+    #[must_use]
+    pub fn from_side(&self, view: NamedView, up: UpAxis) -> Self {
+        let (from, above) = view.directions();
+        let eye = self.target + up.turned(from.normalize_or_zero()) * self.distance();
+        Self { eye, up: up.turned(above), ..*self }
+    }
+
+    /// As options of a command line.
+    #[must_use]
+    pub fn options(&self) -> Vec<String> {
+        let vector = |v: DVec3| format!("{},{},{}", v.x, v.y, v.z);
+        let mut options = Vec::new();
+        for (name, value) in [
+            ("--eye", vector(self.eye)),
+            ("--target", vector(self.target)),
+            ("--up", vector(self.up)),
+            ("--fov", self.fov_y_deg.to_string()),
+        ] {
+            options.extend([name.to_owned(), value]);
+        }
+        if self.is_orthographic {
+            options.push("--ortho".to_owned());
+        }
+        options
+    }
+
+    /// Reads the camera options of a text, such as a copied command; other words are left
+    /// out. What is not said is as it is here.
+    ///
+    /// # Errors
+    /// Where there are none, or something is wrong with them.
+    pub fn pasted(&self, text: &str) -> Result<Self, String> {
+        #[derive(clap::Parser)]
+        #[command(no_binary_name = true, disable_help_flag = true)]
+        struct Pasted {
+            #[command(flatten)]
+            camera: CameraOptions,
+        }
+        let words = camera_words(text);
+        if words.is_empty() {
+            return Err("there are no camera options in it, as --eye 3,2,5 --target 0,0,0".into());
+        }
+        let read = Pasted::try_parse_from(words).map_err(|error| error.to_string())?.camera;
+        let pasted = Self {
+            eye: read.eye.unwrap_or(self.eye),
+            target: read.target.unwrap_or(self.target),
+            up: read.up.unwrap_or(self.up),
+            fov_y_deg: read.fov.unwrap_or(self.fov_y_deg),
+            is_orthographic: read.ortho,
+        };
+        if (pasted.target - pasted.eye).cross(pasted.up).length() <= 0.0 {
+            return Err("the camera looks nowhere: the eye lies on the target, or up lies along \
+                        the line of sight"
+                .into());
+        }
+        Ok(pasted)
+    }
+}
+
+/// The words of a text that are camera options and their values.
+fn camera_words(text: &str) -> Vec<String> {
+    let mut words = text.split_whitespace();
+    let mut found = Vec::new();
+    while let Some(word) = words.next() {
+        let name = word.split_once('=').map_or(word, |(name, _)| name);
+        match name {
+            "--ortho" => found.push(word.to_owned()),
+            "--eye" | "--target" | "--up" | "--fov" => {
+                found.push(word.to_owned());
+                if name == word {
+                    found.extend(words.next().map(|value| value.trim_matches('\'').to_owned()));
+                }
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOUNDS: Bounds = Bounds { min: [-1.0, -2.0, -3.0], max: [3.0, 2.0, 1.0] };
+
+    #[test]
+    fn the_default_view_is_that_of_the_commands() {
+        let frame = Frame { origin: DVec3::new(1000.0, 5.0, -7.0), scale: 0.25 };
+        let view = Viewpoint::default_view(&BOUNDS, &frame, UpAxis::Y);
+        let (ours, theirs) = (view.camera(&frame), Camera::default_view(&BOUNDS));
+        assert!(ours.eye.distance(theirs.eye) < 1e-9 && ours.target.distance(theirs.target) < 1e-9);
+        assert_eq!((ours.up, ours.is_orthographic), (theirs.up, false));
+    }
+
+    #[test]
+    fn what_is_copied_is_pasted_to_the_last_digit() {
+        let first = Viewpoint::default_view(&BOUNDS, &Frame::default(), UpAxis::Y);
+        let copied = Viewpoint {
+            eye: DVec3::new(0.1 + 0.2, -1.0 / 3.0, 1e-17),
+            fov_y_deg: 33.3,
+            is_orthographic: true,
+            ..first
+        };
+        let text = format!("viewer render 'a b.obj' {} -o out.png", copied.options().join(" "));
+        assert_eq!(first.pasted(&text), Ok(copied));
+        assert_eq!(first.pasted("--fov=20").unwrap().fov_y_deg.to_bits(), 20_f64.to_bits());
+        for wrong in ["", "viewer render a.obj", "--eye 1,2", "--eye 0,0,1 --target 0,0,1"] {
+            assert!(first.pasted(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn named_views_look_along_the_axes_whichever_is_up() {
+        let view = Viewpoint::default_view(&BOUNDS, &Frame::default(), UpAxis::Y);
+        for up in [UpAxis::Y, UpAxis::Z] {
+            for named in NamedView::ALL {
+                let seen = view.from_side(named, up);
+                assert!((seen.distance() - view.distance()).abs() < 1e-9);
+                let [right, above, _] = seen.axes();
+                assert!(right.dot(seen.forward()).abs() < 1e-12);
+                assert!(above.dot(seen.up) > 0.5, "{named:?} {up:?}");
+            }
+        }
+        let forward = |named, up| view.from_side(named, up).forward();
+        assert!(forward(NamedView::Front, UpAxis::Z).distance(DVec3::Y) < 1e-12);
+        assert!(forward(NamedView::Top, UpAxis::Z).distance(DVec3::NEG_Z) < 1e-12);
+        assert!(forward(NamedView::Right, UpAxis::Y).distance(DVec3::NEG_X) < 1e-12);
+    }
+}

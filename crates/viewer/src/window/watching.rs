@@ -1,0 +1,99 @@
+//! Technique, shader and image files, watched on a thread of their own.
+//!
+//! A change is told twice: at once, when what is wrong may be half saved and is not told;
+//! and again when all is quiet, when it is.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
+
+use crate::watch::Watcher;
+
+/// How often the thread asks whether anyone still wants to know.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+/// Some folders, watched until this is dropped.
+#[derive(Debug)]
+pub struct Watching {
+    folders: Vec<PathBuf>,
+    changes: Receiver<Change>,
+    is_over: Arc<AtomicBool>,
+}
+
+/// Files have changed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Change {
+    /// And may be half saved.
+    Now,
+    /// And are as they will stay.
+    Settled,
+}
+
+impl Watching {
+    /// Watches folders; `wake` is called when something has changed.
+    ///
+    /// # Errors
+    /// Where a folder cannot be watched.
+    pub fn start(folders: &[PathBuf], wake: impl Fn() + Send + 'static) -> Result<Self, String> {
+        let mut watcher = Watcher::new(folders, &[])?;
+        let (sender, changes) = channel();
+        let is_over = Arc::new(AtomicBool::new(false));
+        let over = is_over.clone();
+        std::thread::spawn(move || {
+            while !over.load(Ordering::Relaxed) {
+                if !watcher.wait(PATIENCE) {
+                    continue;
+                }
+                let is_heard = sender.send(Change::Now).is_ok();
+                wake();
+                // What goes on changing is told when it changes.
+                if is_heard && watcher.settled() {
+                    let _ = sender.send(Change::Settled);
+                    wake();
+                }
+            }
+        });
+        Ok(Self { folders: folders.to_owned(), changes, is_over })
+    }
+
+    /// Whether these are the folders that are watched.
+    #[must_use]
+    pub fn is_of(&self, folders: &[PathBuf]) -> bool {
+        self.folders == folders
+    }
+
+    /// The last change, if there was one.
+    #[must_use]
+    pub fn take(&self) -> Option<Change> {
+        self.changes.try_iter().last()
+    }
+}
+
+impl Drop for Watching {
+    fn drop(&mut self) {
+        self.is_over.store(true, Ordering::Relaxed);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_change_is_told_at_once_and_when_it_is_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let (sender, woken) = channel();
+        let folders = [folder.path().to_owned()];
+        let wake = move || sender.send(()).unwrap();
+        let watching = Watching::start(&folders, wake).unwrap();
+        assert!(watching.is_of(&folders) && watching.take().is_none());
+        std::fs::write(folder.path().join("a.toml"), "a = 1\n").unwrap();
+        let wait = || woken.recv_timeout(Duration::from_secs(20)).unwrap();
+        wait();
+        assert_eq!(watching.take(), Some(Change::Now));
+        wait();
+        assert_eq!(watching.take(), Some(Change::Settled));
+    }
+}
