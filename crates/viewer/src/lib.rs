@@ -24,5 +24,6 @@ pub mod picture;
 pub mod render;
 pub mod scene_file;
 pub mod technique;
+pub mod turntable;
 pub mod watch;
 pub mod window;

@@ -1,6 +1,5 @@
 //! Pictures: PNG in and out, and the comparison with a reference.
 
-use std::io::Cursor;
 use std::path::Path;
 
 use edgemesh::command::Failure;
@@ -21,13 +20,46 @@ pub const DEFAULT_REFERENCE_THRESHOLD: f64 = 0.0004;
 /// # Errors
 /// Where the encoder fails.
 pub fn encode_png(picture: &RgbaImage, is_transparent: bool) -> Result<Vec<u8>, Failure> {
+    encode_png_with_text(picture, is_transparent, None)
+}
+
+/// As [`encode_png`], with a text under a keyword, which other programs pass on or leave
+/// out.
+///
+/// # Errors
+/// As [`encode_png`].
+pub fn encode_png_with_text(
+    picture: &RgbaImage,
+    is_transparent: bool,
+    text: Option<(&str, &str)>,
+) -> Result<Vec<u8>, Failure> {
+    let failed =
+        |error: png::EncodingError| Failure::fault(format!("the PNG cannot be encoded: {error}"));
     let straight = DynamicImage::ImageRgba8(straight_alpha(picture));
-    let picture = if is_transparent { straight } else { straight.to_rgb8().into() };
-    let mut bytes = Cursor::new(Vec::new());
-    picture
-        .write_to(&mut bytes, image::ImageFormat::Png)
-        .map_err(|error| Failure::fault(format!("the PNG cannot be encoded: {error}")))?;
-    Ok(bytes.into_inner())
+    let (color, texels) = match is_transparent {
+        true => (png::ColorType::Rgba, straight.into_rgba8().into_raw()),
+        false => (png::ColorType::Rgb, straight.into_rgb8().into_raw()),
+    };
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, picture.width(), picture.height());
+    encoder.set_color(color);
+    encoder.set_depth(png::BitDepth::Eight);
+    if let Some((keyword, text)) = text {
+        encoder.add_itxt_chunk(keyword.to_owned(), text.to_owned()).map_err(failed)?;
+    }
+    let mut writer = encoder.write_header().map_err(failed)?;
+    writer.write_image_data(&texels).map_err(failed)?;
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
+}
+
+/// The text under a keyword in a PNG; none where it is no PNG or has none.
+#[must_use]
+pub fn read_png_text(path: &Path, keyword: &str) -> Option<String> {
+    let file = std::io::BufReader::new(std::fs::File::open(path).ok()?);
+    let reader = png::Decoder::new(file).read_info().ok()?;
+    let chunk = reader.info().utf8_text.iter().find(|chunk| chunk.keyword == keyword)?;
+    chunk.get_text().ok()
 }
 
 /// Divides the colours by their alpha, as files store them.

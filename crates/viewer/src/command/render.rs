@@ -1,7 +1,5 @@
 //! `viewer render`: models to pictures.
 
-use std::f64::consts::TAU;
-use std::ffi::OsStr;
 use std::fmt::Write as _;
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
@@ -14,17 +12,17 @@ use edgemesh::command::{
     ExitStatus, Failure, Listener, print_to_stdout, print_warnings, write_file,
 };
 use edgemesh::oracle::FeatureCounts;
-use glam::DQuat;
 use image::RgbaImage;
 use serde::Serialize;
 use strokes::gpu::{self, Gpu};
 
-use crate::animation::{AnimationKind, encode_animation};
-use crate::picture::{DEFAULT_REFERENCE_THRESHOLD, compare, encode_png, read_png, straight_alpha};
+use crate::animation::AnimationKind;
+use crate::picture::{DEFAULT_REFERENCE_THRESHOLD, compare, encode_png, read_png};
 use crate::render::{FrameStatistics, PictureRenderer, Scene, adapter_failure};
 use crate::scene_file::SceneObject;
 use crate::technique::Technique;
 use crate::technique::library::Library;
+use crate::turntable;
 use crate::watch::Watcher;
 
 use super::picture_arguments::{PictureArguments, objects_of};
@@ -282,26 +280,14 @@ impl RenderCommand {
         camera: &Camera,
         steps: u32,
     ) -> Result<FrameStatistics, Failure> {
-        let axis = camera.up.normalize_or_zero();
         let mut last = None;
-        let mut draw = |step: u32| {
-            let turn = DQuat::from_axis_angle(axis, TAU * f64::from(step) / f64::from(steps));
-            let eye = camera.target + turn * (camera.eye - camera.target);
-            let (picture, statistics) = renderer.render(&Camera { eye, ..*camera })?;
+        turntable::write(&self.output, steps, self.size, self.picture.transparent, |step| {
+            let (picture, statistics) =
+                renderer.render(&turntable::camera_at(camera, step, steps))?;
             last = Some(statistics);
             show_progress(step + 1, steps);
             Ok(picture)
-        };
-        if let Some(kind) = AnimationKind::of(&self.output) {
-            let bytes = encode_animation(kind, steps, self.size, |step| {
-                draw(step).map(|picture| straight_alpha(&picture))
-            })?;
-            write_file(&self.output, &bytes)?;
-        } else {
-            for step in 0..steps {
-                self.write_png(&numbered(&self.output, step, steps), &draw(step)?)?;
-            }
-        }
+        })?;
         last.ok_or_else(|| Failure::usage("--turntable needs at least one step"))
     }
 
@@ -371,14 +357,6 @@ fn write_result(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     write_file(path, bytes)
 }
 
-/// `turn.png` becomes `turn-00.png`, with as many digits as the last one needs.
-fn numbered(path: &Path, step: u32, steps: u32) -> PathBuf {
-    let digits = (steps - 1).checked_ilog10().map_or(1, |log| log as usize + 1);
-    let mut name = path.file_stem().unwrap_or(OsStr::new("picture")).to_owned();
-    name.push(format!("-{step:0digits$}.png"));
-    path.with_file_name(name)
-}
-
 pub(super) fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| text.trim().parse().ok().filter(|&side: &u32| side > 0);
     text.split_once(['x', 'X'])
@@ -403,14 +381,5 @@ mod tests {
         for text in ["1920", "0x10", "10x", "10x-1", "axb", "1x2x3"] {
             assert!(parse_size(text).is_err(), "{text}");
         }
-    }
-
-    #[test]
-    fn turntable_names_sort_as_they_turn() {
-        let names = [0, 9, 35].map(|step| numbered(Path::new("a/turn.png"), step, 36));
-        assert_eq!(names[0], Path::new("a/turn-00.png"));
-        assert_eq!(names[2], Path::new("a/turn-35.png"));
-        assert!(names.is_sorted());
-        assert_eq!(numbered(Path::new("t.png"), 0, 1), Path::new("t-0.png"));
     }
 }

@@ -11,17 +11,18 @@ use edgemesh::command::{ExitStatus, Failure, write_file};
 use egui::{CentralPanel, Panel, Sense, Ui};
 use strokes::gpu;
 
+use super::background::Background;
 use super::canvas::Canvas;
 use super::hands::Hands;
-use super::loading::{self, Loading};
+use super::loading::{self, LoadedScene};
 use super::panels;
 use super::recipe::Recipe;
 use super::remembered::Remembered;
-use super::session::{Request, Session};
+use super::saving::{self, Order};
+use super::session::{Request, Session, Work};
 use super::style;
 use super::watching::{Change, Watching};
 use crate::command::picture_arguments::PictureArguments;
-use crate::render::PictureRenderer;
 use crate::technique::library::Library;
 use crate::technique::write::written;
 
@@ -147,7 +148,8 @@ struct Window {
     session: Session,
     canvas: Canvas,
     hands: Hands,
-    loading: Option<Loading>,
+    loading: Option<Background<LoadedScene>>,
+    saving: Vec<Background<String>>,
     watching: Option<Watching>,
     /// What dialogs on other threads have led to.
     arrived: Receiver<Arrival>,
@@ -164,8 +166,7 @@ struct Window {
 enum Arrival {
     Files(Vec<PathBuf>),
     TechniqueFile(PathBuf),
-    PictureFile(PathBuf),
-    Done(Result<String, String>),
+    PictureFile(PathBuf, Option<u32>),
 }
 
 impl Window {
@@ -195,6 +196,7 @@ impl Window {
             canvas,
             hands: Hands::default(),
             loading: None,
+            saving: Vec::new(),
             watching: None,
             arrived,
             sender,
@@ -219,12 +221,13 @@ impl Window {
             options,
         };
         let context = context.clone();
-        self.loading = Some(Loading::start(request, move || context.request_repaint()));
+        let wake = move || context.request_repaint();
+        self.loading = Some(Background::start(wake, |tell| loading::load(request, tell)));
     }
 
     /// Takes what other threads have made.
     fn take_arrivals(&mut self, context: &egui::Context) {
-        if let Some(loaded) = self.loading.as_ref().and_then(Loading::take) {
+        if let Some(loaded) = self.loading.as_ref().and_then(Background::take) {
             self.loading = None;
             match loaded {
                 Ok(loaded) => {
@@ -238,18 +241,38 @@ impl Window {
                 Err(failure) => self.session.messages.error(failure.message),
             }
         }
-        let told = self.loading.as_ref();
-        self.session.loading = told.map(|loading| (loading.stage(), loading.started.elapsed()));
-        if self.loading.is_some() {
+        let mut done = Vec::new();
+        self.saving.retain(|saving| {
+            let result = saving.take();
+            let goes_on = result.is_none();
+            done.extend(result);
+            goes_on
+        });
+        for result in done {
+            match result {
+                Ok(note) => self.session.messages.note(note),
+                Err(failure) => self.session.messages.error(failure.message),
+            }
+        }
+        self.session.work.clear();
+        if let Some(loading) = &self.loading {
+            let work = Work { what: loading.stage(), since: loading.started, saving: None };
+            self.session.work.push(work);
+        }
+        for (at, saving) in self.saving.iter().enumerate() {
+            let work = Work { what: saving.stage(), since: saving.started, saving: Some(at) };
+            self.session.work.push(work);
+        }
+        if !self.session.work.is_empty() {
             context.request_repaint_after(Duration::from_millis(100));
         }
         while let Ok(arrival) = self.arrived.try_recv() {
             match arrival {
-                Arrival::Files(files) => self.load(files, context),
+                Arrival::Files(files) => self.open_files(files, context),
                 Arrival::TechniqueFile(path) => self.save_technique(&path),
-                Arrival::PictureFile(path) => self.save_picture(path, context),
-                Arrival::Done(Ok(note)) => self.session.messages.note(note),
-                Arrival::Done(Err(what)) => self.session.messages.error(what),
+                Arrival::PictureFile(path, turntable) => {
+                    self.save_picture(path, turntable, context);
+                }
             }
         }
         for fault in self.faults.lock().unwrap_or_else(PoisonError::into_inner).drain(..) {
@@ -284,9 +307,14 @@ impl Window {
                     let dialog = dialog.set_title("Open models");
                     dialog.pick_files().map(Arrival::Files)
                 }),
-                Request::Open(files) => self.load(files, context),
+                Request::Open(files) => self.open_files(files, context),
                 Request::Reload => self.load(self.session.recipe.models.clone(), context),
-                Request::CancelLoading => self.loading = None,
+                Request::Cancel(None) => self.loading = None,
+                Request::Cancel(Some(saving)) => {
+                    if let Some(saving) = self.saving.get(saving) {
+                        saving.cancel();
+                    }
+                }
                 Request::SaveTechnique => {
                     let name = format!("{}.toml", self.session.recipe.appearance.technique.name);
                     self.ask(context, move |dialog| {
@@ -295,10 +323,15 @@ impl Window {
                         dialog.save_file().map(Arrival::TechniqueFile)
                     });
                 }
-                Request::SavePicture => self.ask(context, |dialog| {
-                    let dialog = dialog.set_title("Save picture").set_file_name("picture.png");
-                    let dialog = dialog.add_filter("PNG", &["png"]);
-                    dialog.save_file().map(Arrival::PictureFile)
+                Request::SavePicture(turntable) => self.ask(context, move |dialog| {
+                    let dialog = match turntable {
+                        None => dialog.set_title("Save picture").set_file_name("picture.png"),
+                        Some(_) => dialog.set_title("Save turntable").set_file_name("turn.apng"),
+                    };
+                    let ends =
+                        if turntable.is_some() { &["apng", "gif", "png"][..] } else { &["png"] };
+                    let path = dialog.add_filter("Pictures", ends).save_file()?;
+                    Some(Arrival::PictureFile(path, turntable))
                 }),
                 Request::Copy(text, note) => {
                     context.copy_text(text);
@@ -344,31 +377,50 @@ impl Window {
         }
     }
 
-    /// Draws a picture of the size that is asked for, on a thread of its own.
-    fn save_picture(&mut self, path: PathBuf, context: &egui::Context) {
+    /// Draws a picture, or a turntable, of the size that is asked for.
+    fn save_picture(&mut self, path: PathBuf, turntable: Option<u32>, context: &egui::Context) {
         let Some(scene) = self.session.scene.clone() else { return };
-        let recipe = self.session.recipe.clone();
-        let size = self.session.remembered.picture_size.unwrap_or(self.size);
-        let gpu = self.canvas.gpu().clone();
-        let looks = self.session.object_looks();
-        let (sender, context) = (self.sender.clone(), context.clone());
-        std::thread::spawn(move || {
-            let draw = || -> Result<String, Failure> {
-                let Some(viewpoint) = recipe.viewpoint else {
-                    return Err(Failure::fault("there is no model to draw"));
-                };
-                let options = recipe.picture_options(size)?;
-                let technique = &recipe.appearance.technique;
-                let mut renderer =
-                    PictureRenderer::new(&gpu, &scene, technique, &looks?, &options)?;
-                let (picture, _) = renderer.render(&viewpoint.camera(&scene.frame))?;
-                let bytes = crate::picture::encode_png(&picture, options.is_transparent)?;
-                write_file(&path, &bytes)?;
-                Ok(format!("saved as {}", path.display()))
+        let looks = match self.session.object_looks() {
+            Ok(looks) => looks,
+            Err(failure) => return self.session.messages.error(failure.message),
+        };
+        let order = Order {
+            recipe: self.session.recipe.clone(),
+            scene,
+            looks,
+            size: self.session.remembered.picture_size.unwrap_or(self.size),
+            path: with_ending(path, turntable.is_some()),
+            turntable,
+            gpu: self.canvas.gpu().clone(),
+        };
+        let context = context.clone();
+        let wake = move || context.request_repaint();
+        self.saving.push(Background::start(wake, move |tell| saving::save(&order, tell)));
+    }
+
+    /// Opens files: models, a technique, or a picture that carries its recipe.
+    fn open_files(&mut self, files: Vec<PathBuf>, context: &egui::Context) {
+        let has_ending = |path: &PathBuf, wanted: &str| {
+            path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(wanted))
+        };
+        let [file] = &files[..] else { return self.load(files, context) };
+        if has_ending(file, "png") {
+            let Some(words) = saving::words_in(file) else {
+                let name = file.display();
+                let what = format!("{name}: this picture carries no recipe; open a model instead");
+                return self.session.messages.error(what);
             };
-            let _ = sender.send(Arrival::Done(draw().map_err(|failure| failure.message)));
-            context.request_repaint();
-        });
+            match self.session.take_words(&words) {
+                Err(failure) => self.session.messages.error(failure.message),
+                Ok(None) => {}
+                Ok(Some(models)) => self.load(models, context),
+            }
+        } else if has_ending(file, "toml") && is_technique_file(file) {
+            let name = file.display().to_string();
+            self.session.take_technique(&name);
+        } else {
+            self.load(files, context);
+        }
     }
 
     /// The picture, and what hands do over it.
@@ -401,6 +453,25 @@ impl Window {
         }
         panels::notes(ui, &mut self.session, rect);
     }
+}
+
+/// A file name that ends as one of a picture does.
+fn with_ending(path: PathBuf, is_turntable: bool) -> PathBuf {
+    let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
+    let known = if is_turntable { &["apng", "gif", "png"][..] } else { &["png"] };
+    let is_known = ending.is_some_and(|ending| known.iter().any(|known| ending == *known));
+    if is_known {
+        return path;
+    }
+    let mut name = path.into_os_string();
+    name.push(if is_turntable { ".apng" } else { ".png" });
+    name.into()
+}
+
+/// Whether a TOML file is a technique, not a scene.
+fn is_technique_file(path: &std::path::Path) -> bool {
+    let text = std::fs::read_to_string(path).unwrap_or_default();
+    text.lines().any(|line| line.trim_start().starts_with("[[pass]]"))
 }
 
 /// Has a lost device and faults of ours told instead of ending the program.
@@ -445,7 +516,7 @@ impl eframe::App for Window {
             files.map(|file| file.path().to_owned()).collect()
         });
         if !dropped.is_empty() {
-            self.load(dropped, &context);
+            self.open_files(dropped, &context);
         }
         let time = context.input(|input| input.time);
         self.session.watch_changes(time);

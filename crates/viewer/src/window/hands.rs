@@ -253,7 +253,7 @@ pub fn run(command: Command, session: &mut Session, size: [u32; 2]) {
         }
         Command::Open => session.ask(Request::ChooseFiles),
         Command::Reload => session.ask(Request::Reload),
-        Command::SavePicture => session.ask(Request::SavePicture),
+        Command::SavePicture => session.ask(Request::SavePicture(None)),
         Command::SaveTechnique => session.ask(Request::SaveTechnique),
         Command::CopyCommand => match session.command(size) {
             Some(line) => session.ask(Request::Copy(line, "the command is on the clipboard")),

@@ -1,21 +1,16 @@
-//! Models on a thread of their own, while the window goes on with what it has.
+//! Models, read and uploaded while the window goes on with what it has.
 //!
 //! ```text
 //!   files --read, build--> Scene --upload--> PictureRenderer --> the window takes both
 //! ```
-//!
-//! What is cancelled, or overtaken by another request, is given up at its next stage and
-//! never shown.
 
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, channel};
-use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Instant;
+use std::sync::Arc;
 
 use edgemesh::command::{ExitStatus, Failure, Listener};
 use strokes::gpu::Gpu;
 
+use super::background::Tell;
 use crate::command::picture_arguments::{PictureArguments, objects_of};
 use crate::render::{PictureOptions, PictureRenderer, Scene};
 use crate::scene_file::SceneObject;
@@ -51,64 +46,11 @@ pub struct LoadedScene {
     pub arguments: PictureArguments,
 }
 
-/// Models on their way.
-#[derive(Debug)]
-pub struct Loading {
-    result: Receiver<Result<LoadedScene, Failure>>,
-    stage: Arc<Mutex<String>>,
-    is_cancelled: Arc<AtomicBool>,
-    /// Since when.
-    pub started: Instant,
-}
-
-impl Loading {
-    /// Begins; `wake` is called whenever there is something new to show.
-    #[must_use]
-    pub fn start(request: Request, wake: impl Fn() + Send + Sync + 'static) -> Self {
-        let (sender, result) = channel();
-        let stage = Arc::new(Mutex::new(String::new()));
-        let is_cancelled = Arc::new(AtomicBool::new(false));
-        let (told, cancelled) = (stage.clone(), is_cancelled.clone());
-        std::thread::spawn(move || {
-            let tell = |what: &str| {
-                what.clone_into(&mut told.lock().unwrap_or_else(PoisonError::into_inner));
-                wake();
-                !cancelled.load(Ordering::Relaxed)
-            };
-            // A fault of ours in a reader must not take the window with it.
-            let load = std::panic::AssertUnwindSafe(|| load(request, &tell));
-            let loaded = std::panic::catch_unwind(load).unwrap_or_else(|_| {
-                let message = "internal error while the model was read, please report it with \
-                               the file";
-                Err(Failure { message: message.into(), status: ExitStatus::Internal })
-            });
-            // Nobody waits for what was cancelled.
-            let _ = sender.send(loaded);
-            wake();
-        });
-        Self { result, stage, is_cancelled, started: Instant::now() }
-    }
-
-    /// What is being done.
-    #[must_use]
-    pub fn stage(&self) -> String {
-        self.stage.lock().unwrap_or_else(PoisonError::into_inner).clone()
-    }
-
-    /// The models, once they are there.
-    #[must_use]
-    pub fn take(&self) -> Option<Result<LoadedScene, Failure>> {
-        self.result.try_recv().ok()
-    }
-}
-
-impl Drop for Loading {
-    fn drop(&mut self) {
-        self.is_cancelled.store(true, Ordering::Relaxed);
-    }
-}
-
-fn load(request: Request, tell: &(dyn Fn(&str) -> bool + Sync)) -> Result<LoadedScene, Failure> {
+/// Reads the models of a request, and uploads them.
+///
+/// # Errors
+/// The first model that cannot be read or is too large, or where `tell` wants no more.
+pub fn load(request: Request, tell: Tell) -> Result<LoadedScene, Failure> {
     let listener = Listener::Other(tell);
     let objects = objects_of(&request.models)?;
     let scene = Scene::load(&objects, &request.arguments.input, listener)?;
@@ -131,52 +73,29 @@ fn load(request: Request, tell: &(dyn Fn(&str) -> bool + Sync)) -> Result<Loaded
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
-    use std::time::Duration;
-
     use super::*;
     use crate::technique::library::Library;
+    use crate::window::background::Background;
     use crate::window::recipe::Recipe;
 
-    fn request(model: &Path) -> Request {
-        let library = Library::shipped();
-        let recipe = Recipe::of_words(&[model.display().to_string()], &library).unwrap();
-        Request {
+    fn start(model: &str) -> Background<LoadedScene> {
+        let recipe = Recipe::of_words(&[model.to_owned()], &Library::shipped()).unwrap();
+        let request = Request {
             models: recipe.models,
             arguments: recipe.arguments,
             gpu: None,
             technique: recipe.appearance.technique,
             options: PictureOptions::default(),
-        }
-    }
-
-    fn wait(loading: &Loading) -> Result<LoadedScene, Failure> {
-        loading.result.recv_timeout(Duration::from_secs(60)).unwrap()
+        };
+        Background::start(|| {}, |tell| load(request, tell))
     }
 
     #[test]
     fn models_come_with_what_was_done() {
-        let loading = Loading::start(request(Path::new("demo:")), || {});
-        let loaded = wait(&loading).unwrap();
-        assert_eq!(loaded.scene.models.len(), 1);
+        let loading = start("demo:");
+        assert_eq!(loading.wait().unwrap().scene.models.len(), 1);
         assert!(loading.stage().starts_with("building"), "{}", loading.stage());
-        let missing = Loading::start(request(Path::new("no such.obj")), || {});
-        let failure = wait(&missing).unwrap_err();
+        let failure = start("no such.obj").wait().unwrap_err();
         assert!(failure.message.contains("no such.obj"), "{}", failure.message);
-    }
-
-    #[test]
-    fn what_is_cancelled_ends_at_its_next_stage() {
-        let (sender, receiver) = channel();
-        let (answer, go_on) = channel::<()>();
-        let go_on = Mutex::new(go_on);
-        let loading = Loading::start(request(Path::new("demo:")), move || {
-            sender.send(()).ok();
-            go_on.lock().unwrap().recv().ok();
-        });
-        receiver.recv().unwrap();
-        loading.is_cancelled.store(true, Ordering::Relaxed);
-        drop(answer);
-        assert_eq!(wait(&loading).unwrap_err().message, "it was cancelled");
     }
 }

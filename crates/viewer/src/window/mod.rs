@@ -8,12 +8,13 @@
 //!
 //! - `session`: what is shown and known, without GPU; `recipe`, `viewpoint`: what makes a
 //!   picture, as a command line; `messages`, `remembered`.
-//! - `navigation`: from hands to viewpoints. `loading`: models on another thread.
+//! - `navigation`: from hands to viewpoints. `background`, `loading`: models on another thread.
 //!   `picking`: what is under the pointer. `watching`: files that change.
 //! - `canvas`: the session as a picture, drawn when something changed.
 //! - `app`: one frame of the window. `panels`: what is beside the picture.
 
 mod app;
+pub mod background;
 mod canvas;
 pub mod hands;
 pub mod loading;
@@ -23,6 +24,7 @@ pub mod panels;
 pub mod picking;
 pub mod recipe;
 pub mod remembered;
+pub mod saving;
 pub mod session;
 mod style;
 pub mod viewpoint;

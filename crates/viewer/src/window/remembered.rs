@@ -28,6 +28,8 @@ pub struct Remembered {
     pub theme: Theme,
     /// Width and height of pictures that are saved; the canvas's own where there is none.
     pub picture_size: Option<[u32; 2]>,
+    /// How many pictures a turntable has.
+    pub turntable_steps: u32,
 }
 
 /// A panel at the side.
@@ -92,6 +94,7 @@ impl Default for Remembered {
             up: UpAxis::default(),
             theme: Theme::default(),
             picture_size: None,
+            turntable_steps: 72,
         }
     }
 }

@@ -1,11 +1,12 @@
 //! What the window shows and knows, without any of its pixels: panels read and change it,
 //! the canvas draws it. Knows no GPU, so that panels are tested without one.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::Instant;
 
 use edgemesh::command::Failure;
+use edgemesh::command::input::DEMO;
 use egui::util::undoer::{Settings, Undoer};
 
 use super::messages::Messages;
@@ -38,11 +39,22 @@ pub struct Session {
     pub adapter: String,
     /// Whether the keys are shown.
     pub shows_keys: bool,
-    /// What is being loaded, and since how long.
-    pub loading: Option<(String, Duration)>,
+    /// What is done meanwhile.
+    pub work: Vec<Work>,
     /// What panels ask of the window.
     pub requests: Vec<Request>,
     undoer: Undoer<Appearance>,
+}
+
+/// Something that is done while the window goes on.
+#[derive(Debug, Clone)]
+pub struct Work {
+    /// What.
+    pub what: String,
+    /// Since when.
+    pub since: Instant,
+    /// The number of the saving; none for loading.
+    pub saving: Option<usize>,
 }
 
 /// What panels ask of the window.
@@ -54,16 +66,16 @@ pub enum Request {
     Open(Vec<PathBuf>),
     /// Read the files again.
     Reload,
-    /// Stop loading.
-    CancelLoading,
+    /// Stop loading, or the saving of a number.
+    Cancel(Option<usize>),
     /// Ask where to save the technique as it is, and save it.
     SaveTechnique,
     /// Put this on the clipboard, and say so with the second text.
     Copy(String, &'static str),
     /// Go to a viewpoint smoothly.
     GoTo(Viewpoint),
-    /// Ask where to save a picture, and save it.
-    SavePicture,
+    /// Ask where to save a picture, or so many around the target, and save it.
+    SavePicture(Option<u32>),
     /// Close the window.
     Quit,
 }
@@ -90,7 +102,7 @@ impl Session {
             statistics: Vec::new(),
             adapter: String::new(),
             shows_keys: false,
-            loading: None,
+            work: Vec::new(),
             requests: Vec::new(),
             undoer,
         }
@@ -156,6 +168,39 @@ impl Session {
         let mut folders = self.recipe.appearance.technique.folders.clone();
         folders.extend(self.recipe.arguments.library.shaders.clone());
         folders
+    }
+
+    /// Takes the recipe of a picture: its technique with what was changed, its light, its
+    /// camera; and says which models it has, where those are there and are not open.
+    ///
+    /// # Errors
+    /// Where it cannot be read; everything stays as it was.
+    pub fn take_words(&mut self, words: &[String]) -> Result<Option<Vec<PathBuf>>, Failure> {
+        let mut recipe = Recipe::of_words(words, &self.library)?;
+        // Folders and the adapter are those of this machine.
+        let own = &self.recipe.arguments;
+        recipe.arguments.library = own.library.clone();
+        recipe.arguments.adapter.clone_from(&own.adapter);
+        let is_there = recipe.models.iter().all(|path| path.is_file() || path == Path::new(DEMO));
+        let is_open = recipe.models == self.recipe.models;
+        self.recipe.appearance = recipe.appearance;
+        if is_open || !is_there {
+            let arguments = self.recipe.arguments.clone();
+            self.recipe.arguments = recipe.arguments;
+            if let Some(scene) = &self.scene {
+                self.recipe.take_viewpoint(&scene.bounds, &scene.frame)?;
+            }
+            if !is_open {
+                // The models were read as they were.
+                self.recipe.arguments = arguments;
+                let names = crate::window::remembered::name_of(&recipe.models);
+                self.messages.note(format!("{names} is not there; the rest was taken"));
+            }
+            return Ok(None);
+        }
+        let models = recipe.models;
+        (self.recipe.arguments, self.recipe.viewpoint) = (recipe.arguments, None);
+        Ok(Some(models))
     }
 
     /// Takes another technique; what is wrong with it is told, and the one before stays.

@@ -1,6 +1,6 @@
 //! What the window looks like: calm, with room around everything, in light and in dark.
 
-use egui::{Context, CornerRadius, FontId, TextStyle, Visuals, vec2};
+use egui::{Color32, Context, CornerRadius, FontId, TextStyle, Visuals, vec2};
 
 /// Sets the styles of both themes.
 pub(super) fn apply(context: &Context) {
@@ -20,11 +20,17 @@ pub(super) fn apply(context: &Context) {
 }
 
 fn light() -> Visuals {
-    rounded(Visuals::light())
+    let mut visuals = rounded(Visuals::light());
+    visuals.widgets.noninteractive.fg_stroke.color = Color32::from_gray(40);
+    visuals.weak_text_color = Some(Color32::from_gray(105));
+    visuals
 }
 
 fn dark() -> Visuals {
-    rounded(Visuals::dark())
+    let mut visuals = rounded(Visuals::dark());
+    visuals.widgets.noninteractive.fg_stroke.color = Color32::from_gray(205);
+    visuals.weak_text_color = Some(Color32::from_gray(145));
+    visuals
 }
 
 fn rounded(mut visuals: Visuals) -> Visuals {

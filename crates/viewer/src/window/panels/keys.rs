@@ -57,5 +57,8 @@ pub(super) fn key_of(ui: &Ui, command: Command) -> Option<String> {
 }
 
 fn text_of(ui: &Ui, key: Key, modifiers: Modifiers) -> String {
+    if modifiers.is_none() {
+        return key.symbol_or_name().to_owned();
+    }
     ui.ctx().format_shortcut(&egui::KeyboardShortcut::new(modifiers, key))
 }

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Area, Frame, Order, RichText, ScrollArea, Ui};
 
-use crate::window::session::{Request, Session};
+use crate::window::session::{Request, Session, Work};
 
 /// Progress, notes and mistakes, at the lower left of the picture at `rect`.
 pub fn notes(ui: &Ui, session: &mut Session, rect: egui::Rect) {
@@ -20,7 +20,7 @@ pub fn notes(ui: &Ui, session: &mut Session, rect: egui::Rect) {
             if let Some(next) = next {
                 ui.ctx().request_repaint_after(next);
             }
-            loading(ui, session);
+            work(ui, session);
             technique_mistake(ui, session, rect.height() * 0.5);
             errors(ui, session);
         });
@@ -30,17 +30,18 @@ fn card(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     Frame::popup(ui.style()).show(ui, contents);
 }
 
-fn loading(ui: &mut Ui, session: &mut Session) {
-    let Some((stage, since)) = session.loading.clone() else { return };
-    card(ui, |ui| {
-        ui.horizontal(|ui| {
-            ui.spinner();
-            ui.label(format!("{stage} ({:.1} s)", since.as_secs_f32()));
-            if ui.button("Cancel").clicked() {
-                session.ask(Request::CancelLoading);
-            }
+fn work(ui: &mut Ui, session: &mut Session) {
+    for Work { what, since, saving } in session.work.clone() {
+        card(ui, |ui| {
+            ui.horizontal(|ui| {
+                ui.spinner();
+                ui.label(format!("{what} ({:.1} s)", since.elapsed().as_secs_f32()));
+                if ui.button("Cancel").clicked() {
+                    session.ask(Request::Cancel(saving));
+                }
+            });
         });
-    });
+    }
 }
 
 fn technique_mistake(ui: &mut Ui, session: &mut Session, height: f32) {

@@ -3,7 +3,7 @@
 use egui::{DragValue, Ui};
 
 use crate::window::hands::{Command, run};
-use crate::window::session::Session;
+use crate::window::session::{Request, Session};
 
 /// The output panel; `size` is that of the picture in the window, in pixels.
 pub(super) fn output_panel(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
@@ -26,6 +26,18 @@ pub(super) fn output_panel(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
     if ui.button("Save picture…").on_hover_text("F12").clicked() {
         run(Command::SavePicture, session, size);
     }
+    ui.add_space(8.0);
+    ui.heading("Turntable");
+    ui.horizontal(|ui| {
+        let label = ui.label("Pictures");
+        let steps = &mut session.remembered.turntable_steps;
+        ui.add(DragValue::new(steps).range(2..=10_000)).labelled_by(label.id);
+        if ui.button("Save turntable…").clicked() {
+            let steps = session.remembered.turntable_steps;
+            session.ask(Request::SavePicture(Some(steps)));
+        }
+    });
+    ui.weak("an animated .apng or .gif, or numbered .png files");
     ui.add_space(8.0);
     ui.heading("Command");
     let size = session.remembered.picture_size.unwrap_or(size);

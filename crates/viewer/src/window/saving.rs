@@ -1,0 +1,77 @@
+//! Pictures and turntables, drawn and written while the window goes on.
+//!
+//! They are drawn as `viewer render` draws them, by a renderer of their own, from a copy
+//! of the recipe: what is changed in the window meanwhile does not change them.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use edgemesh::command::{Failure, write_file};
+use strokes::gpu::Gpu;
+
+use super::background::Tell;
+use super::recipe::Recipe;
+use crate::picture::{encode_png_with_text, read_png_text};
+use crate::render::{PictureRenderer, Scene};
+use crate::technique::Technique;
+use crate::turntable;
+
+/// The keyword of the text chunk with the recipe.
+const KEYWORD: &str = "Edgemesh";
+
+/// What is to be written.
+#[derive(Debug, Clone)]
+pub struct Order {
+    /// What is drawn.
+    pub recipe: Recipe,
+    /// Its models.
+    pub scene: Arc<Scene>,
+    /// The techniques of objects of scene files.
+    pub looks: Vec<Technique>,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// The file.
+    pub path: PathBuf,
+    /// So many pictures around the target instead of one.
+    pub turntable: Option<u32>,
+    /// What draws.
+    pub gpu: Gpu,
+}
+
+/// Draws and writes; says what was written.
+///
+/// # Errors
+/// Where it cannot be drawn or written, or `tell` wants no more.
+pub fn save(order: &Order, tell: Tell) -> Result<String, Failure> {
+    let Order { recipe, scene, looks, size, path, turntable, gpu } = order;
+    let tell = |what: &str| match tell(what) {
+        true => Ok(()),
+        false => Err(Failure::fault("it was cancelled; what was written stays")),
+    };
+    tell(&format!("drawing {}", path.display()))?;
+    let viewpoint = recipe.viewpoint.ok_or_else(|| Failure::fault("there is no model to draw"))?;
+    let camera = viewpoint.camera(&scene.frame);
+    let options = recipe.picture_options(*size)?;
+    let technique = &recipe.appearance.technique;
+    let mut renderer = PictureRenderer::new(gpu, scene, technique, looks, &options)?;
+    if let &Some(steps) = turntable {
+        let is_transparent = options.is_transparent;
+        crate::turntable::write(path, steps, *size, is_transparent, |step| {
+            tell(&format!("drawing picture {} of {steps}", step + 1))?;
+            Ok(renderer.render(&turntable::camera_at(&camera, step, steps))?.0)
+        })?;
+    } else {
+        let (picture, _) = renderer.render(&camera)?;
+        let text = recipe.words().and_then(|words| serde_json::to_string(&words).ok());
+        let text = text.as_deref().map(|text| (KEYWORD, text));
+        write_file(path, &encode_png_with_text(&picture, options.is_transparent, text)?)?;
+    }
+    Ok(format!("saved as {}", path.display()))
+}
+
+/// The words of the recipe in a picture that [`save`] wrote; none where the file is no
+/// such picture.
+#[must_use]
+pub fn words_in(path: &Path) -> Option<Vec<String>> {
+    serde_json::from_str(&read_png_text(path, KEYWORD)?).ok()
+}
