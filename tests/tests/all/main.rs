@@ -45,3 +45,4 @@ mod random;
 mod render_command;
 mod shaders;
 mod technique_commands;
+mod window_panels;

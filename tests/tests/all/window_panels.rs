@@ -1,0 +1,307 @@
+//! The window's panels, by what they tell a screen reader, without a window or a GPU.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use edgemesh::command::Listener;
+use edgemesh::command::input::{DEMO, InputOptions};
+use egui::{Key, Modifiers};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use viewer::lighting::Light;
+use viewer::render::{FrameStatistics, Scene};
+use viewer::scene_file::SceneObject;
+use viewer::technique::library::Library;
+use viewer::window::hands::Hands;
+use viewer::window::panels;
+use viewer::window::recipe::Recipe;
+use viewer::window::remembered::{Remembered, Tab};
+use viewer::window::session::{Request, Session, Work};
+use viewer::window::viewpoint::NamedView;
+
+const SIZE: [u32; 2] = [640, 480];
+
+/// A session with the demo in it.
+fn session(words: &str) -> Session {
+    let library = Library::shipped();
+    let words: Vec<String> = words.split_whitespace().map(str::to_owned).collect();
+    let recipe = Recipe::of_words(&words, &library).unwrap();
+    let mut session = Session::new(library, recipe, Remembered::default());
+    let object = SceneObject::plain(DEMO.as_ref());
+    let scene = Scene::load(&[object], &InputOptions::default(), Listener::Nobody).unwrap();
+    session.take_scene(vec![PathBuf::from(DEMO)], Arc::new(scene), Vec::new()).unwrap();
+    session
+}
+
+/// The side panel with one of its tabs open.
+fn side(tab: Tab, mut session: Session) -> Harness<'static, Session> {
+    session.remembered.tab = tab;
+    let show = |ui: &mut egui::Ui, session: &mut Session| {
+        let time = ui.input(|input| input.time);
+        session.watch_changes(time);
+        panels::side_panel(ui, session, SIZE);
+    };
+    let mut harness = Harness::builder().with_size([380.0, 1600.0]).build_ui_state(show, session);
+    harness.run_ok();
+    harness
+}
+
+fn value(session: &Session, pass: &str, variable: &str) -> String {
+    let technique = &session.recipe.appearance.technique;
+    technique.pass(pass).unwrap().value(variable).unwrap().to_string()
+}
+
+#[test]
+fn tabs_open_their_panels() {
+    let mut harness = side(Tab::Look, session(""));
+    for (tab, part) in [
+        ("Lines", "Contour"),
+        ("Light", "With the camera"),
+        ("View", "Turntable"),
+        ("Inspect", "Edge classes"),
+        ("Output", "Save picture…"),
+        ("Look", "Reset all"),
+    ] {
+        harness.get_by_label(tab).click();
+        harness.run_ok();
+        assert!(harness.query_by_label(part).is_some(), "{tab} has {part}");
+    }
+}
+
+#[test]
+fn a_pass_goes_off_and_a_variable_changes_and_both_come_back() {
+    let mut harness = side(Tab::Look, session("--technique anime"));
+    harness.get_by_label("fill").click();
+    harness.run_ok();
+    assert_eq!(value(harness.state(), "fill", "render"), "false");
+    harness.get_all_by_label("Undo").next().unwrap().click();
+    harness.run_ok();
+    assert_eq!(value(harness.state(), "fill", "render"), "true", "undone");
+    harness.get_by_label("Redo").click();
+    harness.run_ok();
+    assert_eq!(value(harness.state(), "fill", "render"), "false", "redone");
+    harness.get_by_label("Reset all").click();
+    harness.run_ok();
+    assert_eq!(value(harness.state(), "fill", "render"), "true", "as in its file");
+    assert!(!harness.state().recipe.appearance.is_changed());
+}
+
+#[test]
+fn every_variable_that_is_not_internal_has_a_widget_with_its_name() {
+    for name in ["ink", "toon_image", "hatching", "outline_wide"] {
+        let harness = side(Tab::Look, session(&format!("--technique {name}")));
+        let technique = &harness.state().recipe.appearance.technique;
+        for pass in technique.passes.iter().take(2) {
+            let shown = pass.component.variables.iter().filter(|variable| !variable.internal);
+            for variable in shown.filter(|variable| variable.name != "render") {
+                let label = variable.name.replace('_', " ");
+                let found = harness.query_all_by_label(&label).count();
+                assert!(found > 0, "{name}: {}.{}", pass.name, variable.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_slider_sets_its_variable() {
+    let mut harness = side(Tab::Lines, session("--technique ink --set strokes.width=3"));
+    let sliders: Vec<_> = harness.get_all_by_label("width").collect();
+    let slider = sliders
+        .iter()
+        .filter(|node| node.accesskit_node().role() == egui::accesskit::Role::Slider)
+        .nth(1)
+        .unwrap();
+    slider.set_value_accesskit(7.5);
+    harness.run_ok();
+    assert_eq!(value(harness.state(), "strokes", "width"), "7.5");
+}
+
+#[test]
+fn classes_have_counts_and_go_off() {
+    let mut session = session("");
+    let tally = strokes::view_buffers::Tally { contour: 1234, ..Default::default() };
+    session.keep(FrameStatistics { tally: Some(tally), passes: Vec::new(), frame_ms: 1.0 });
+    let mut harness = side(Tab::Lines, session);
+    assert!(harness.query_by_label("1\u{202f}234").is_some(), "contours are counted");
+    harness.get_by_label("Ridge").click();
+    harness.run_ok();
+    let classes = value(harness.state(), "strokes", "classes");
+    assert!(!classes.contains("ridge") && classes.contains("valley"), "{classes}");
+    let command = harness.state().command(SIZE).unwrap();
+    assert!(command.contains("strokes.classes="), "{command}");
+}
+
+#[test]
+fn the_light_goes_to_the_world_and_still_comes_from_there() {
+    let mut harness = side(Tab::Light, session("--light 0,0,1"));
+    let view = harness.state().recipe.viewpoint.unwrap();
+    harness.get_by_label("In the world").click();
+    harness.run_ok();
+    let Light::World(direction) = harness.state().recipe.appearance.lighting.light else {
+        panic!("the light is in the world");
+    };
+    assert!(direction.normalize_or_zero().distance(-view.forward()) < 0.01);
+    harness.get_by_label("At a point").click();
+    harness.run_ok();
+    let command = harness.state().command(SIZE).unwrap();
+    assert!(command.contains("--light point:"), "{command}");
+}
+
+#[test]
+fn cuts_are_added_moved_and_removed() {
+    let mut harness = side(Tab::Light, session(""));
+    harness.get_by_label("Add a cut").click();
+    harness.run_ok();
+    harness.get_by_label("X").click();
+    harness.run_ok();
+    harness.get_by_label("Turn over").click();
+    harness.run_ok();
+    let planes = harness.state().recipe.appearance.lighting.clip_planes.clone();
+    assert_eq!(planes.len(), 1);
+    assert_eq!(planes[0][..3], [-1.0, 0.0, 0.0]);
+    harness.get_by_label("Remove").click();
+    harness.run_ok();
+    assert!(harness.state().recipe.appearance.lighting.clip_planes.is_empty());
+}
+
+#[test]
+fn sides_are_gone_to_and_the_projection_changes() {
+    let mut harness = side(Tab::View, session(""));
+    harness.get_by_label("Top").click();
+    harness.run_ok();
+    let requests = std::mem::take(&mut harness.state_mut().requests);
+    let [Request::GoTo(view)] = &requests[..] else { panic!("{requests:?}") };
+    assert!(view.forward().distance(glam::DVec3::NEG_Y) < 1e-9);
+    harness.get_by_label("Orthographic").click();
+    harness.run_ok();
+    assert!(harness.state().recipe.viewpoint.unwrap().is_orthographic);
+}
+
+#[test]
+fn inspection_shows_times_and_what_was_repaired() {
+    let mut session = session("");
+    for frame in 0..3 {
+        let passes = vec![("fill".to_owned(), Some(1.5 + f64::from(frame)))];
+        session.keep(FrameStatistics { tally: None, passes, frame_ms: 9.0 });
+    }
+    let mut harness = side(Tab::Inspect, session);
+    assert!(harness.query_by_label("3.50 ms").is_some(), "the last picture's time");
+    assert!(harness.query_by_label_contains("demo:: nothing").is_some(), "nothing was repaired");
+    harness.get_by_label("Wireframe").click();
+    harness.run_ok();
+    assert_eq!(harness.state().recipe.appearance.technique_name, "wireframe");
+}
+
+#[test]
+fn output_shows_the_command_and_asks_for_pictures() {
+    let mut harness = side(Tab::Output, session("--technique pen"));
+    let shown = harness.query_by_label_contains("viewer render demo: --technique pen").is_some();
+    assert!(shown, "the command");
+    harness.get_by_label("Save picture…").click();
+    harness.run_ok();
+    harness.get_by_label("Save turntable…").click();
+    harness.run_ok();
+    harness.get_by_label("Copy command").click();
+    harness.run_ok();
+    let requests = &harness.state().requests;
+    assert!(
+        matches!(
+            requests[..],
+            [Request::SavePicture(None), Request::SavePicture(Some(72)), Request::Copy(..)]
+        ),
+        "{requests:?}"
+    );
+}
+
+#[test]
+fn bars_choose_techniques_and_open_menus() {
+    let show = |ui: &mut egui::Ui, session: &mut Session| {
+        panels::top_bar(ui, session, SIZE);
+        panels::status_bar(ui, session);
+    };
+    let mut harness =
+        Harness::builder().with_size([900.0, 900.0]).build_ui_state(show, session(""));
+    harness.run_ok();
+    assert!(harness.query_by_label_contains("triangles").is_some(), "the status bar counts");
+    let combo = harness.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Technique");
+    combo.click();
+    harness.run_ok();
+    harness.get_by_label("anime").click();
+    harness.run_ok();
+    assert_eq!(harness.state().recipe.appearance.technique_name, "anime");
+    harness.get_by_label("File").click();
+    harness.run_ok();
+    harness.get_by_label_contains("Open…").click();
+    harness.run_ok();
+    assert_eq!(harness.state().requests, [Request::ChooseFiles]);
+}
+
+#[test]
+fn notes_tell_mistakes_and_can_be_dismissed() {
+    let mut session = session("");
+    session.take_technique("no such technique");
+    session.messages.error("the file is gone");
+    session.messages.note("saved as picture.png");
+    let since = std::time::Instant::now();
+    session.work.push(Work { what: "reading a.obj".into(), since, saving: None });
+    let show = |ui: &mut egui::Ui, session: &mut Session| {
+        let rect = ui.available_rect_before_wrap();
+        panels::notes(ui, session, rect);
+    };
+    let mut harness = Harness::builder().with_size([800.0, 600.0]).build_ui_state(show, session);
+    harness.run_ok();
+    let has =
+        |harness: &Harness<Session>, part: &str| harness.query_by_label_contains(part).is_some();
+    for part in ["there is no technique", "the file is gone", "saved as", "reading a.obj"] {
+        assert!(has(&harness, part), "{part}");
+    }
+    harness.get_by_label("Cancel").click();
+    harness.run_ok();
+    assert_eq!(harness.state().requests, [Request::Cancel(None)]);
+    for _ in 0..2 {
+        harness.get_all_by_label("Dismiss").next().unwrap().click();
+        harness.run_ok();
+    }
+    assert!(!has(&harness, "the file is gone") && !has(&harness, "there is no technique"));
+    assert_eq!(harness.state().recipe.appearance.technique_name, "ink", "the last good one stays");
+}
+
+#[test]
+fn keys_do_what_their_sheet_says() {
+    let mut hands = Hands::default();
+    let show = move |ui: &mut egui::Ui, session: &mut Session| {
+        hands.keys(ui, session, SIZE);
+        if session.shows_keys {
+            panels::keys_sheet(ui, session);
+        }
+    };
+    let mut harness =
+        Harness::builder().with_size([1200.0, 700.0]).build_ui_state(show, session(""));
+    harness.key_press(Key::H);
+    harness.run_ok();
+    assert!(harness.query_by_label("perspective or orthographic").is_some(), "the sheet");
+    harness.key_press(Key::Num5);
+    harness.run_ok();
+    assert!(harness.state().recipe.viewpoint.unwrap().is_orthographic);
+    harness.key_press(Key::Num3);
+    harness.run_ok();
+    let side = harness.state().recipe.viewpoint.unwrap();
+    let side = side.from_side(NamedView::Right, Default::default());
+    assert_eq!(harness.state().requests, [Request::GoTo(harness.state().fitted(&side))]);
+    harness.key_press(Key::N);
+    harness.run_ok();
+    assert!(!harness.state().remembered.shows_panels);
+    harness.key_press(Key::CloseBracket);
+    harness.run_ok();
+    assert_eq!(harness.state().recipe.appearance.technique_name, "linked", "the one after ink");
+    harness.state_mut().requests.clear();
+    harness.key_press_modifiers(Modifiers::SHIFT, Key::C);
+    harness.run_ok();
+    let [Request::Copy(camera, _)] = &harness.state().requests[..] else { panic!("copied") };
+    assert!(camera.starts_with("--eye "), "{camera}");
+    let pasted = "viewer render a.obj --eye 9,0,0 --target 0,0,0";
+    harness.event(egui::Event::Paste(pasted.to_owned()));
+    harness.run_ok();
+    let Some(Request::GoTo(view)) = harness.state().requests.last() else { panic!("pasted") };
+    assert_eq!(view.eye, glam::DVec3::new(9.0, 0.0, 0.0));
+}
