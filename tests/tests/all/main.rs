@@ -33,6 +33,8 @@ mod gpu_techniques;
 mod gpu_twin;
 #[cfg(feature = "gpu")]
 mod gpu_visibility;
+#[cfg(feature = "gpu")]
+mod gpu_window;
 mod hostile;
 mod layer_chains;
 mod layouts;
