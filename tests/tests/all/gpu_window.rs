@@ -176,6 +176,11 @@ impl Display {
     fn open(&mut self, arguments: &[&str]) {
         let mut command = self.command(program("viewer"));
         self.window = Some(command.args(arguments).spawn().unwrap());
+        self.focus();
+    }
+
+    /// Gives the window the keys, once it is there.
+    fn focus(&self) {
         let found = self.until(|display| {
             let search = display.command("xdotool").args(["search", "--name", "Edgemesh"]).output();
             let id = String::from_utf8(search.unwrap().stdout).unwrap();
@@ -194,7 +199,7 @@ impl Display {
     fn look(&self) -> RgbaImage {
         let path = self.home.path().join("look.png");
         let took = self.command("import").args(["-window", "root"]).arg(&path).status();
-        assert!(took.unwrap().success());
+        assert!(took.unwrap().success(), "a look is taken");
         read_png(&path).unwrap()
     }
 
@@ -242,6 +247,11 @@ fn a_real_window_shows_the_demo_and_follows_keys_and_pointer() {
     display.see(is_new).expect("the view from the top is another one");
     std::thread::sleep(Duration::from_secs(1));
     let top = picture(&display.look());
+    assert!(display.hand(&["key", "ctrl+shift+F9"]), "its graphics device is lost");
+    std::thread::sleep(Duration::from_secs(1));
+    display.focus();
+    let again = display.see(|screen| picture(screen) == top);
+    assert!(again.is_some(), "and another window shows the same");
     for part in ["mousedown 1", "mousemove_relative 40 30", "mousemove_relative 40 30", "mouseup 1"]
     {
         assert!(display.hand(&part.split(' ').collect::<Vec<_>>()));

@@ -23,6 +23,8 @@ use super::session::{Request, Session, Work};
 use super::style;
 use super::watching::{Change, Watching};
 use crate::command::picture_arguments::PictureArguments;
+use crate::render::{PictureRenderer, Scene};
+use crate::scene_file::SceneObject;
 use crate::technique::library::Library;
 use crate::technique::write::written;
 
@@ -53,14 +55,17 @@ pub(crate) fn run(models: &[PathBuf], arguments: PictureArguments) -> Result<(),
     let library = arguments.library.load();
     let recipe = Recipe::new(models, arguments, &library)?;
     let adapter = recipe.arguments.adapter.clone();
-    let kept = Arc::new(Mutex::new(Some(Kept { library, recipe, remembered: None })));
+    let kept = Arc::new(Mutex::new(Some(Kept { library, recipe, remembered: None, scene: None })));
     let mut losses: Vec<Instant> = Vec::new();
     loop {
         let is_lost = Arc::new(AtomicBool::new(false));
-        let opened = open(&kept, &is_lost, adapter.as_deref());
-        let has_kept = || kept.lock().unwrap_or_else(PoisonError::into_inner).is_some();
-        if !is_lost.load(Ordering::Relaxed) || !has_kept() {
-            return opened;
+        // The window system's side of the window panics where it draws with a device that
+        // is lost in that very frame.
+        let open = || open(&kept, &is_lost, adapter.as_deref());
+        let opened = std::panic::catch_unwind(std::panic::AssertUnwindSafe(open));
+        let has_kept = kept.lock().unwrap_or_else(PoisonError::into_inner).is_some();
+        if !is_lost.load(Ordering::Relaxed) || !has_kept {
+            return opened.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         }
         losses.push(Instant::now());
         losses.retain(|loss| loss.elapsed() < RECOVERY_TIME);
@@ -85,6 +90,8 @@ struct Kept {
     recipe: Recipe,
     /// None before the first window.
     remembered: Option<Remembered>,
+    /// The models, where they were there.
+    scene: Option<(Arc<Scene>, Vec<SceneObject>)>,
 }
 
 /// Opens one window, until it is closed or its device is lost.
@@ -176,7 +183,8 @@ impl Window {
         is_lost: Arc<AtomicBool>,
     ) -> Result<Self, String> {
         let before = kept.lock().unwrap_or_else(PoisonError::into_inner).take();
-        let Kept { library, recipe, remembered } = before.ok_or("there is nothing to show")?;
+        let Kept { library, recipe, remembered, scene } =
+            before.ok_or("there is nothing to show")?;
         let window = context.wgpu_render_state.clone().ok_or("the window has no device")?;
         let faults = Arc::new(Mutex::new(Vec::new()));
         watch_device(&window.device, &context.egui_ctx, &is_lost, &faults);
@@ -206,8 +214,34 @@ impl Window {
             is_lost,
             faults,
         };
-        this.load(models, &context.egui_ctx);
+        match scene {
+            Some((scene, objects)) => this.take_scene(models, scene, objects, None),
+            None => this.load(models, &context.egui_ctx),
+        }
         Ok(this)
+    }
+
+    /// Leaves what the next window needs, should this one lose its device.
+    fn keep(&self) {
+        *self.kept.lock().unwrap_or_else(PoisonError::into_inner) = Some(Kept {
+            library: self.session.library.clone(),
+            recipe: self.session.recipe.clone(),
+            remembered: Some(self.session.remembered.clone()),
+            scene: self.session.scene.clone().map(|scene| (scene, self.session.objects.clone())),
+        });
+    }
+
+    fn take_scene(
+        &mut self,
+        models: Vec<PathBuf>,
+        scene: Arc<Scene>,
+        objects: Vec<SceneObject>,
+        renderer: Option<PictureRenderer>,
+    ) {
+        if let Err(failure) = self.session.take_scene(models, scene.clone(), objects) {
+            self.session.messages.error(failure.message);
+        }
+        self.canvas.take_scene(scene, renderer);
     }
 
     fn load(&mut self, models: Vec<PathBuf>, context: &egui::Context) {
@@ -230,13 +264,8 @@ impl Window {
         if let Some(loaded) = self.loading.as_ref().and_then(Background::take) {
             self.loading = None;
             match loaded {
-                Ok(loaded) => {
-                    let scene = loaded.scene.clone();
-                    let taken = self.session.take_scene(loaded.models, scene, loaded.objects);
-                    if let Err(failure) = taken {
-                        self.session.messages.error(failure.message);
-                    }
-                    self.canvas.take_scene(loaded.scene, loaded.renderer);
+                Ok(LoadedScene { models, scene, objects, renderer }) => {
+                    self.take_scene(models, scene, objects, renderer);
                 }
                 Err(failure) => self.session.messages.error(failure.message),
             }
@@ -340,6 +369,15 @@ impl Window {
                 Request::GoTo(view) => {
                     self.hands.go_to(&self.session, view, time);
                     context.request_repaint();
+                }
+                // Between two frames, as it happens.
+                Request::LoseDevice => {
+                    let (device, context) = (self.canvas.gpu().device.clone(), context.clone());
+                    std::thread::spawn(move || {
+                        std::thread::sleep(Duration::from_millis(50));
+                        device.destroy();
+                        context.request_repaint();
+                    });
                 }
                 Request::Quit => context.send_viewport_cmd(egui::ViewportCommand::Close),
             }
@@ -505,10 +543,14 @@ fn watch_device(
 impl eframe::App for Window {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
+        // A device says that it is lost when it is asked.
+        let _ = self.canvas.gpu().device.poll(wgpu::PollType::Poll);
         if self.is_lost.load(Ordering::Relaxed) {
+            // Nothing is drawn on it any more.
             context.send_viewport_cmd(egui::ViewportCommand::Close);
             return;
         }
+        self.keep();
         self.take_arrivals(&context);
         self.follow_files(&context);
         let dropped: Vec<PathBuf> = context.input(|input| {
@@ -545,15 +587,5 @@ impl eframe::App for Window {
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         eframe::set_value(storage, REMEMBERED, &self.session.remembered);
-    }
-
-    fn on_exit(&mut self) {
-        // Only a lost device is followed by another window.
-        if self.is_lost.load(Ordering::Relaxed) {
-            let recipe = self.session.recipe.clone();
-            let remembered = Some(self.session.remembered.clone());
-            let kept = Kept { library: self.session.library.clone(), recipe, remembered };
-            *self.kept.lock().unwrap_or_else(PoisonError::into_inner) = Some(kept);
-        }
     }
 }

@@ -97,6 +97,10 @@ pub const KEYS: &[(Key, Modifiers, Command, &str)] = &[
     (Key::Q, Modifiers::COMMAND, Command::Quit, "quit"),
 ];
 
+/// The key that loses the graphics device on purpose, to see that nothing else is lost;
+/// it is on no sheet.
+const LOSE_DEVICE: (Key, Modifiers) = (Key::F9, Modifiers { shift: true, ..Modifiers::COMMAND });
+
 impl Hands {
     /// Goes to a viewpoint, from where the window is now.
     pub fn go_to(&mut self, session: &Session, to: Viewpoint, time: f64) {
@@ -214,6 +218,9 @@ impl Hands {
         });
         for command in pressed {
             run(command, session, size);
+        }
+        if ui.input_mut(|input| input.consume_key(LOSE_DEVICE.1, LOSE_DEVICE.0)) {
+            session.ask(Request::LoseDevice);
         }
     }
 }

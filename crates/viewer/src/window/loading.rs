@@ -42,8 +42,6 @@ pub struct LoadedScene {
     pub objects: Vec<SceneObject>,
     /// Ready to draw, where there is a device.
     pub renderer: Option<PictureRenderer>,
-    /// How they were read.
-    pub arguments: PictureArguments,
 }
 
 /// Reads the models of a request, and uploads them.
@@ -67,8 +65,7 @@ pub fn load(request: Request, tell: Tell) -> Result<LoadedScene, Failure> {
             }
         }
     };
-    let Request { models, arguments, .. } = request;
-    Ok(LoadedScene { models, scene: Arc::new(scene), objects, renderer, arguments })
+    Ok(LoadedScene { models: request.models, scene: Arc::new(scene), objects, renderer })
 }
 
 #[cfg(test)]

@@ -78,6 +78,8 @@ pub enum Request {
     SavePicture(Option<u32>),
     /// Close the window.
     Quit,
+    /// Lose the graphics device, to see what happens.
+    LoseDevice,
 }
 
 /// The most frames whose times are kept.
