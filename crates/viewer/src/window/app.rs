@@ -461,6 +461,22 @@ impl Window {
         }
     }
 
+    /// The picture, or two with a line between them.
+    fn paint(&mut self, ui: &mut Ui, rect: egui::Rect) {
+        let Some(texture) = self.canvas.texture() else { return };
+        // Paper is white where a technique draws none.
+        ui.painter().rect_filled(rect, 0.0, egui::Color32::WHITE);
+        let other = self.canvas.compared_texture();
+        let (Some(other), Some(comparison)) = (other, &mut self.session.comparison) else {
+            return paint_part(ui, texture, rect, 0.0, 1.0);
+        };
+        paint_part(ui, texture, rect, 0.0, comparison.share);
+        paint_part(ui, other, rect, comparison.share, 1.0);
+        let names = [&self.session.recipe.appearance, &comparison.appearance]
+            .map(|appearance| appearance.technique_name.clone());
+        comparison.share = panels::comparison_line(ui, rect, comparison.share, names);
+    }
+
     /// The picture, and what hands do over it.
     fn picture(&mut self, ui: &mut Ui) {
         let rect = ui.available_rect_before_wrap();
@@ -475,12 +491,7 @@ impl Window {
         let pixels = |points: f32| (points * scale).round().max(1.0) as u32;
         self.size = [pixels(rect.width()), pixels(rect.height())];
         self.canvas.draw(&mut self.session, self.size);
-        if let Some(texture) = self.canvas.texture() {
-            let whole = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
-            // Paper is white where a technique draws none.
-            ui.painter().rect_filled(rect, 0.0, egui::Color32::WHITE);
-            ui.painter().image(texture, rect, whole, egui::Color32::WHITE);
-        }
+        self.paint(ui, rect);
         let (known, waits) = self.canvas.statistics();
         if let Some(statistics) = known {
             self.session.keep(statistics);
@@ -491,6 +502,14 @@ impl Window {
         }
         panels::notes(ui, &mut self.session, rect);
     }
+}
+
+/// A part of a picture, from one share of its width to another.
+fn paint_part(ui: &Ui, texture: egui::TextureId, rect: egui::Rect, from: f32, to: f32) {
+    let at = |share: f32| egui::lerp(rect.left()..=rect.right(), share);
+    let place = egui::Rect::from_x_y_ranges(at(from)..=at(to), rect.y_range());
+    let part = egui::Rect::from_min_max(egui::pos2(from, 0.0), egui::pos2(to, 1.0));
+    ui.painter().image(texture, place, part, egui::Color32::WHITE);
 }
 
 /// A file name that ends as one of a picture does.

@@ -13,15 +13,22 @@ use super::recipe::Appearance;
 use super::session::Session;
 use super::viewpoint::Viewpoint;
 use super::watching::Change;
-use crate::render::{FrameStatistics, PendingStatistics, PictureRenderer, Scene};
+use crate::render::{FrameStatistics, PendingStatistics, PictureOptions, PictureRenderer, Scene};
 
-/// The picture of the window.
+/// The pictures of the window: one, or two to be compared.
 pub(super) struct Canvas {
     gpu: Gpu,
     window: egui_wgpu::RenderState,
-    renderer: Option<PictureRenderer>,
-    /// The scene that the renderer has.
+    /// The scene that the sheets have.
     scene: Option<Arc<Scene>>,
+    sheet: Sheet,
+    compared: Option<Sheet>,
+}
+
+/// A picture and what draws it.
+#[derive(Debug, Default)]
+struct Sheet {
+    renderer: Option<PictureRenderer>,
     /// What was drawn last.
     drawn: Option<Drawn>,
     /// What could not be drawn.
@@ -42,7 +49,7 @@ struct Drawn {
 
 impl std::fmt::Debug for Canvas {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.debug_struct("Canvas").field("drawn", &self.drawn).finish_non_exhaustive()
+        formatter.debug_struct("Canvas").field("sheet", &self.sheet).finish_non_exhaustive()
     }
 }
 
@@ -55,17 +62,7 @@ impl Canvas {
             device: window.device.clone(),
             queue: window.queue.clone(),
         };
-        Self {
-            gpu,
-            window,
-            renderer: None,
-            scene: None,
-            drawn: None,
-            failed: None,
-            is_doubted: false,
-            texture: None,
-            pending: None,
-        }
+        Self { gpu, window, scene: None, sheet: Sheet::default(), compared: None }
     }
 
     /// The device.
@@ -77,28 +74,33 @@ impl Canvas {
     /// The picture as the window knows it.
     #[must_use]
     pub(super) const fn texture(&self) -> Option<egui::TextureId> {
-        self.texture
+        self.sheet.texture
     }
 
-    /// The longest side that it can have, in pixels.
+    /// The picture beside it, where two are compared.
     #[must_use]
-    pub(super) fn max_side(&self) -> u32 {
-        self.gpu.device.limits().max_texture_dimension_2d
+    pub(super) fn compared_texture(&self) -> Option<egui::TextureId> {
+        self.compared.as_ref()?.texture
     }
 
     /// Takes a scene that was loaded, with a renderer where one could be made.
     pub(super) fn take_scene(&mut self, scene: Arc<Scene>, renderer: Option<PictureRenderer>) {
         self.scene = Some(scene);
-        self.renderer = renderer;
-        self.pending = None;
-        (self.drawn, self.failed) = (None, None);
+        for sheet in self.compared.iter_mut().chain([&mut self.sheet]) {
+            sheet.renderer = None;
+            sheet.pending = None;
+            (sheet.drawn, sheet.failed) = (None, None);
+        }
+        self.sheet.renderer = renderer;
     }
 
     /// Draws everything again after a file has changed. What is wrong with it is told once
     /// it is settled.
     pub(super) fn forget(&mut self, change: Change) {
-        (self.drawn, self.failed) = (None, None);
-        self.is_doubted = change == Change::Now;
+        for sheet in self.compared.iter_mut().chain([&mut self.sheet]) {
+            (sheet.drawn, sheet.failed) = (None, None);
+            sheet.is_doubted = change == Change::Now;
+        }
     }
 
     /// Draws what the session has, where anything of it has changed.
@@ -106,28 +108,80 @@ impl Canvas {
         let (Some(scene), Some(viewpoint)) = (self.scene.clone(), session.recipe.viewpoint) else {
             return;
         };
-        let size = size.map(|side| side.clamp(1, self.max_side()));
-        let wanted = Drawn { appearance: session.recipe.appearance.clone(), viewpoint, size };
-        if self.drawn.as_ref() == Some(&wanted) || self.is_hopeless(&wanted) {
-            return;
+        let max_side = self.gpu.device.limits().max_texture_dimension_2d;
+        let size = size.map(|side| side.clamp(1, max_side));
+        let gpu = &self.gpu;
+        let appearance = session.recipe.appearance.clone();
+        let wanted = Drawn { appearance, viewpoint, size };
+        if self.sheet.draw(gpu, session, &scene, wanted) {
+            self.sheet.show(gpu, &self.window);
         }
-        match self.draw_now(session, &scene, &wanted) {
+        match &session.comparison {
+            Some(comparison) => {
+                let sheet = self.compared.get_or_insert_default();
+                let appearance = Appearance {
+                    lighting: session.recipe.appearance.lighting.clone(),
+                    ..comparison.appearance.clone()
+                };
+                let wanted = Drawn { appearance, viewpoint, size };
+                if sheet.draw(gpu, session, &scene, wanted) {
+                    sheet.show(gpu, &self.window);
+                }
+            }
+            None => {
+                let texture = self.compared.take().and_then(|sheet| sheet.texture);
+                if let Some(texture) = texture {
+                    self.window.renderer.write().free_texture(&texture);
+                }
+            }
+        }
+    }
+
+    /// What the last picture drew and cost, once it is known; whether there will be more.
+    pub(super) fn statistics(&mut self) -> (Option<FrameStatistics>, bool) {
+        let sheet = &mut self.sheet;
+        let (Some(renderer), Some(pending)) = (&sheet.renderer, &sheet.pending) else {
+            return (None, false);
+        };
+        match renderer.statistics(pending) {
+            Ok(None) => (None, true),
+            known => {
+                sheet.pending = None;
+                (known.ok().flatten(), false)
+            }
+        }
+    }
+}
+
+impl Sheet {
+    /// Draws what is wanted, where it is not what was drawn; whether there is another
+    /// picture now. What is wrong is told.
+    fn draw(
+        &mut self,
+        gpu: &Gpu,
+        session: &mut Session,
+        scene: &Arc<Scene>,
+        wanted: Drawn,
+    ) -> bool {
+        if self.drawn.as_ref() == Some(&wanted) || self.is_hopeless(&wanted) {
+            return false;
+        }
+        match self.draw_now(gpu, session, scene, &wanted) {
             Ok(()) => {
                 session.messages.technique = None;
                 (self.failed, self.is_doubted) = (None, false);
                 self.drawn = Some(wanted);
+                return true;
             }
             // It may just be half saved.
-            Err(_) if self.is_doubted => self.failed = Some(wanted),
-            Err(failure) => {
-                if failure.status == ExitStatus::Shader {
-                    session.messages.technique = Some(failure.message);
-                } else {
-                    session.messages.error(failure.message);
-                }
-                self.failed = Some(wanted);
+            Err(_) if self.is_doubted => {}
+            Err(failure) if failure.status == ExitStatus::Shader => {
+                session.messages.technique = Some(failure.message);
             }
+            Err(failure) => session.messages.error(failure.message),
         }
+        self.failed = Some(wanted);
+        false
     }
 
     /// Whether it was tried, wherever it was seen from.
@@ -139,11 +193,16 @@ impl Canvas {
 
     fn draw_now(
         &mut self,
+        gpu: &Gpu,
         session: &Session,
         scene: &Arc<Scene>,
         wanted: &Drawn,
     ) -> Result<(), Failure> {
-        let options = session.recipe.picture_options(wanted.size)?;
+        let options = PictureOptions {
+            lighting: wanted.appearance.lighting.clone(),
+            is_transparent: wanted.appearance.is_transparent,
+            ..session.recipe.picture_options(wanted.size)?
+        };
         let technique = &wanted.appearance.technique;
         let is_same = self.drawn.as_ref().is_some_and(|drawn| {
             let (old, new) = (&drawn.appearance, &wanted.appearance);
@@ -159,9 +218,8 @@ impl Canvas {
             match &mut self.renderer {
                 Some(renderer) => renderer.reload(scene, technique, &looks, &options)?,
                 None => {
-                    let gpu = &self.gpu;
-                    self.renderer =
-                        Some(PictureRenderer::new(gpu, scene, technique, &looks, &options)?);
+                    let made = PictureRenderer::new(gpu, scene, technique, &looks, &options)?;
+                    self.renderer = Some(made);
                 }
             }
         }
@@ -170,38 +228,24 @@ impl Canvas {
         if self.pending.is_none() {
             self.pending = renderer.begin_statistics().ok();
         }
-        self.show();
         Ok(())
     }
 
     /// Hands the picture to the window.
-    fn show(&mut self) {
+    fn show(&mut self, gpu: &Gpu, window: &egui_wgpu::RenderState) {
         let Some(picture) = self.renderer.as_ref().and_then(PictureRenderer::picture) else {
             return;
         };
         let view = picture.create_view(&wgpu::TextureViewDescriptor::default());
-        let mut window = self.window.renderer.write();
-        let (device, filter) = (&self.gpu.device, wgpu::FilterMode::Nearest);
+        let mut window = window.renderer.write();
+        let filter = wgpu::FilterMode::Nearest;
         match self.texture {
             Some(texture) => {
-                window.update_egui_texture_from_wgpu_texture(device, &view, filter, texture);
+                window.update_egui_texture_from_wgpu_texture(&gpu.device, &view, filter, texture)
             }
             None => {
-                self.texture = Some(window.register_native_texture(device, &view, filter));
-            }
-        }
-    }
-
-    /// What the last picture drew and cost, once it is known; whether there will be more.
-    pub(super) fn statistics(&mut self) -> (Option<FrameStatistics>, bool) {
-        let (Some(renderer), Some(pending)) = (&self.renderer, &self.pending) else {
-            return (None, false);
-        };
-        match renderer.statistics(pending) {
-            Ok(None) => (None, true),
-            known => {
-                self.pending = None;
-                (known.ok().flatten(), false)
+                let texture = window.register_native_texture(&gpu.device, &view, filter);
+                self.texture = Some(texture);
             }
         }
     }

@@ -43,7 +43,18 @@ pub struct Session {
     pub work: Vec<Work>,
     /// What panels ask of the window.
     pub requests: Vec<Request>,
+    /// Another look beside this one.
+    pub comparison: Option<Comparison>,
     undoer: Undoer<Appearance>,
+}
+
+/// Another look, at the right of a line across the picture.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// The look.
+    pub appearance: Appearance,
+    /// Where the line is: 0 at the left, 1 at the right.
+    pub share: f32,
 }
 
 /// Something that is done while the window goes on.
@@ -106,6 +117,7 @@ impl Session {
             shows_keys: false,
             work: Vec::new(),
             requests: Vec::new(),
+            comparison: None,
             undoer,
         }
     }
@@ -203,6 +215,32 @@ impl Session {
         let models = recipe.models;
         (self.recipe.arguments, self.recipe.viewpoint) = (recipe.arguments, None);
         Ok(Some(models))
+    }
+
+    /// Compares with a technique, or with nothing any more; what is wrong with it is told.
+    pub fn compare_with(&mut self, name: Option<&str>) {
+        let Some(name) = name else {
+            self.comparison = None;
+            return;
+        };
+        let mut appearance = self.recipe.appearance.clone();
+        match appearance.take_technique(&self.library, name) {
+            Ok(()) => {
+                let share = self.comparison.as_ref().map_or(0.5, |known| known.share);
+                self.comparison = Some(Comparison { appearance, share });
+            }
+            Err(failure) => self.messages.technique = Some(failure.message),
+        }
+    }
+
+    /// Changes sides with the look that this one is compared with.
+    pub fn swap_sides(&mut self) {
+        if let Some(comparison) = &mut self.comparison {
+            let (own, other) = (&mut self.recipe.appearance, &mut comparison.appearance);
+            std::mem::swap(own, other);
+            // The light is that of the scene.
+            std::mem::swap(&mut own.lighting, &mut other.lighting);
+        }
     }
 
     /// Takes another technique; what is wrong with it is told, and the one before stays.

@@ -1,5 +1,6 @@
 //! The technique: its passes, on and off, and every variable of each.
 
+use egui::collapsing_header::CollapsingState;
 use egui::{Grid, Ui};
 
 use super::variable::{Edit, variable_widget};
@@ -30,6 +31,7 @@ pub(super) fn look_panel(ui: &mut Ui, session: &mut Session) {
             session.redo();
         }
     });
+    comparison(ui, session);
     ui.add_space(8.0);
     let mut edit = None;
     for at in 0..session.recipe.appearance.technique.passes.len() {
@@ -45,16 +47,46 @@ pub(super) fn look_panel(ui: &mut Ui, session: &mut Session) {
     ui.checkbox(&mut appearance.is_transparent, "No paper behind the models");
 }
 
+/// With which technique it is compared.
+fn comparison(ui: &mut Ui, session: &mut Session) {
+    let names: Vec<String> = session.library.technique_names().map(str::to_owned).collect();
+    let now = session.comparison.as_ref();
+    let now = now.map(|comparison| comparison.appearance.technique_name.clone());
+    let mut chosen = now.clone();
+    ui.horizontal(|ui| {
+        let label = ui.label("Compare with");
+        egui::ComboBox::from_id_salt("comparison")
+            .selected_text(now.as_deref().unwrap_or("nothing"))
+            .height(400.0)
+            .show_ui(ui, |ui| {
+                ui.selectable_value(&mut chosen, None, "nothing");
+                for name in names {
+                    ui.selectable_value(&mut chosen, Some(name.clone()), name);
+                }
+            })
+            .response
+            .labelled_by(label.id);
+        if now.is_some() && ui.button("Swap").clicked() {
+            session.swap_sides();
+        }
+    });
+    if chosen != now {
+        session.compare_with(chosen.as_deref());
+    }
+}
+
 /// A pass; what was changed of it.
 fn pass(ui: &mut Ui, session: &Session, at: usize) -> Option<Edit> {
     let appearance = &session.recipe.appearance;
     let pass = &appearance.technique.passes[at];
     let original = appearance.original.pass(&pass.name);
+    // The first passes that are done; more would be more than a panel holds.
+    let before = &appearance.original.passes[..at.min(appearance.original.passes.len())];
+    let is_open = pass.is_rendered() && before.iter().filter(|p| p.is_rendered()).count() < 2;
     let mut edit = None;
     ui.push_id(&pass.name, |ui| {
         let id = ui.make_persistent_id("pass");
-        let state =
-            egui::collapsing_header::CollapsingState::load_with_default_open(ui.ctx(), id, at < 2);
+        let state = CollapsingState::load_with_default_open(ui.ctx(), id, is_open);
         let header = state.show_header(ui, |ui| {
             let mut is_on = pass.is_rendered();
             let (index, _) = pass.component.variable("render").unzip();

@@ -3,9 +3,11 @@
 //!
 //! - `bar`: above and below the picture. `look`, with `variable`: the technique.
 //! - `lines`, `light`, `view`, `inspect`, `output`: the other panels.
+//! - `comparison`: the line between two looks.
 //! - `notes`: what there is to say. `keys`: the sheet of keys.
 
 mod bar;
+mod comparison;
 mod inspect;
 mod keys;
 mod light;
@@ -17,6 +19,7 @@ mod variable;
 mod view;
 
 pub use bar::{status_bar, top_bar};
+pub use comparison::comparison_line;
 pub use keys::keys_sheet;
 pub use notes::notes;
 
