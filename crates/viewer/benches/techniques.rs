@@ -43,7 +43,7 @@ impl Runner {
 fn scene(path: &Path) -> Scene {
     let (model, mut report) = read_model(path).unwrap();
     let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut report);
-    Scene::of(vec![Loaded { name: path.display().to_string(), mesh, report }])
+    Scene::of(vec![Loaded::new(path.display().to_string(), mesh, report)])
 }
 
 fn table(gpu: &Gpu, path: &Path, size: [u32; 2], frames: usize) {

@@ -28,7 +28,7 @@ use crate::technique::plan::Plan;
 use crate::technique::program::ShaderFiles;
 
 /// Models in memory.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Scene {
     /// Each model with its name and what was repaired in it.
     pub models: Vec<Loaded>,

@@ -59,7 +59,7 @@ pub(crate) fn picture_with(
 
 pub(crate) fn scene_of(mesh: &EdgeMesh) -> Scene {
     let (name, report) = ("test".into(), Report::default());
-    Scene::of(vec![Loaded { name, mesh: mesh.clone(), report }])
+    Scene::of(vec![Loaded::new(name, mesh.clone(), report)])
 }
 
 pub(crate) fn own_model(name: &str) -> EdgeMesh {

@@ -22,7 +22,7 @@ use crate::gpu_render::{look_of, own_model, picture, technique};
 
 /// A scene of one model many times.
 fn scene(mesh: &EdgeMesh, places: &[(DMat4, usize)]) -> Scene {
-    let loaded = Loaded { name: "test".into(), mesh: mesh.clone(), report: Report::default() };
+    let loaded = Loaded::new("test".into(), mesh.clone(), Report::default());
     let placed = places.iter().map(|&(world_from_object, look)| PlacedObject {
         model: 0,
         look,

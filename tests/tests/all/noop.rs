@@ -16,7 +16,7 @@ use viewer::technique::value::VariableType;
 /// A scene of one mesh.
 fn scene_of(mesh: &EdgeMesh) -> Scene {
     let (name, report) = ("test".into(), Report::default());
-    Scene::of(vec![Loaded { name, mesh: mesh.clone(), report }])
+    Scene::of(vec![Loaded::new(name, mesh.clone(), report)])
 }
 
 /// All ways in which edges lie in memory and are detected.

@@ -2,6 +2,9 @@
 //! side file. A line that runs along no edge of the mesh is kept as a record of
 //! its own, without faces.
 
+use std::collections::BTreeSet;
+
+use super::BuildOptions;
 use crate::index::{NONE, to_u32};
 use crate::model::Model;
 use crate::record::{EdgeFlags, EdgeRecord};
@@ -20,11 +23,11 @@ pub(crate) struct Marks {
 }
 
 impl Marks {
-    /// Finds the edges of the model's lines, and of `pairs` of its vertices
-    /// (counted from 0) with their lines in a side file.
+    /// Finds the edges of the model's lines, and of the pairs of its vertices that a side
+    /// file marks, without those that it does not want marked.
     pub(crate) fn find(
         model: &Model,
-        pairs: &[[u32; 2]],
+        options: &BuildOptions,
         welded_from_input: &[u32],
         table: &EdgeTable,
         report: &mut Report,
@@ -41,7 +44,7 @@ impl Marks {
                 None => marks.loose.push([a.min(b), a.max(b)]),
             }
         }
-        for pair in pairs {
+        for pair in &options.marks {
             match welded(*pair).and_then(|[a, b]| table.find(a, b)) {
                 Some(edge) => marks.marked.push(to_u32(edge)),
                 None => report.warn(WarningCode::Mark, Some(Place::Vertex(u64::from(pair[0]) + 1)), || {
@@ -53,6 +56,14 @@ impl Marks {
         let hidden = model.hidden_edges.iter().filter_map(|pair| welded(*pair));
         marks.hidden.extend(hidden.filter_map(|[a, b]| table.find(a, b)).map(to_u32));
         marks.sort();
+        let unmarked = options.unmarked.iter().filter_map(|pair| welded(*pair));
+        let unmarked: BTreeSet<[u32; 2]> = unmarked.map(|[a, b]| [a.min(b), a.max(b)]).collect();
+        if !unmarked.is_empty() {
+            let edges = unmarked.iter().filter_map(|&[a, b]| table.find(a, b));
+            let edges: BTreeSet<u32> = edges.map(to_u32).collect();
+            marks.marked.retain(|edge| !edges.contains(edge));
+            marks.loose.retain(|line| !unmarked.contains(line));
+        }
         marks
     }
 

@@ -29,6 +29,7 @@ mod runs;
 mod triangulate;
 mod weld;
 
+use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::DVec3;
@@ -46,8 +47,9 @@ use self::records::{RecordInput, Surface, build_records};
 pub use self::weld::Welding;
 use self::weld::{Weld, weld};
 use crate::edge_mesh::{Bounds, EdgeMesh, MeshCounts, SourceCounts};
-use crate::index::NONE;
+use crate::index::{NONE, to_u32};
 use crate::model::Model;
+use crate::record::EdgeFlags;
 use crate::report::{Place, RepairKind, Report, WarningCode};
 use crate::topology::{EdgeCounts, EdgePart, EdgeTable, triangle_side};
 
@@ -75,6 +77,8 @@ pub struct BuildOptions {
     pub welding: Welding,
     /// Pairs of the file's vertices, counted from 0, whose edges are marked.
     pub marks: Vec<[u32; 2]>,
+    /// Pairs whose edges are not marked, though the file or another pair marks them.
+    pub unmarked: Vec<[u32; 2]>,
     /// Where the mesh lies in its file. Default: [`Frame::of_box`] decides.
     pub frame: Option<Frame>,
     /// Whether the fill is built, which only shading needs. Default: yes.
@@ -90,6 +94,7 @@ impl Default for BuildOptions {
             chain_turn_rad: DEFAULT_CHAIN_TURN_RAD,
             welding: Welding::Exact,
             marks: Vec::new(),
+            unmarked: Vec::new(),
             frame: None,
             with_fill: true,
         }
@@ -109,6 +114,17 @@ impl BuildOptions {
 /// and a warning, not an error.
 #[must_use]
 pub fn build_edge_mesh(model: &Model, options: &BuildOptions, report: &mut Report) -> EdgeMesh {
+    build_with_file_vertices(model, options, report).0
+}
+
+/// As [`build_edge_mesh`], with a vertex of the file, counted from 0, for each vertex of
+/// the mesh: the first one at its place.
+#[must_use]
+pub fn build_with_file_vertices(
+    model: &Model,
+    options: &BuildOptions,
+    report: &mut Report,
+) -> (EdgeMesh, Vec<u32>) {
     let (frame, welded) = weld_model(model, options, report);
     let mut sources = FaceSources::of(model, report);
     let mut counts = MeshCounts {
@@ -127,8 +143,37 @@ pub fn build_edge_mesh(model: &Model, options: &BuildOptions, report: &mut Repor
     let clashes =
         repair(model, &welded, &mut triangles, &mut sources, &mut table, &mut counts, report);
     let parts = Parts { positions: welded.positions, triangles, sources, table, clashes, counts };
-    let marks = Marks::find(model, &options.marks, &welded.welded_from_input, &parts.table, report);
-    EdgeMesh { frame, ..finish(model, options, report, parts, &marks) }
+    let marks = Marks::find(model, options, &welded.welded_from_input, &parts.table, report);
+    let mesh = EdgeMesh { frame, ..finish(model, options, report, parts, &marks) };
+    let mut file_vertices = vec![NONE; mesh.positions.len() - mesh.split_from.len()];
+    for (input, &welded) in welded.welded_from_input.iter().enumerate().rev() {
+        if let Some(file_vertex) = file_vertices.get_mut(welded as usize) {
+            *file_vertex = to_u32(input);
+        }
+    }
+    let of_split = |&vertex: &u32| file_vertices[vertex as usize];
+    let split: Vec<u32> = mesh.split_from.iter().map(of_split).collect();
+    file_vertices.extend(split);
+    (mesh, file_vertices)
+}
+
+/// Marks edges of a finished mesh between pairs of its vertices, or takes the marks of
+/// these edges away, and chains anew.
+pub fn set_marks(mesh: &mut EdgeMesh, pairs: &[[u32; 2]], is_marked: bool, options: &BuildOptions) {
+    let welded_count = mesh.positions.len() - mesh.split_from.len();
+    let split_from = &mesh.split_from;
+    let welded = |vertex: u32| match (vertex as usize).checked_sub(welded_count) {
+        Some(split) => split_from[split],
+        None => vertex,
+    };
+    let edge = |a: u32, b: u32| [welded(a).min(welded(b)), welded(a).max(welded(b))];
+    let wanted: BTreeSet<[u32; 2]> = pairs.iter().map(|&[a, b]| edge(a, b)).collect();
+    for record in &mut mesh.records {
+        if wanted.contains(&edge(record.v0, record.v1)) {
+            record.flags.set(EdgeFlags::MARKED, is_marked);
+        }
+    }
+    mesh.chains = chains::chain(&mesh.positions, &mesh.records, options.chain_turn_rad);
 }
 
 /// Finds the creases of a finished mesh by other thresholds, and chains anew.

@@ -63,7 +63,7 @@ impl InfoCommand {
     }
 
     fn info_of(&self, loaded: &Loaded) -> Result<Info, Failure> {
-        let Loaded { name, mesh, report } = loaded;
+        let Loaded { name, mesh, report, .. } = loaded;
         // The aspect does not matter for the eye.
         let eye = self.camera.camera(&mesh.bounds, &mesh.frame)?.view(&mesh.bounds, 1.0).eye;
         Ok(Info::of(name, mesh, report, count_features(mesh, eye)))

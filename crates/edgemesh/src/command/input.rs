@@ -9,11 +9,11 @@ use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use glam::DVec3;
 
-use super::marks::read_marks;
+use super::marks::{SideMarks, read_marks, side_file};
 use super::options::CreaseOptions;
 use super::progress::Listener;
 use super::{Failure, strict_failure};
-use crate::build::{BuildOptions, Frame, Welding, box_of, build_edge_mesh, reclassify};
+use crate::build::{BuildOptions, Frame, Welding, box_of, build_with_file_vertices, reclassify};
 use crate::edge_mesh::EdgeMesh;
 use crate::file::{FileError, HEADER_BYTES, is_edge_mesh, parse, stated_length};
 use crate::model::Model;
@@ -41,7 +41,7 @@ pub struct InputOptions {
     #[arg(long, conflicts_with = "weld")]
     pub no_weld: bool,
     /// A file with pairs of vertices, one a line, counted from 1, whose edges
-    /// are marked
+    /// are marked [default: MODEL.marks, where it is there]
     #[arg(long, value_name = "FILE")]
     pub marks: Option<PathBuf>,
     /// Warnings are errors
@@ -91,7 +91,7 @@ impl InputFormat {
 }
 
 /// An edge mesh with what there is to say of it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Loaded {
     /// How its file is called in messages.
     pub name: String,
@@ -99,24 +99,51 @@ pub struct Loaded {
     pub mesh: EdgeMesh,
     /// What was repaired or dropped.
     pub report: Report,
+    /// Where it is from; none for standard input, and for edge meshes.
+    pub source: Option<ModelSource>,
+}
+
+/// The model file of an edge mesh.
+#[derive(Debug, Clone)]
+pub struct ModelSource {
+    /// The file.
+    pub path: PathBuf,
+    /// A vertex of the file, counted from 0, for each vertex of the mesh.
+    pub file_vertices: Vec<u32>,
+}
+
+impl Loaded {
+    /// An edge mesh that is from no file.
+    #[must_use]
+    pub const fn new(name: String, mesh: EdgeMesh, report: Report) -> Self {
+        Self { name, mesh, report, source: None }
+    }
 }
 
 /// An input before it is built.
 enum Input {
-    Model(Box<Model>, Report),
+    /// With the file that it is from, where it is one.
+    Model(Box<Model>, Report, Option<PathBuf>),
     Stored(Box<EdgeMesh>, String, Report),
 }
 
 impl InputOptions {
     /// The builder's options; `with_fill` is for who shades.
     fn build_options(&self, with_fill: bool) -> Result<BuildOptions, Failure> {
-        let marks = self.marks.as_deref().map(read_marks).transpose()?.unwrap_or_default();
+        let SideMarks { marked, unmarked } =
+            self.marks.as_deref().map(read_marks).transpose()?.unwrap_or_default();
         let welding = match (self.weld, self.no_weld) {
             (Some(tolerance), _) => Welding::Within(tolerance),
             (None, true) => Welding::Off,
             (None, false) => Welding::Exact,
         };
-        Ok(BuildOptions { welding, marks, with_fill, ..self.creases.build_options() })
+        Ok(BuildOptions {
+            welding,
+            marks: marked,
+            unmarked,
+            with_fill,
+            ..self.creases.build_options()
+        })
     }
 
     /// Reads one input and builds its edge mesh.
@@ -160,14 +187,14 @@ impl InputOptions {
         }
         if path == Path::new(DEMO) {
             let (model, report) = read_model_stream(DEMO_MODEL, path, Some(Format::Obj))?;
-            return Ok(Input::Model(Box::new(model), report));
+            return Ok(Input::Model(Box::new(model), report, None));
         }
         if format == Some(None) || format.is_none() && is_edge_mesh_file(path) {
             let stream = File::open(path).map_err(|error| unreadable(path, &error))?;
             return self.stored(path, stream);
         }
         let (model, report) = read_model_as(path, format.flatten())?;
-        Ok(Input::Model(Box::new(model), report))
+        Ok(Input::Model(Box::new(model), report, Some(path.to_owned())))
     }
 
     fn read_standard_input(&self) -> Result<Input, Failure> {
@@ -178,7 +205,7 @@ impl InputOptions {
         let name = Path::new("(standard input)");
         if let Some(format) = format.of_model() {
             let (model, report) = read_model_stream(stream, name, Some(format))?;
-            return Ok(Input::Model(Box::new(model), report));
+            return Ok(Input::Model(Box::new(model), report, None));
         }
         self.stored(name, stream)
     }
@@ -204,10 +231,17 @@ impl InputOptions {
         listener: Listener,
     ) -> Result<Loaded, Failure> {
         let loaded = match input {
-            Input::Model(model, mut report) => {
+            Input::Model(model, mut report, path) => {
                 let _progress = listener.begin(&format!("building {}", model.name))?;
-                let mesh = build_edge_mesh(&model, options, &mut report);
-                Loaded { name: model.name, mesh, report }
+                let mut options = options.clone();
+                let side = path.as_deref().map(side_file).filter(|side| side.is_file());
+                if let Some(side) = side.filter(|_| self.marks.is_none()) {
+                    let SideMarks { marked, unmarked } = read_marks(&side)?;
+                    (options.marks, options.unmarked) = (marked, unmarked);
+                }
+                let (mesh, file_vertices) = build_with_file_vertices(&model, &options, &mut report);
+                let source = path.map(|path| ModelSource { path, file_vertices });
+                Loaded { source, ..Loaded::new(model.name, mesh, report) }
             }
             Input::Stored(mut mesh, name, report) => {
                 if let Some(frame) = options.frame {
@@ -216,7 +250,7 @@ impl InputOptions {
                 if self.creases.is_given() {
                     reclassify(&mut mesh, options);
                 }
-                Loaded { name, mesh: *mesh, report }
+                Loaded::new(name, *mesh, report)
             }
         };
         if self.strict && !loaded.report.warnings().is_empty() {
@@ -249,7 +283,7 @@ fn frame_of(inputs: &[Input]) -> Frame {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for input in inputs {
         let own = match input {
-            Input::Model(model, _) => box_of(model),
+            Input::Model(model, ..) => box_of(model),
             Input::Stored(mesh, ..) => mesh.box_in_file(),
         };
         (low, high) = (low.min(own.0), high.max(own.1));

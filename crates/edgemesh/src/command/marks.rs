@@ -1,22 +1,63 @@
-//! Side files of marked edges: a pair of vertices a line, counted from 1 in the
-//! order of the model's file; `#` begins a comment.
+//! Side files of marked edges: a pair of vertices a line, counted from 1 in the order of
+//! the model's file; behind `-` a pair whose edge is not marked, though the model has a
+//! line there; `#` begins a comment.
+//!
+//! `MODEL.marks` beside a model is read with it; `--marks` names another.
 
-use std::path::Path;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
 
 use super::Failure;
 
-/// Reads the pairs, counted from 0.
-pub(crate) fn read_marks(path: &Path) -> Result<Vec<[u32; 2]>, Failure> {
+/// The marks of a side file, as pairs of vertices counted from 0.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct SideMarks {
+    /// Pairs whose edges are marked.
+    pub marked: Vec<[u32; 2]>,
+    /// Pairs whose edges are not.
+    pub unmarked: Vec<[u32; 2]>,
+}
+
+/// The side file of a model: `part.obj.marks` for `part.obj`.
+#[must_use]
+pub fn side_file(model: &Path) -> PathBuf {
+    let mut name = model.as_os_str().to_owned();
+    name.push(".marks");
+    name.into()
+}
+
+/// Reads a side file.
+///
+/// # Errors
+/// Where it cannot be read, and the first line that is wrong.
+pub fn read_marks(path: &Path) -> Result<SideMarks, Failure> {
     let text = std::fs::read_to_string(path)
         .map_err(|error| Failure::fault(format!("{}: cannot be read: {error}", path.display())))?;
     parse_marks(&text)
         .map_err(|(line, what)| Failure::fault(format!("{}:{line}: {what}", path.display())))
 }
 
-fn parse_marks(text: &str) -> Result<Vec<[u32; 2]>, (usize, String)> {
-    let mut pairs = Vec::new();
+/// The text of a side file.
+#[must_use]
+pub fn marks_text(marks: &SideMarks) -> String {
+    let mut text =
+        "# marked edges: pairs of vertices, counted from 1; - takes a mark away\n".to_owned();
+    for (sign, pairs) in [("", &marks.marked), ("- ", &marks.unmarked)] {
+        for [a, b] in pairs {
+            let _ = writeln!(text, "{sign}{} {}", u64::from(*a) + 1, u64::from(*b) + 1);
+        }
+    }
+    text
+}
+
+fn parse_marks(text: &str) -> Result<SideMarks, (usize, String)> {
+    let mut marks = SideMarks::default();
     for (line, text) in text.lines().enumerate() {
-        let text = text.split('#').next().unwrap_or_default();
+        let text = text.split('#').next().unwrap_or_default().trim();
+        let (text, pairs) = match text.strip_prefix('-') {
+            Some(rest) => (rest, &mut marks.unmarked),
+            None => (text, &mut marks.marked),
+        };
         let words: Vec<&str> = text.split_whitespace().collect();
         match words[..] {
             [] => {}
@@ -27,7 +68,7 @@ fn parse_marks(text: &str) -> Result<Vec<[u32; 2]>, (usize, String)> {
             }
         }
     }
-    Ok(pairs)
+    Ok(marks)
 }
 
 fn vertex(line: usize, word: &str) -> Result<u32, (usize, String)> {
@@ -43,7 +84,12 @@ mod tests {
 
     #[test]
     fn pairs_and_comments() {
-        assert_eq!(parse_marks("# seams\n1 2\n\n 7\t3 # rim\n"), Ok(vec![[0, 1], [6, 2]]));
+        let marks = parse_marks("# seams\n1 2\n\n 7\t3 # rim\n- 4 5\n").unwrap();
+        assert_eq!(
+            (&marks.marked[..], &marks.unmarked[..]),
+            (&[[0, 1], [6, 2]][..], &[[3, 4]][..])
+        );
+        assert_eq!(parse_marks(&marks_text(&marks)), Ok(marks), "it is written as it is read");
         for (text, line, part) in [
             ("1 2\n3", 2, "this has 1"),
             ("1 2 3", 1, "this has 3"),

@@ -9,7 +9,7 @@ pub mod export;
 pub mod info;
 pub mod input;
 pub mod manual;
-mod marks;
+pub mod marks;
 pub mod options;
 mod output;
 mod progress;

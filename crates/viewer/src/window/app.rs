@@ -158,6 +158,8 @@ struct Window {
     loading: Option<Background<LoadedScene>>,
     saving: Vec<Background<String>>,
     watching: Option<Watching>,
+    /// Whether it was told that marks are not saved.
+    is_warned: bool,
     /// What dialogs on other threads have led to.
     arrived: Receiver<Arrival>,
     sender: Sender<Arrival>,
@@ -206,6 +208,7 @@ impl Window {
             loading: None,
             saving: Vec::new(),
             watching: None,
+            is_warned: false,
             arrived,
             sender,
             size: [1, 1],
@@ -384,6 +387,18 @@ impl Window {
         }
     }
 
+    /// Does not close at once where marks would be lost.
+    fn hold_close(&mut self, context: &egui::Context) {
+        let is_closing = context.input(|input| input.viewport().close_requested());
+        if is_closing && self.session.marking.has_changes() && !self.is_warned {
+            self.is_warned = true;
+            context.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+            self.session.messages.error(
+                "There are marks that were not saved: save them under Lines, or close again",
+            );
+        }
+    }
+
     /// Asks for files by a dialog on a thread of its own.
     fn ask(
         &self,
@@ -490,6 +505,7 @@ impl Window {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
         let pixels = |points: f32| (points * scale).round().max(1.0) as u32;
         self.size = [pixels(rect.width()), pixels(rect.height())];
+        self.canvas.follow(&self.session);
         self.canvas.draw(&mut self.session, self.size);
         self.paint(ui, rect);
         let (known, waits) = self.canvas.statistics();
@@ -597,6 +613,7 @@ impl eframe::App for Window {
             panels::keys_sheet(ui, &mut self.session);
         }
         self.answer(&context, time);
+        self.hold_close(&context);
         let title = format!("{} – Edgemesh", self.session.recipe.title());
         if title != self.title {
             context.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));

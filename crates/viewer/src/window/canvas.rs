@@ -94,6 +94,15 @@ impl Canvas {
         self.sheet.renderer = renderer;
     }
 
+    /// Takes the session's scene where it is not the one that was loaded any more, as its
+    /// edges were marked.
+    pub(super) fn follow(&mut self, session: &Session) {
+        let Some(scene) = &session.scene else { return };
+        if self.scene.as_ref().is_some_and(|known| !Arc::ptr_eq(known, scene)) {
+            self.take_scene(scene.clone(), None);
+        }
+    }
+
     /// Draws everything again after a file has changed. What is wrong with it is told once
     /// it is settled.
     pub(super) fn forget(&mut self, change: Change) {

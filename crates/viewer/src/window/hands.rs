@@ -3,6 +3,7 @@
 use egui::{Key, Modifiers, PointerButton, Rect, Response, Ui};
 use glam::{DVec2, DVec3};
 
+use super::marking::edge_under;
 use super::navigation::{Canvas, between, flown, looked_around, panned, rolled, turned, zoomed};
 use super::session::{Request, Session};
 use super::viewpoint::{NamedView, Viewpoint};
@@ -41,6 +42,8 @@ pub enum Command {
     Home,
     /// A quarter turn of the picture, to the left or to the right.
     Roll(bool),
+    /// Marking by hand on and off.
+    Mark,
     /// Panels on and off.
     Panels,
     /// The sheet of keys on and off.
@@ -81,6 +84,7 @@ pub const KEYS: &[(Key, Modifiers, Command, &str)] = &[
     (Key::Num6, Modifiers::NONE, Command::Roll(true), "roll to the right"),
     (Key::F, Modifiers::NONE, Command::Fit, "fit the model"),
     (Key::Enter, Modifiers::NONE, Command::Home, "the first view"),
+    (Key::M, Modifiers::NONE, Command::Mark, "mark edges by hand"),
     (Key::N, Modifiers::NONE, Command::Panels, "hide or show panels"),
     (Key::Questionmark, Modifiers::NONE, Command::Keys, "this sheet"),
     (Key::H, Modifiers::NONE, Command::Keys, "this sheet"),
@@ -134,7 +138,9 @@ impl Hands {
             if (factor - 1.0).abs() > 1e-9 {
                 new = zoomed(&new, factor, under(session, &canvas, &new, at));
             }
-            if response.double_clicked() {
+            if session.marking.is_on {
+                mark(ui, response, session, &canvas, at);
+            } else if response.double_clicked() {
                 let point = under(session, &canvas, &view, at);
                 let to = super::navigation::focused(&view, point);
                 self.go_to(session, to, ui.input(|input| input.time));
@@ -247,6 +253,7 @@ pub fn run(command: Command, session: &mut Session, size: [u32; 2]) {
                 session.ask(Request::GoTo(rolled(&view, angle.to_radians())));
             }
         }
+        Command::Mark => session.marking.is_on = !session.marking.is_on,
         Command::Panels => session.remembered.shows_panels = !session.remembered.shows_panels,
         Command::Keys => session.shows_keys = !session.shows_keys,
         Command::Technique(is_next) => {
@@ -277,6 +284,31 @@ pub fn run(command: Command, session: &mut Session, size: [u32; 2]) {
         Command::Undo => session.undo(),
         Command::Redo => session.redo(),
         Command::Quit => session.ask(Request::Quit),
+    }
+}
+
+/// Shows the edge under the pointer, and marks it where it is clicked.
+fn mark(ui: &Ui, response: &Response, session: &mut Session, canvas: &Canvas, at: DVec2) {
+    let (Some(scene), Some(view)) = (&mut session.scene, session.recipe.viewpoint) else { return };
+    let Some(picked) = edge_under(scene, &view, canvas, at) else { return };
+    #[expect(clippy::cast_possible_truncation, reason = "a position on the screen")]
+    let place = |at: DVec2| response.rect.min + egui::vec2(at.x as f32, at.y as f32);
+    let color = ui.visuals().selection.bg_fill;
+    // Over the picture, which is painted after this.
+    let layer = egui::LayerId::new(egui::Order::Middle, response.id);
+    let painter = ui.ctx().layer_painter(layer).with_clip_rect(response.rect);
+    painter.line_segment(picked.ends.map(place), egui::Stroke::new(4.0, color));
+    let is_path = ui.input(|input| input.modifiers.shift);
+    if !response.clicked() {
+        return;
+    }
+    if is_path {
+        match session.marking.mark_path(scene, &picked) {
+            Some(count) => session.messages.note(format!("{count} edges along the way")),
+            None => session.messages.note("a way begins where an edge of it was clicked before"),
+        }
+    } else {
+        session.marking.toggle(scene, &picked);
     }
 }
 

@@ -18,6 +18,7 @@ pub mod background;
 mod canvas;
 pub mod hands;
 pub mod loading;
+pub mod marking;
 pub mod messages;
 pub mod navigation;
 pub mod panels;

@@ -46,6 +46,18 @@ impl Canvas {
         view.target + right * at.x + up * at.y
     }
 
+    /// The pixel (from the upper left) of a point; none for what is behind the eye.
+    #[must_use]
+    pub fn pixel_of(&self, view: &Viewpoint, point: DVec3) -> Option<DVec2> {
+        let [right, up, back] = view.axes();
+        let from_eye = point - view.eye;
+        let depth = if view.is_orthographic { view.distance() } else { -from_eye.dot(back) };
+        let half = self.size / 2.0;
+        let scale = half.y / (depth * (view.fov_y_deg.to_radians() / 2.0).tan());
+        let at = DVec2::new(from_eye.dot(right), -from_eye.dot(up)) * scale;
+        (depth > 0.0 && at.is_finite()).then_some(half + at)
+    }
+
     /// The ray under a pixel: where it begins and its direction.
     #[must_use]
     pub fn ray(&self, view: &Viewpoint, position: DVec2) -> (DVec3, DVec3) {
@@ -185,15 +197,8 @@ mod tests {
         }
     }
 
-    /// Where a point is in the picture, in pixels.
     fn pixel_of(view: &Viewpoint, point: DVec3) -> DVec2 {
-        let [right, up, back] = view.axes();
-        let from_eye = point - view.eye;
-        let depth = if view.is_orthographic { view.distance() } else { -from_eye.dot(back) };
-        let scale = depth * (view.fov_y_deg.to_radians() / 2.0).tan();
-        let half = CANVAS.size / 2.0;
-        let at = DVec2::new(from_eye.dot(right), -from_eye.dot(up)) / scale * half.y;
-        half + at
+        CANVAS.pixel_of(view, point).unwrap()
     }
 
     #[test]

@@ -9,6 +9,7 @@ use edgemesh::command::Failure;
 use edgemesh::command::input::DEMO;
 use egui::util::undoer::{Settings, Undoer};
 
+use super::marking::Marking;
 use super::messages::Messages;
 use super::recipe::{Appearance, Recipe, shell_line};
 use super::remembered::Remembered;
@@ -43,6 +44,8 @@ pub struct Session {
     pub work: Vec<Work>,
     /// What panels ask of the window.
     pub requests: Vec<Request>,
+    /// Edges that are marked by hand.
+    pub marking: Marking,
     /// Another look beside this one.
     pub comparison: Option<Comparison>,
     undoer: Undoer<Appearance>,
@@ -117,6 +120,7 @@ impl Session {
             shows_keys: false,
             work: Vec::new(),
             requests: Vec::new(),
+            marking: Marking::default(),
             comparison: None,
             undoer,
         }
@@ -159,6 +163,11 @@ impl Session {
         self.scene = Some(scene);
         self.objects = objects;
         self.statistics.clear();
+        // Marks are of the models that were there.
+        if self.marking.has_changes() {
+            self.messages.error("the models were read anew; marks that were not saved are gone");
+        }
+        self.marking.forget();
         told
     }
 

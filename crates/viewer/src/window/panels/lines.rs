@@ -13,6 +13,7 @@ use crate::window::session::Session;
 
 /// The line panel.
 pub(super) fn lines_panel(ui: &mut Ui, session: &mut Session) {
+    marks(ui, session);
     let counts = session.statistics.last().and_then(|last| last.tally);
     let features = counts.map(|tally| tally.features());
     let technique = &mut session.recipe.appearance.technique;
@@ -37,6 +38,36 @@ pub(super) fn lines_panel(ui: &mut Ui, session: &mut Session) {
     for pass in technique.passes.iter_mut().filter(|pass| is_strokes(pass)) {
         stroke(ui, pass);
     }
+}
+
+/// Edges marked by hand.
+fn marks(ui: &mut Ui, session: &mut Session) {
+    ui.horizontal(|ui| {
+        ui.toggle_value(&mut session.marking.is_on, "Mark edges").on_hover_text("M");
+        let has_changes = session.marking.has_changes();
+        if ui.add_enabled(has_changes, egui::Button::new("Undo mark")).clicked()
+            && let Some(scene) = &mut session.scene
+        {
+            session.marking.undo(scene);
+        }
+        if ui.add_enabled(has_changes, egui::Button::new("Save marks")).clicked()
+            && let Some(scene) = &session.scene
+        {
+            let file = session.recipe.arguments.input.marks.as_ref();
+            match session.marking.save(scene, file) {
+                Ok(files) => {
+                    let names: Vec<String> =
+                        files.iter().map(|path| path.display().to_string()).collect();
+                    session.messages.note(format!("saved as {}", names.join(", ")));
+                }
+                Err(failure) => session.messages.error(failure.message),
+            }
+        }
+    });
+    if session.marking.is_on {
+        ui.weak("Click an edge; Shift + click marks the way from there. Drag turns as ever.");
+    }
+    ui.add_space(8.0);
 }
 
 /// What strokes of a pass look like, in short.
