@@ -1,4 +1,4 @@
-//! Draws 3D models as line art: looks, pictures, and the `viewer` command.
+//! Draws 3D models as line art: looks, pictures, the window, and the `viewer` command.
 //!
 //! ```text
 //! MODEL... --read, build (edgemesh)--> edge meshes --upload (strokes)--+
@@ -11,6 +11,8 @@
 //! - [`picture`]: PNG in and out, and the comparison with a reference.
 //! - [`animation`]: several pictures as a GIF or an animated PNG.
 //! - [`comparison`]: stroke textures, measured along camera paths.
+//! - [`turntable`]: a camera that goes around.
+//! - [`window`]: the window.
 //! - [`command`]: the command line; `main.rs` only calls it.
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]

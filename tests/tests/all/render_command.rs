@@ -21,7 +21,8 @@ fn cube() -> String {
 fn wrong_command_lines_exit_with_2_and_say_why() {
     let cube = cube();
     for (arguments, word) in [
-        (vec![], "Usage"),
+        (vec!["--technique"], "--technique"),
+        (vec!["--ortho", "render", &cube, "-o", "a.png"], "--ortho stands before"),
         (vec!["render"], "MODEL"),
         (vec!["render", &cube], "--output"),
         (vec!["render", &cube, "-o", "a.jpg"], ".png"),
@@ -43,6 +44,15 @@ fn wrong_command_lines_exit_with_2_and_say_why() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", message(&output));
         assert!(message(&output).contains(word), "{arguments:?}: {}", message(&output));
     }
+}
+
+#[test]
+fn without_a_display_there_is_no_window_and_the_message_says_what_draws_without_one() {
+    let mut command = std::process::Command::new(testkit::locate::program("viewer"));
+    command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+    let output = crate::child::run(command.stdout(std::process::Stdio::piped()));
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    assert!(message(&output).contains("viewer render draws without one"), "{}", message(&output));
 }
 
 #[test]

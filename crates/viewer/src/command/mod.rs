@@ -11,7 +11,9 @@ mod techniques;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, CommandFactory as _, Parser, Subcommand};
+use clap::error::ErrorKind;
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Args, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use edgemesh::command::manual::{CompletionsCommand, ManCommand};
 use edgemesh::command::options::MessageOptions;
 use edgemesh::command::run;
@@ -20,7 +22,7 @@ use self::picture_arguments::PictureArguments;
 
 /// Draws 3D models as line art; without a verb it opens a window
 #[derive(Debug, Parser)]
-#[command(version, propagate_version = true, args_conflicts_with_subcommands = true)]
+#[command(version, propagate_version = true)]
 #[command(after_help = EXAMPLES)]
 struct Viewer {
     #[command(subcommand)]
@@ -61,10 +63,27 @@ enum Command {
     Man(ManCommand),
 }
 
+/// An argument of the window that was given.
+fn window_option(matches: &ArgMatches) -> Option<String> {
+    let command = Viewer::command();
+    let is_given = |id: &str| {
+        let is_known = matches.try_contains_id(id).unwrap_or(false);
+        is_known && matches.value_source(id) == Some(ValueSource::CommandLine)
+    };
+    let own = command.get_arguments().filter(|argument| !argument.is_global_set());
+    let given = own.into_iter().find(|argument| is_given(argument.get_id().as_str()))?;
+    Some(given.get_long().map_or_else(|| "a model".to_owned(), |name| format!("--{name}")))
+}
+
 /// Reads the command line, does what it says, and returns the exit status.
 #[must_use]
 pub fn main() -> ExitCode {
-    let arguments = Viewer::parse();
+    let matches = Viewer::command().get_matches();
+    let arguments = Viewer::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    if let (Some(verb), Some(option)) = (matches.subcommand_name(), window_option(&matches)) {
+        let what = format!("{option} stands before '{verb}'; what a verb takes stands behind it");
+        Viewer::command().error(ErrorKind::ArgumentConflict, what).exit();
+    }
     arguments.messages.start_logging();
     let Some(command) = arguments.command else {
         let WindowCommand { models, picture } = *arguments.window;
