@@ -45,6 +45,31 @@ fn read_generated(technique: &Technique, frames: usize, name: &str) -> (u32, Vec
     (texture.width(), read_texels(gpu(), texture, 16).unwrap())
 }
 
+/// A loop that never ends is left, and what is drawn otherwise is drawn: the device lives.
+#[test]
+fn a_shader_that_never_ends_ends() {
+    let folder = tempfile::tempdir().unwrap();
+    let shader = "@fragment\n\
+        fn forever(@builtin(position) at: vec4f) -> @location(0) vec4f {\n\
+            var x = at.x;\n\
+            loop { x = x * 1.000001; if x < 0.0 { break; } }\n\
+            return vec4f(0.25, 0.5, select(0.75, 1.0, x < 0.0), 1.0);\n\
+        }\n";
+    let text = "[[pass]]\nname = \"forever\"\ncomponent = \"process_texture\"\n\
+                fragment_program = \"forever:forever\"\n";
+    let technique = written(folder.path(), &[("forever.toml", text), ("forever.wgsl", shader)]);
+    let mesh = own_model("cube");
+    let scene = scene_of(&mesh);
+    let mut renderer =
+        PictureRenderer::new(gpu(), &scene, &technique, &[], &small([8, 8])).unwrap();
+    let (picture, _) = renderer.render(&Camera::default_view(&mesh.bounds)).unwrap();
+    assert!(
+        picture.pixels().all(|pixel| pixel.0 == [64, 128, 191, 255]),
+        "{:?}",
+        picture.get_pixel(0, 0)
+    );
+}
+
 /// The files of the guide's effect, as someone new would copy them from there.
 #[test]
 fn the_effect_in_the_guide_runs_without_a_build() {

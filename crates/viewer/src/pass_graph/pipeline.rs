@@ -159,7 +159,7 @@ fn render_pipeline(
     let device = &gpu.device;
     // Two programs that do not fit each other are found only here.
     let faults = device.push_error_scope(wgpu::ErrorFilter::Validation);
-    let modules = [vertex, fragment].map(|program| program.source.module(device, label));
+    let modules = [vertex, fragment].map(|program| program.module(device, label));
     let buffers = [Some(wgpu::VertexBufferLayout {
         array_stride: 32,
         step_mode: wgpu::VertexStepMode::Vertex,

@@ -14,9 +14,10 @@
 //! - [`descriptor`], [`core`]: the interface of a component, and what is in Rust.
 //! - [`library`]: the files that are shipped, and the user's own.
 //! - [`mistake`]: everything that is wrong with a file, underlined.
+//! - [`loop_bound`]: loops of shaders that end.
 //! - [`program`]: what a shader wants to be given.
 //! - [`plan`]: a technique with everything checked.
-//! - [`changes`], [`write`]: a technique that was changed, as settings and as a file.
+//! - [`changes`], [`mod@write`]: a technique that was changed, as settings and as a file.
 
 pub mod changes;
 pub(crate) mod class_pass;
@@ -26,6 +27,7 @@ pub(crate) mod curve;
 pub mod descriptor;
 pub mod image_file;
 pub mod library;
+pub mod loop_bound;
 pub mod mistake;
 pub mod pass;
 pub mod plan;

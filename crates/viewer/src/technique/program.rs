@@ -16,6 +16,7 @@
 //! Rejected: parameters by position, or a struct of fixed slots, which read well
 //! nowhere and break when a line moves.
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -24,6 +25,7 @@ use naga::{AddressSpace, ImageClass, ImageDimension, ScalarKind, ShaderStage, Ty
 use strokes::shader::{EMBEDDED, ShaderError, ShaderSource, embedded_text};
 
 use super::library::text_of;
+use super::loop_bound::bound_loops;
 use super::mistake::{Mistake, Mistakes, Place, SourceText};
 
 /// Which program of a pass.
@@ -62,6 +64,22 @@ pub struct Program {
     pub interface: Interface,
     /// Whether it can be told that there are no clip planes.
     pub asks_for_clips: bool,
+    /// Whether its loops are counted, as it is not one that ships.
+    pub is_bounded: bool,
+}
+
+impl Program {
+    /// Makes its module on a device.
+    #[must_use]
+    pub fn module(&self, device: &wgpu::Device, label: &str) -> wgpu::ShaderModule {
+        let parsed = if self.is_bounded { self.source.reflect().ok() } else { None };
+        let Some((mut module, _)) = parsed else { return self.source.module(device, label) };
+        bound_loops(&mut module);
+        device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(label),
+            source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
+        })
+    }
 }
 
 /// What a program wants to be given, and gives.
@@ -298,7 +316,10 @@ impl ShaderFiles {
         }
         let is_clips = |known: &naga::Override| known.name.as_deref() == Some("CLIPS");
         let asks_for_clips = module.overrides.iter().any(|(_, known)| is_clips(known));
-        let program = Program { function: function.to_owned(), source, interface, asks_for_clips };
+        let shipped = ShaderSource::resolve(path, &embedded_text);
+        let is_bounded = shipped.map_or(true, |shipped| shipped.text != source.text);
+        let function = function.to_owned();
+        let program = Program { function, source, interface, asks_for_clips, is_bounded };
         mistakes.or(program).map(|(program, _)| program)
     }
 

@@ -96,6 +96,9 @@ pub enum Request {
     LoseDevice,
 }
 
+/// A pass that takes longer makes the window wait, in milliseconds.
+const SLOW_MS: f64 = 2000.0;
+
 /// The most frames whose times are kept.
 pub const KEPT_FRAMES: usize = 120;
 
@@ -342,8 +345,17 @@ impl Session {
         }
     }
 
-    /// Keeps what a picture drew and cost.
+    /// Keeps what a picture drew and cost; one that made the window wait is told.
     pub fn keep(&mut self, statistics: FrameStatistics) {
+        let times = statistics.passes.iter().filter_map(|(name, ms)| Some((name, (*ms)?)));
+        let slowest = times.max_by(|one, other| one.1.total_cmp(&other.1));
+        if let Some((name, ms)) = slowest.filter(|(_, ms)| *ms > SLOW_MS) {
+            let seconds = ms / 1e3;
+            self.messages.note(format!(
+                "the pass '{name}' took {seconds:.1} s, and the window had to wait for it; it can \
+                 be switched off under Look"
+            ));
+        }
         if self.statistics.len() == KEPT_FRAMES {
             self.statistics.remove(0);
         }
