@@ -107,6 +107,8 @@ pub const EMBEDDED: &[(&str, &str)] = &[
     embedded!("programs/phong.wgsl"),
     embedded!("programs/scene_data.wgsl"),
     embedded!("programs/screen.wgsl"),
+    embedded!("programs/show_ids.wgsl"),
+    embedded!("programs/show_texture.wgsl"),
     embedded!("programs/sobel.wgsl"),
     embedded!("programs/surface.wgsl"),
     embedded!("programs/toon.wgsl"),

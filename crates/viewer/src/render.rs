@@ -24,8 +24,9 @@ use crate::pass_graph::{GraphOptions, PassGraph};
 use crate::scene_file::SceneObject;
 use crate::technique::Technique;
 use crate::technique::mistake::Mistakes;
-use crate::technique::plan::Plan;
+use crate::technique::plan::{Plan, TexturePlan};
 use crate::technique::program::ShaderFiles;
+use crate::technique::texture_format::PassTexture;
 
 /// Models in memory.
 #[derive(Debug, Clone)]
@@ -315,6 +316,17 @@ impl PictureRenderer {
     #[must_use]
     pub fn generated(&self, name: &str) -> Option<&wgpu::Texture> {
         self.graph.as_ref()?.generated(&self.plan, name)
+    }
+
+    /// The textures that passes draw for each other.
+    #[must_use]
+    pub fn generated_textures(&self) -> Vec<PassTexture> {
+        let textures = self.plan.textures.iter();
+        let of_plan = |texture: &TexturePlan| PassTexture {
+            name: texture.name.clone(),
+            format: texture.format,
+        };
+        textures.map(of_plan).collect()
     }
 
     /// The picture that was drawn last, or is being drawn.

@@ -12,6 +12,7 @@ use viewer::lighting::Light;
 use viewer::render::{FrameStatistics, Scene};
 use viewer::scene_file::SceneObject;
 use viewer::technique::library::Library;
+use viewer::technique::texture_format::PassTexture;
 use viewer::window::hands::Hands;
 use viewer::window::panels;
 use viewer::window::recipe::Recipe;
@@ -193,6 +194,46 @@ fn inspection_shows_times_and_what_was_repaired() {
 }
 
 #[test]
+fn textures_between_passes_are_listed_and_looked_at() {
+    let mut session = session("--technique outline_combined");
+    let texture = |name: &str, format| PassTexture { name: name.to_owned(), format };
+    session.generated = vec![
+        texture("scene_normal", wgpu::TextureFormat::Rgba16Float),
+        texture("scene_depth", wgpu::TextureFormat::Depth32Float),
+    ];
+    let mut harness = side(Tab::Inspect, session);
+    harness.get_by_label("scene_normal").click();
+    harness.run_ok();
+    assert!(harness.query_all_by_label("White").count() > 0, "its range can be chosen");
+    harness.get_by_label("scene_depth").click();
+    harness.run_ok();
+    assert!(harness.query_all_by_label("White").count() == 0, "depths have their own");
+    let inspection = harness.state().inspection.clone().unwrap();
+    assert_eq!(inspection.texture.name, "scene_depth");
+    let command = harness.state().command(SIZE).unwrap();
+    assert!(!command.contains("shown"), "it is no part of the picture's recipe: {command}");
+    harness.get_by_label("The picture").click();
+    harness.run_ok();
+    assert_eq!(harness.state().inspection, None);
+}
+
+#[test]
+fn a_look_is_compared_with_another_and_changes_sides() {
+    let mut session = session("--technique pen");
+    session.compare_with(Some("toon"));
+    let mut harness = side(Tab::Look, session);
+    assert!(harness.query_by_label("pen").is_some(), "the left one is the one that is changed");
+    harness.get_by_label("Swap").click();
+    harness.run_ok();
+    assert_eq!(harness.state().recipe.appearance.technique_name, "toon");
+    let comparison = harness.state().comparison.clone().unwrap();
+    assert_eq!(comparison.appearance.technique_name, "pen");
+    harness.state_mut().compare_with(None);
+    harness.run_ok();
+    assert!(harness.query_by_label("Swap").is_none());
+}
+
+#[test]
 fn output_shows_the_command_and_asks_for_pictures() {
     let mut harness = side(Tab::Output, session("--technique pen"));
     let shown = harness.query_by_label_contains("viewer render demo: --technique pen").is_some();
@@ -226,6 +267,8 @@ fn bars_choose_techniques_and_open_menus() {
     let combo = harness.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Technique");
     combo.click();
     harness.run_ok();
+    assert_eq!(harness.state().requests, [Request::DrawThumbnails], "once the list is open");
+    harness.state_mut().requests.clear();
     harness.get_by_label("anime").click();
     harness.run_ok();
     assert_eq!(harness.state().recipe.appearance.technique_name, "anime");

@@ -19,6 +19,15 @@ pub const FORMATS: [(&str, wgpu::TextureFormat); 10] = [
 /// The format of depth textures: reversed, 1 near, 0 far.
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
+/// A texture that passes draw for each other.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PassTexture {
+    /// Its name, without the directory.
+    pub name: String,
+    /// Its format.
+    pub format: wgpu::TextureFormat,
+}
+
 /// The format of a word.
 #[must_use]
 pub fn format_of(word: &str) -> Option<wgpu::TextureFormat> {

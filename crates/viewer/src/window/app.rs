@@ -21,6 +21,7 @@ use super::remembered::Remembered;
 use super::saving::{self, Order};
 use super::session::{Request, Session, Work};
 use super::style;
+use super::thumbnails::{self, Thumbnail};
 use super::watching::{Change, Watching};
 use crate::command::picture_arguments::PictureArguments;
 use crate::render::{PictureRenderer, Scene};
@@ -158,6 +159,7 @@ struct Window {
     loading: Option<Background<LoadedScene>>,
     saving: Vec<Background<String>>,
     watching: Option<Watching>,
+    thumbnails: Option<(Background<()>, Receiver<Thumbnail>)>,
     /// Whether it was told that marks are not saved.
     is_warned: bool,
     /// What dialogs on other threads have led to.
@@ -208,6 +210,7 @@ impl Window {
             loading: None,
             saving: Vec::new(),
             watching: None,
+            thumbnails: None,
             is_warned: false,
             arrived,
             sender,
@@ -365,6 +368,7 @@ impl Window {
                     let path = dialog.add_filter("Pictures", ends).save_file()?;
                     Some(Arrival::PictureFile(path, turntable))
                 }),
+                Request::DrawThumbnails => self.draw_thumbnails(context),
                 Request::Copy(text, note) => {
                     context.copy_text(text);
                     self.session.messages.note(note);
@@ -384,6 +388,30 @@ impl Window {
                 }
                 Request::Quit => context.send_viewport_cmd(egui::ViewportCommand::Close),
             }
+        }
+    }
+
+    fn draw_thumbnails(&mut self, context: &egui::Context) {
+        let (sender, arrived) = channel();
+        let (gpu, library) = (self.canvas.gpu().clone(), self.session.library.clone());
+        let context = context.clone();
+        let wake = move || context.request_repaint();
+        let work =
+            Background::start(wake, move |tell| thumbnails::draw(&gpu, &library, &sender, tell));
+        self.thumbnails = Some((work, arrived));
+    }
+
+    fn take_thumbnails(&mut self, context: &egui::Context) {
+        let Some((work, arrived)) = &self.thumbnails else { return };
+        let is_over = work.take().is_some();
+        for (name, picture) in arrived.try_iter() {
+            let size = [picture.width() as usize, picture.height() as usize];
+            let picture = egui::ColorImage::from_rgba_unmultiplied(size, &picture);
+            let texture = context.load_texture(&name, picture, egui::TextureOptions::LINEAR);
+            self.session.thumbnails.textures.insert(name, texture);
+        }
+        if is_over {
+            self.thumbnails = None;
         }
     }
 
@@ -588,6 +616,7 @@ impl eframe::App for Window {
         self.keep();
         self.take_arrivals(&context);
         self.follow_files(&context);
+        self.take_thumbnails(&context);
         let dropped: Vec<PathBuf> = context.input(|input| {
             let files = input.raw.dropped_files.iter();
             files.map(|file| file.path().to_owned()).collect()

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use edgemesh::command::{ExitStatus, Failure};
 use strokes::gpu::Gpu;
 
+use super::inspection::Inspection;
 use super::recipe::Appearance;
 use super::session::Session;
 use super::viewpoint::Viewpoint;
@@ -120,10 +121,18 @@ impl Canvas {
         let max_side = self.gpu.device.limits().max_texture_dimension_2d;
         let size = size.map(|side| side.clamp(1, max_side));
         let gpu = &self.gpu;
-        let appearance = session.recipe.appearance.clone();
+        let mut appearance = session.recipe.appearance.clone();
+        let is_there = |inspection: &&Inspection| session.generated.contains(&inspection.texture);
+        if let Some(inspection) = session.inspection.as_ref().filter(is_there)
+            && let Some(shown) = inspection.shown(&appearance.technique, &session.library)
+        {
+            appearance.technique = shown;
+        }
         let wanted = Drawn { appearance, viewpoint, size };
         if self.sheet.draw(gpu, session, &scene, wanted) {
             self.sheet.show(gpu, &self.window);
+            let renderer = self.sheet.renderer.as_ref();
+            session.generated = renderer.map_or_else(Vec::new, PictureRenderer::generated_textures);
         }
         match &session.comparison {
             Some(comparison) => {

@@ -11,12 +11,15 @@
 //! - `navigation`: from hands to viewpoints. `background`, `loading`: models on another thread.
 //!   `picking`: what is under the pointer. `watching`: files that change.
 //! - `canvas`: the session as a picture, drawn when something changed.
-//! - `app`: one frame of the window. `panels`: what is beside the picture.
+//! - `inspection`: what passes draw for each other, shown. `marking`: edges marked by hand.
+//!   `saving`, `thumbnails`: pictures drawn on the side.
+//! - `app`: one frame of the window. `hands`: pointer and keys. `panels`: what is beside the picture.
 
 mod app;
 pub mod background;
 mod canvas;
 pub mod hands;
+pub mod inspection;
 pub mod loading;
 pub mod marking;
 pub mod messages;
@@ -28,6 +31,7 @@ pub mod remembered;
 pub mod saving;
 pub mod session;
 mod style;
+pub mod thumbnails;
 pub mod viewpoint;
 pub mod watching;
 

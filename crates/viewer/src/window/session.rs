@@ -1,6 +1,7 @@
 //! What the window shows and knows, without any of its pixels: panels read and change it,
 //! the canvas draws it. Knows no GPU, so that panels are tested without one.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -9,6 +10,7 @@ use edgemesh::command::Failure;
 use edgemesh::command::input::DEMO;
 use egui::util::undoer::{Settings, Undoer};
 
+use super::inspection::Inspection;
 use super::marking::Marking;
 use super::messages::Messages;
 use super::recipe::{Appearance, Recipe, shell_line};
@@ -18,6 +20,7 @@ use crate::render::{FrameStatistics, Scene};
 use crate::scene_file::SceneObject;
 use crate::technique::Technique;
 use crate::technique::library::Library;
+use crate::technique::texture_format::PassTexture;
 
 /// What the window shows and knows.
 #[derive(Debug)]
@@ -34,6 +37,8 @@ pub struct Session {
     pub remembered: Remembered,
     /// What there is to say.
     pub messages: Messages,
+    /// Small pictures of techniques, by name.
+    pub thumbnails: Thumbnails,
     /// What the last pictures drew and cost, the newest last.
     pub statistics: Vec<FrameStatistics>,
     /// The adapter that draws.
@@ -44,6 +49,10 @@ pub struct Session {
     pub work: Vec<Work>,
     /// What panels ask of the window.
     pub requests: Vec<Request>,
+    /// The textures that the technique draws, once it is drawn.
+    pub generated: Vec<PassTexture>,
+    /// The one that is shown instead of the picture.
+    pub inspection: Option<Inspection>,
     /// Edges that are marked by hand.
     pub marking: Marking,
     /// Another look beside this one.
@@ -71,6 +80,21 @@ pub struct Work {
     pub saving: Option<usize>,
 }
 
+/// Small pictures of techniques, by name.
+#[derive(Default)]
+pub struct Thumbnails {
+    /// Those that are there.
+    pub textures: BTreeMap<String, egui::TextureHandle>,
+    /// Whether they were asked for.
+    pub are_wanted: bool,
+}
+
+impl std::fmt::Debug for Thumbnails {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.debug_list().entries(self.textures.keys()).finish()
+    }
+}
+
 /// What panels ask of the window.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Request {
@@ -84,6 +108,8 @@ pub enum Request {
     Cancel(Option<usize>),
     /// Ask where to save the technique as it is, and save it.
     SaveTechnique,
+    /// Draw the small pictures of the techniques.
+    DrawThumbnails,
     /// Put this on the clipboard, and say so with the second text.
     Copy(String, &'static str),
     /// Go to a viewpoint smoothly.
@@ -118,11 +144,14 @@ impl Session {
             objects: Vec::new(),
             remembered,
             messages: Messages::default(),
+            thumbnails: Thumbnails::default(),
             statistics: Vec::new(),
             adapter: String::new(),
             shows_keys: false,
             work: Vec::new(),
             requests: Vec::new(),
+            generated: Vec::new(),
+            inspection: None,
             marking: Marking::default(),
             comparison: None,
             undoer,

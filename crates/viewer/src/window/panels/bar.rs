@@ -1,6 +1,6 @@
 //! The bars above and below the picture.
 
-use egui::{Align, Layout, Ui};
+use egui::{Align, Layout, Ui, Vec2};
 
 use crate::window::hands::{Command, run};
 use crate::window::remembered::{Theme, name_of};
@@ -23,26 +23,42 @@ pub fn top_bar(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
     });
 }
 
+/// The size of small pictures in the list, in points.
+const THUMBNAIL: Vec2 = Vec2::new(72.0, 54.0);
+
 fn technique_box(ui: &mut Ui, session: &mut Session) {
     let names: Vec<String> = session.library.technique_names().map(str::to_owned).collect();
     let appearance = &session.recipe.appearance;
-    let mut chosen = None;
+    let (mut chosen, mut is_open) = (None, false);
     let changed = if appearance.is_changed() { " *" } else { "" };
     let label = ui.label("Technique");
     egui::ComboBox::from_id_salt("technique")
         .selected_text(format!("{}{changed}", appearance.technique_name))
-        .height(480.0)
+        .height(560.0)
         .width(170.0)
         .show_ui(ui, |ui| {
+            is_open = true;
+            ui.set_min_width(260.0);
             for name in &names {
                 let is_it = *name == appearance.technique_name;
-                if ui.selectable_label(is_it, name).clicked() {
+                let button = match session.thumbnails.textures.get(name) {
+                    Some(texture) => {
+                        let image = egui::Image::new((texture.id(), THUMBNAIL));
+                        egui::Button::image_and_text(image, name.as_str())
+                    }
+                    None => egui::Button::new(name.as_str()),
+                };
+                if ui.add(button.selected(is_it).frame_when_inactive(is_it)).clicked() {
                     chosen = Some(name.clone());
                 }
             }
         })
         .response
         .labelled_by(label.id);
+    if is_open && !session.thumbnails.are_wanted {
+        session.thumbnails.are_wanted = true;
+        session.ask(Request::DrawThumbnails);
+    }
     if let Some(name) = chosen {
         session.take_technique(&name);
     }

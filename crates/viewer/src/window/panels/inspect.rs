@@ -2,10 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use egui::{Grid, Ui};
+use egui::{Grid, Slider, SliderClamping, Ui};
 use egui_plot::{Legend, Line, Plot, PlotPoints};
 
 use super::bar::grouped;
+use crate::technique::texture_format::word_of;
+use crate::window::inspection::Inspection;
 use crate::window::session::{KEPT_FRAMES, Session};
 
 /// The inspection panel.
@@ -26,11 +28,47 @@ pub(super) fn inspect_panel(ui: &mut Ui, session: &mut Session) {
         }
     });
     ui.add_space(8.0);
+    textures(ui, session);
+    ui.add_space(8.0);
     counts(ui, session);
     ui.add_space(8.0);
     times(ui, session);
     ui.add_space(8.0);
     repairs(ui, session);
+}
+
+/// What passes draw for each other.
+fn textures(ui: &mut Ui, session: &mut Session) {
+    ui.heading("Textures between passes");
+    if session.generated.is_empty() {
+        ui.weak("The passes of this technique draw to the picture alone.");
+        return;
+    }
+    ui.horizontal_wrapped(|ui| {
+        if ui.selectable_label(session.inspection.is_none(), "The picture").clicked() {
+            session.inspection = None;
+        }
+        for texture in session.generated.clone() {
+            let known = session.inspection.as_ref();
+            let is_it = known.is_some_and(|inspection| inspection.texture == texture);
+            let format = word_of(texture.format);
+            let label = ui.selectable_label(is_it, &texture.name).on_hover_text(format);
+            if label.clicked() && !is_it {
+                session.inspection = Some(Inspection::of(texture));
+            }
+        }
+    });
+    if let Some(inspection) = session.inspection.as_mut().filter(|known| known.has_range()) {
+        Grid::new("range").num_columns(2).show(ui, |ui| {
+            for (name, number) in [("Black", &mut inspection.low), ("White", &mut inspection.high)]
+            {
+                let label = ui.label(name);
+                let slider = Slider::new(number, -2.0..=2.0).clamping(SliderClamping::Never);
+                ui.add(slider).labelled_by(label.id);
+                ui.end_row();
+            }
+        });
+    }
 }
 
 fn counts(ui: &mut Ui, session: &Session) {

@@ -1,0 +1,61 @@
+//! Small pictures of every technique, for the list of techniques: drawn when the list is
+//! opened first, on a thread of its own, of our own model.
+
+use std::sync::mpsc::Sender;
+
+use edgemesh::camera::Camera;
+use edgemesh::command::input::{DEMO, InputOptions};
+use edgemesh::command::{Failure, Listener};
+use image::RgbaImage;
+use strokes::gpu::Gpu;
+
+use super::background::Tell;
+use crate::picture::straight_alpha;
+use crate::render::{PictureOptions, PictureRenderer, Scene};
+use crate::scene_file::SceneObject;
+use crate::technique::library::Library;
+
+/// Width and height in pixels: twice the points that they are shown with.
+pub const SIZE: [u32; 2] = [144, 108];
+
+/// The name of a technique, and its picture.
+pub type Thumbnail = (String, RgbaImage);
+
+/// Draws each technique of the library and sends it with its name.
+///
+/// # Errors
+/// Where the model cannot be drawn at all, or `tell` wants no more. A technique that
+/// cannot be drawn has no picture.
+pub fn draw(
+    gpu: &Gpu,
+    library: &Library,
+    sender: &Sender<Thumbnail>,
+    tell: Tell,
+) -> Result<(), Failure> {
+    let object = SceneObject::plain(DEMO.as_ref());
+    let scene = Scene::load(&[object], &InputOptions::default(), Listener::Nobody)?;
+    let camera = Camera::default_view(&scene.bounds);
+    // A little nearer than the whole bounding sphere.
+    let camera = Camera { eye: camera.target + (camera.eye - camera.target) * 0.72, ..camera };
+    let options = PictureOptions { size: SIZE, ..PictureOptions::default() };
+    let mut renderer: Option<PictureRenderer> = None;
+    for name in library.technique_names() {
+        if !tell(&format!("drawing {name}")) {
+            return Err(Failure::fault("it was cancelled"));
+        }
+        let Ok((technique, _)) = library.technique(name) else { continue };
+        let made = match &mut renderer {
+            Some(renderer) => renderer.reload(&scene, &technique, &[], &options),
+            None => PictureRenderer::new(gpu, &scene, &technique, &[], &options)
+                .map(|made| renderer = Some(made)),
+        };
+        let drawn = made.ok().and(renderer.as_mut());
+        let Some(Ok((picture, _))) = drawn.map(|renderer| renderer.render(&camera)) else {
+            continue;
+        };
+        if sender.send((name.to_owned(), straight_alpha(&picture))).is_err() {
+            return Ok(());
+        }
+    }
+    Ok(())
+}
