@@ -59,13 +59,13 @@ pub(crate) fn run(models: &[PathBuf], arguments: PictureArguments) -> Result<(),
     let kept = Arc::new(Mutex::new(Some(Kept { library, recipe, remembered: None, scene: None })));
     let mut losses: Vec<Instant> = Vec::new();
     loop {
-        let is_lost = Arc::new(AtomicBool::new(false));
+        let lost = Arc::new(Lost::default());
         // The window system's side of the window panics where it draws with a device that
         // is lost in that very frame.
-        let open = || open(&kept, &is_lost, adapter.as_deref());
+        let open = || open(&kept, &lost, adapter.as_deref());
         let opened = std::panic::catch_unwind(std::panic::AssertUnwindSafe(open));
         let has_kept = kept.lock().unwrap_or_else(PoisonError::into_inner).is_some();
-        if !is_lost.load(Ordering::Relaxed) || !has_kept {
+        if !lost.is_lost() || !has_kept {
             return opened.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         }
         losses.push(Instant::now());
@@ -95,10 +95,36 @@ struct Kept {
     scene: Option<(Arc<Scene>, Vec<SceneObject>)>,
 }
 
+/// What is known of a device that may be lost.
+#[derive(Debug, Default)]
+struct Lost {
+    is_lost: AtomicBool,
+    device: Mutex<Option<wgpu::Device>>,
+}
+
+impl Lost {
+    /// Destroys the device. It tells so later than one that is really lost, so it is noted
+    /// here.
+    fn lose(&self) {
+        self.is_lost.store(true, Ordering::Relaxed);
+        if let Some(device) = &*self.device.lock().unwrap_or_else(PoisonError::into_inner) {
+            device.destroy();
+        }
+    }
+
+    /// Whether it is lost. A device says so when it is asked.
+    fn is_lost(&self) -> bool {
+        if let Some(device) = &*self.device.lock().unwrap_or_else(PoisonError::into_inner) {
+            let _ = device.poll(wgpu::PollType::Poll);
+        }
+        self.is_lost.load(Ordering::Relaxed)
+    }
+}
+
 /// Opens one window, until it is closed or its device is lost.
 fn open(
     kept: &Arc<Mutex<Option<Kept>>>,
-    is_lost: &Arc<AtomicBool>,
+    lost: &Arc<Lost>,
     adapter: Option<&str>,
 ) -> Result<(), Failure> {
     let options = eframe::NativeOptions {
@@ -115,7 +141,7 @@ fn open(
         dithering: false,
         ..eframe::NativeOptions::default()
     };
-    let (creator_kept, creator_lost) = (kept.clone(), is_lost.clone());
+    let (creator_kept, creator_lost) = (kept.clone(), lost.clone());
     let made = eframe::run_native(
         APP_ID,
         options,
@@ -169,7 +195,9 @@ struct Window {
     size: [u32; 2],
     title: String,
     kept: Arc<Mutex<Option<Kept>>>,
-    is_lost: Arc<AtomicBool>,
+    lost: Arc<Lost>,
+    /// Whether the device is lost on purpose before the next frame.
+    is_to_be_lost: bool,
     faults: Arc<Mutex<Vec<String>>>,
 }
 
@@ -184,14 +212,14 @@ impl Window {
     fn new(
         context: &eframe::CreationContext,
         kept: Arc<Mutex<Option<Kept>>>,
-        is_lost: Arc<AtomicBool>,
+        lost: Arc<Lost>,
     ) -> Result<Self, String> {
         let before = kept.lock().unwrap_or_else(PoisonError::into_inner).take();
         let Kept { library, recipe, remembered, scene } =
             before.ok_or("there is nothing to show")?;
         let window = context.wgpu_render_state.clone().ok_or("the window has no device")?;
         let faults = Arc::new(Mutex::new(Vec::new()));
-        watch_device(&window.device, &context.egui_ctx, &is_lost, &faults);
+        watch_device(&window.device, &context.egui_ctx, &lost, &faults);
         let stored = || {
             let storage = context.storage?;
             eframe::get_value(storage, REMEMBERED)
@@ -217,7 +245,8 @@ impl Window {
             size: [1, 1],
             title: String::new(),
             kept,
-            is_lost,
+            lost,
+            is_to_be_lost: false,
             faults,
         };
         match scene {
@@ -377,14 +406,9 @@ impl Window {
                     self.hands.go_to(&self.session, view, time);
                     context.request_repaint();
                 }
-                // Between two frames, as it happens.
                 Request::LoseDevice => {
-                    let (device, context) = (self.canvas.gpu().device.clone(), context.clone());
-                    std::thread::spawn(move || {
-                        std::thread::sleep(Duration::from_millis(50));
-                        device.destroy();
-                        context.request_repaint();
-                    });
+                    self.is_to_be_lost = true;
+                    context.request_repaint();
                 }
                 Request::Quit => context.send_viewport_cmd(egui::ViewportCommand::Close),
             }
@@ -579,19 +603,20 @@ fn is_technique_file(path: &std::path::Path) -> bool {
 fn watch_device(
     device: &wgpu::Device,
     context: &egui::Context,
-    is_lost: &Arc<AtomicBool>,
+    lost: &Arc<Lost>,
     faults: &Arc<Mutex<Vec<String>>>,
 ) {
-    let (lost, repaint) = (is_lost.clone(), context.clone());
+    *lost.device.lock().unwrap_or_else(PoisonError::into_inner) = Some(device.clone());
+    let (told, repaint) = (lost.clone(), context.clone());
     device.set_device_lost_callback(move |reason, what| {
         log::error!("the graphics adapter was lost ({reason:?}): {what}");
-        lost.store(true, Ordering::Relaxed);
+        told.is_lost.store(true, Ordering::Relaxed);
         repaint.request_repaint();
     });
-    let (lost, faults) = (is_lost.clone(), faults.clone());
+    let (lost, faults) = (lost.clone(), faults.clone());
     device.on_uncaptured_error(Arc::new(move |error| {
         // A lost device has more to say than anyone wants to hear.
-        if lost.load(Ordering::Relaxed) {
+        if lost.is_lost.load(Ordering::Relaxed) {
             return;
         }
         let text = format!("a fault in the use of the graphics adapter, please report it: {error}");
@@ -606,9 +631,10 @@ fn watch_device(
 impl eframe::App for Window {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
-        // A device says that it is lost when it is asked.
-        let _ = self.canvas.gpu().device.poll(wgpu::PollType::Poll);
-        if self.is_lost.load(Ordering::Relaxed) {
+        if std::mem::take(&mut self.is_to_be_lost) {
+            self.lost.lose();
+        }
+        if self.lost.is_lost() {
             // Nothing is drawn on it any more.
             context.send_viewport_cmd(egui::ViewportCommand::Close);
             return;

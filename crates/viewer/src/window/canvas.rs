@@ -5,6 +5,7 @@
 //! drawn is told, and the last good picture stays.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use edgemesh::command::{ExitStatus, Failure};
 use strokes::gpu::Gpu;
@@ -24,6 +25,8 @@ pub(super) struct Canvas {
     scene: Option<Arc<Scene>>,
     sheet: Sheet,
     compared: Option<Sheet>,
+    /// When the last picture was drawn.
+    drawn_at: Option<Instant>,
 }
 
 /// A picture and what draws it.
@@ -63,7 +66,7 @@ impl Canvas {
             device: window.device.clone(),
             queue: window.queue.clone(),
         };
-        Self { gpu, window, scene: None, sheet: Sheet::default(), compared: None }
+        Self { gpu, window, scene: None, sheet: Sheet::default(), compared: None, drawn_at: None }
     }
 
     /// The device.
@@ -131,6 +134,13 @@ impl Canvas {
         let wanted = Drawn { appearance, viewpoint, size };
         if self.sheet.draw(gpu, session, &scene, wanted) {
             self.sheet.show(gpu, &self.window);
+            let before = self.drawn_at.replace(Instant::now());
+            if let Some(before) = before {
+                log::debug!(
+                    "a picture, {:.1} ms after the last",
+                    before.elapsed().as_secs_f64() * 1e3
+                );
+            }
             let renderer = self.sheet.renderer.as_ref();
             session.generated = renderer.map_or_else(Vec::new, PictureRenderer::generated_textures);
         }

@@ -102,8 +102,8 @@ pub const KEYS: &[(Key, Modifiers, Command, &str)] = &[
 ];
 
 /// The key that loses the graphics device on purpose, to see that nothing else is lost;
-/// it is on no sheet.
-const LOSE_DEVICE: (Key, Modifiers) = (Key::F9, Modifiers { shift: true, ..Modifiers::COMMAND });
+/// with Ctrl and Shift, and on no sheet.
+const LOSE_DEVICE: Key = Key::F9;
 
 impl Hands {
     /// Goes to a viewpoint, from where the window is now.
@@ -225,7 +225,8 @@ impl Hands {
         for command in pressed {
             run(command, session, size);
         }
-        if ui.input_mut(|input| input.consume_key(LOSE_DEVICE.1, LOSE_DEVICE.0)) {
+        let modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
+        if ui.input_mut(|input| input.consume_key(modifiers, LOSE_DEVICE)) {
             session.ask(Request::LoseDevice);
         }
     }
