@@ -247,7 +247,7 @@ fn a_real_window_shows_the_demo_and_follows_keys_and_pointer() {
     display.see(is_new).expect("the view from the top is another one");
     std::thread::sleep(Duration::from_secs(1));
     let top = picture(&display.look());
-    for key in ["ctrl+shift+F9", "ctrl+shift+F9"] {
+    for key in ["ctrl+shift+F9", "ctrl+shift+F10"] {
         assert!(display.hand(&["key", key]), "its graphics device is lost");
         std::thread::sleep(Duration::from_secs(2));
         display.focus();

@@ -2,183 +2,37 @@
 //! panels show; what panels ask is done.
 
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use edgemesh::command::{ExitStatus, Failure, write_file};
+use edgemesh::command::write_file;
 use egui::{CentralPanel, Panel, Sense, Ui};
-use strokes::gpu;
 
 use super::background::Background;
 use super::canvas::Canvas;
 use super::hands::Hands;
 use super::loading::{self, LoadedScene};
+use super::opening::{Kept, Lost, watch_device};
 use super::panels;
-use super::recipe::Recipe;
-use super::remembered::Remembered;
 use super::saving::{self, Order};
 use super::session::{Request, Session, Work};
 use super::style;
 use super::thumbnails::{self, Thumbnail};
 use super::watching::{Change, Watching};
-use crate::command::picture_arguments::PictureArguments;
 use crate::render::{PictureRenderer, Scene};
 use crate::scene_file::SceneObject;
-use crate::technique::library::Library;
 use crate::technique::write::written;
-
-/// What the window is called, and where it remembers.
-const APP_ID: &str = "edgemesh";
 
 /// The key under which the window remembers.
 const REMEMBERED: &str = "remembered";
 
-/// How often a lost device is replaced, within [`RECOVERY_TIME`].
-const MOST_RECOVERIES: usize = 3;
-
-/// How long recoveries count.
-const RECOVERY_TIME: Duration = Duration::from_secs(10);
-
 /// How often what the GPU tells is asked for while it is not there.
 const ASK_AGAIN: Duration = Duration::from_millis(15);
 
-/// Opens the window and returns when it is closed.
-///
-/// A device that is lost takes its window with it: another window takes its place, with
-/// the same session.
-///
-/// # Errors
-/// Where something is wrong with the command line, there is no adapter or no display, or
-/// the device was lost again and again.
-pub(crate) fn run(models: &[PathBuf], arguments: PictureArguments) -> Result<(), Failure> {
-    let library = arguments.library.load();
-    let recipe = Recipe::new(models, arguments, &library)?;
-    let adapter = recipe.arguments.adapter.clone();
-    let kept = Arc::new(Mutex::new(Some(Kept { library, recipe, remembered: None, scene: None })));
-    let mut losses: Vec<Instant> = Vec::new();
-    loop {
-        let lost = Arc::new(Lost::default());
-        // The window system's side of the window panics where it draws with a device that
-        // is lost in that very frame.
-        let open = || open(&kept, &lost, adapter.as_deref());
-        let opened = std::panic::catch_unwind(std::panic::AssertUnwindSafe(open));
-        let has_kept = kept.lock().unwrap_or_else(PoisonError::into_inner).is_some();
-        if !lost.is_lost() || !has_kept {
-            return opened.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        }
-        losses.push(Instant::now());
-        losses.retain(|loss| loss.elapsed() < RECOVERY_TIME);
-        if losses.len() > MOST_RECOVERIES {
-            return Err(Failure {
-                message: format!(
-                    "the graphics adapter was lost {} times within {} seconds; try another one \
-                     with --adapter, or a newer driver",
-                    losses.len(),
-                    RECOVERY_TIME.as_secs()
-                ),
-                status: ExitStatus::NoAdapter,
-            });
-        }
-        log::warn!("the graphics adapter was lost; the window opens again");
-    }
-}
-
-/// What goes on from one window to the next.
-struct Kept {
-    library: Library,
-    recipe: Recipe,
-    /// None before the first window.
-    remembered: Option<Remembered>,
-    /// The models, where they were there.
-    scene: Option<(Arc<Scene>, Vec<SceneObject>)>,
-}
-
-/// What is known of a device that may be lost.
-#[derive(Debug, Default)]
-struct Lost {
-    is_lost: AtomicBool,
-    device: Mutex<Option<wgpu::Device>>,
-}
-
-impl Lost {
-    /// Destroys the device. It tells so later than one that is really lost, so it is noted
-    /// here.
-    fn lose(&self) {
-        self.is_lost.store(true, Ordering::Relaxed);
-        if let Some(device) = &*self.device.lock().unwrap_or_else(PoisonError::into_inner) {
-            device.destroy();
-        }
-    }
-
-    /// Whether it is lost. A device says so when it is asked.
-    fn is_lost(&self) -> bool {
-        if let Some(device) = &*self.device.lock().unwrap_or_else(PoisonError::into_inner) {
-            let _ = device.poll(wgpu::PollType::Poll);
-        }
-        self.is_lost.load(Ordering::Relaxed)
-    }
-}
-
-/// Opens one window, until it is closed or its device is lost.
-fn open(
-    kept: &Arc<Mutex<Option<Kept>>>,
-    lost: &Arc<Lost>,
-    adapter: Option<&str>,
-) -> Result<(), Failure> {
-    let options = eframe::NativeOptions {
-        viewport: egui::ViewportBuilder::default()
-            .with_title("Edgemesh")
-            .with_app_id(APP_ID)
-            .with_inner_size([1280.0, 800.0])
-            .with_min_inner_size([320.0, 240.0]),
-        wgpu_options: egui_wgpu::WgpuConfiguration {
-            wgpu_setup: window_setup(adapter).into(),
-            ..egui_wgpu::WgpuConfiguration::default()
-        },
-        // What is drawn is drawn with the colours that files have.
-        dithering: false,
-        ..eframe::NativeOptions::default()
-    };
-    let (creator_kept, creator_lost) = (kept.clone(), lost.clone());
-    let made = eframe::run_native(
-        APP_ID,
-        options,
-        Box::new(move |context| Ok(Box::new(Window::new(context, creator_kept, creator_lost)?))),
-    );
-    made.map_err(|error| window_failure(&error))
-}
-
-/// The adapter and the device, asked for as `viewer render` does.
-fn window_setup(adapter: Option<&str>) -> egui_wgpu::WgpuSetupCreateNew {
-    let mut setup = egui_wgpu::WgpuSetupCreateNew::without_display_handle();
-    setup.instance_descriptor.backends = gpu::backends();
-    let wanted = adapter.map(str::to_lowercase);
-    setup.native_adapter_selector = Some(Arc::new(move |adapters, surface| {
-        gpu::choose(adapters, wanted.as_deref(), surface).map_err(|error| error.to_string())
-    }));
-    setup.device_descriptor = Arc::new(gpu::device_descriptor);
-    setup
-}
-
-fn window_failure(error: &eframe::Error) -> Failure {
-    match error {
-        eframe::Error::Wgpu(error) => {
-            let text = error.to_string();
-            let message = text.strip_prefix("Adapter selection failed: ").unwrap_or(&text);
-            Failure { message: message.to_owned(), status: ExitStatus::NoAdapter }
-        }
-        eframe::Error::AppCreation(error) => Failure::fault(error.to_string()),
-        error => Failure::fault(format!(
-            "no window can be opened: {error}; is there a display? (DISPLAY or WAYLAND_DISPLAY \
-             says which.) viewer render draws without one"
-        )),
-    }
-}
-
 /// The window.
-struct Window {
+pub(super) struct Window {
     session: Session,
     canvas: Canvas,
     hands: Hands,
@@ -196,8 +50,8 @@ struct Window {
     title: String,
     kept: Arc<Mutex<Option<Kept>>>,
     lost: Arc<Lost>,
-    /// Whether the device is lost on purpose before the next frame.
-    is_to_be_lost: bool,
+    /// Whether the device is lost on purpose: before a frame or within one.
+    is_to_be_lost: Option<bool>,
     faults: Arc<Mutex<Vec<String>>>,
 }
 
@@ -209,14 +63,13 @@ enum Arrival {
 }
 
 impl Window {
-    fn new(
+    pub(super) fn new(
         context: &eframe::CreationContext,
         kept: Arc<Mutex<Option<Kept>>>,
         lost: Arc<Lost>,
     ) -> Result<Self, String> {
         let before = kept.lock().unwrap_or_else(PoisonError::into_inner).take();
-        let Kept { library, recipe, remembered, scene } =
-            before.ok_or("there is nothing to show")?;
+        let Kept { recipe, remembered, scene } = before.ok_or("there is nothing to show")?;
         let window = context.wgpu_render_state.clone().ok_or("the window has no device")?;
         let faults = Arc::new(Mutex::new(Vec::new()));
         watch_device(&window.device, &context.egui_ctx, &lost, &faults);
@@ -227,6 +80,7 @@ impl Window {
         let remembered = remembered.or_else(stored).unwrap_or_default();
         style::apply(&context.egui_ctx);
         let canvas = Canvas::new(window);
+        let library = recipe.arguments.library.load();
         let mut session = Session::new(library, recipe, remembered);
         session.adapter.clone_from(&canvas.gpu().info.name);
         let models = session.recipe.models.clone();
@@ -246,20 +100,20 @@ impl Window {
             title: String::new(),
             kept,
             lost,
-            is_to_be_lost: false,
+            is_to_be_lost: None,
             faults,
         };
         match scene {
             Some((scene, objects)) => this.take_scene(models, scene, objects, None),
             None => this.load(models, &context.egui_ctx),
         }
+        this.keep();
         Ok(this)
     }
 
     /// Leaves what the next window needs, should this one lose its device.
     fn keep(&self) {
         *self.kept.lock().unwrap_or_else(PoisonError::into_inner) = Some(Kept {
-            library: self.session.library.clone(),
             recipe: self.session.recipe.clone(),
             remembered: Some(self.session.remembered.clone()),
             scene: self.session.scene.clone().map(|scene| (scene, self.session.objects.clone())),
@@ -406,12 +260,19 @@ impl Window {
                     self.hands.go_to(&self.session, view, time);
                     context.request_repaint();
                 }
-                Request::LoseDevice => {
-                    self.is_to_be_lost = true;
+                Request::LoseDevice { is_within_frame } => {
+                    self.is_to_be_lost = Some(is_within_frame);
                     context.request_repaint();
                 }
                 Request::Quit => context.send_viewport_cmd(egui::ViewportCommand::Close),
             }
+        }
+    }
+
+    fn lose_where_wanted(&mut self, is_within_frame: bool) {
+        if self.is_to_be_lost == Some(is_within_frame) {
+            self.is_to_be_lost = None;
+            self.lost.lose();
         }
     }
 
@@ -599,41 +460,11 @@ fn is_technique_file(path: &std::path::Path) -> bool {
     text.lines().any(|line| line.trim_start().starts_with("[[pass]]"))
 }
 
-/// Has a lost device and faults of ours told instead of ending the program.
-fn watch_device(
-    device: &wgpu::Device,
-    context: &egui::Context,
-    lost: &Arc<Lost>,
-    faults: &Arc<Mutex<Vec<String>>>,
-) {
-    *lost.device.lock().unwrap_or_else(PoisonError::into_inner) = Some(device.clone());
-    let (told, repaint) = (lost.clone(), context.clone());
-    device.set_device_lost_callback(move |reason, what| {
-        log::error!("the graphics adapter was lost ({reason:?}): {what}");
-        told.is_lost.store(true, Ordering::Relaxed);
-        repaint.request_repaint();
-    });
-    let (lost, faults) = (lost.clone(), faults.clone());
-    device.on_uncaptured_error(Arc::new(move |error| {
-        // A lost device has more to say than anyone wants to hear.
-        if lost.is_lost.load(Ordering::Relaxed) {
-            return;
-        }
-        let text = format!("a fault in the use of the graphics adapter, please report it: {error}");
-        log::error!("{text}");
-        let mut faults = faults.lock().unwrap_or_else(PoisonError::into_inner);
-        if !faults.contains(&text) {
-            faults.push(text);
-        }
-    }));
-}
-
 impl eframe::App for Window {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
-        if std::mem::take(&mut self.is_to_be_lost) {
-            self.lost.lose();
-        }
+        self.lose_where_wanted(false);
+        self.lost.is_shown.store(true, Ordering::Relaxed);
         if self.lost.is_lost() {
             // Nothing is drawn on it any more.
             context.send_viewport_cmd(egui::ViewportCommand::Close);
@@ -669,6 +500,8 @@ impl eframe::App for Window {
         }
         self.answer(&context, time);
         self.hold_close(&context);
+        // Within a frame: what is painted after this finds no device.
+        self.lose_where_wanted(true);
         let title = format!("{} – Edgemesh", self.session.recipe.title());
         if title != self.title {
             context.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));

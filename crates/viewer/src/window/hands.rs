@@ -40,7 +40,7 @@ pub enum Command {
     Fit,
     /// The first view.
     Home,
-    /// A quarter turn of the picture, to the left or to the right.
+    /// Fifteen degrees around the line of sight, to the left or, where true, to the right.
     Roll(bool),
     /// Marking by hand on and off.
     Mark,
@@ -101,9 +101,9 @@ pub const KEYS: &[(Key, Modifiers, Command, &str)] = &[
     (Key::Q, Modifiers::COMMAND, Command::Quit, "quit"),
 ];
 
-/// The key that loses the graphics device on purpose, to see that nothing else is lost;
-/// with Ctrl and Shift, and on no sheet.
-const LOSE_DEVICE: Key = Key::F9;
+/// The keys that lose the graphics device on purpose, before a frame and within one, to see
+/// that nothing else is lost; with Ctrl and Shift, and on no sheet.
+const LOSE_DEVICE: [(Key, bool); 2] = [(Key::F9, false), (Key::F10, true)];
 
 impl Hands {
     /// Goes to a viewpoint, from where the window is now.
@@ -226,8 +226,10 @@ impl Hands {
             run(command, session, size);
         }
         let modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
-        if ui.input_mut(|input| input.consume_key(modifiers, LOSE_DEVICE)) {
-            session.ask(Request::LoseDevice);
+        for (key, is_within_frame) in LOSE_DEVICE {
+            if ui.input_mut(|input| input.consume_key(modifiers, key)) {
+                session.ask(Request::LoseDevice { is_within_frame });
+            }
         }
     }
 }

@@ -13,6 +13,7 @@
 //! - `canvas`: the session as a picture, drawn when something changed.
 //! - `inspection`: what passes draw for each other, shown. `marking`: edges marked by hand.
 //!   `saving`, `thumbnails`: pictures drawn on the side.
+//! - `opening`: the window opens, and again where its device was lost.
 //! - `app`: one frame of the window. `hands`: pointer and keys. `panels`: what is beside the picture.
 
 mod app;
@@ -24,6 +25,7 @@ pub mod loading;
 pub mod marking;
 pub mod messages;
 pub mod navigation;
+mod opening;
 pub mod panels;
 pub mod picking;
 pub mod recipe;
@@ -35,4 +37,4 @@ pub mod thumbnails;
 pub mod viewpoint;
 pub mod watching;
 
-pub(crate) use app::run;
+pub(crate) use opening::run;

@@ -119,7 +119,10 @@ pub enum Request {
     /// Close the window.
     Quit,
     /// Lose the graphics device, to see what happens.
-    LoseDevice,
+    LoseDevice {
+        /// Within a frame, or before one.
+        is_within_frame: bool,
+    },
 }
 
 /// A pass that takes longer makes the window wait, in milliseconds.
@@ -238,21 +241,22 @@ impl Session {
         recipe.arguments.adapter.clone_from(&own.adapter);
         let is_there = recipe.models.iter().all(|path| path.is_file() || path == Path::new(DEMO));
         let is_open = recipe.models == self.recipe.models;
-        self.recipe.appearance = recipe.appearance;
         if is_open || !is_there {
-            let arguments = self.recipe.arguments.clone();
-            self.recipe.arguments = recipe.arguments;
             if let Some(scene) = &self.scene {
-                self.recipe.take_viewpoint(&scene.bounds, &scene.frame)?;
+                recipe.take_viewpoint(&scene.bounds, &scene.frame)?;
+                self.recipe.viewpoint = recipe.viewpoint;
             }
-            if !is_open {
-                // The models were read as they were.
-                self.recipe.arguments = arguments;
+            self.recipe.appearance = recipe.appearance;
+            if is_open {
+                self.recipe.arguments = recipe.arguments;
+            } else {
+                // The models that are open were read as the arguments say that are here.
                 let names = crate::window::remembered::name_of(&recipe.models);
                 self.messages.note(format!("{names} is not there; the rest was taken"));
             }
             return Ok(None);
         }
+        self.recipe.appearance = recipe.appearance;
         let models = recipe.models;
         (self.recipe.arguments, self.recipe.viewpoint) = (recipe.arguments, None);
         Ok(Some(models))

@@ -1,0 +1,197 @@
+//! Opens the window, and opens another one where the graphics device was lost: the device
+//! is the window's too, so it cannot be replaced beneath it.
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use edgemesh::command::{ExitStatus, Failure};
+use strokes::gpu;
+
+use super::app::Window;
+use super::recipe::Recipe;
+use super::remembered::Remembered;
+use crate::command::picture_arguments::PictureArguments;
+use crate::render::Scene;
+use crate::scene_file::SceneObject;
+
+/// What the window is called, and where it remembers.
+const APP_ID: &str = "edgemesh";
+
+/// How often a lost device is replaced, within [`RECOVERY_TIME`].
+const MOST_RECOVERIES: usize = 3;
+
+/// How long recoveries count.
+const RECOVERY_TIME: Duration = Duration::from_secs(10);
+
+/// Opens the window and returns when it is closed.
+///
+/// A device that is lost takes its window with it: another window takes its place, with
+/// the same session.
+///
+/// # Errors
+/// Where something is wrong with the command line, there is no adapter or no display, or
+/// the device was lost again and again.
+pub(crate) fn run(models: &[PathBuf], arguments: PictureArguments) -> Result<(), Failure> {
+    let library = arguments.library.load();
+    let recipe = Recipe::new(models, arguments, &library)?;
+    let adapter = recipe.arguments.adapter.clone();
+    let kept = Arc::new(Mutex::new(Some(Kept { recipe, remembered: None, scene: None })));
+    let mut losses: Vec<Instant> = Vec::new();
+    let mut is_after_panic = false;
+    loop {
+        let lost = Arc::new(Lost::default());
+        // The window system's side of the window panics where it draws with a device that
+        // is lost in that very frame.
+        let open = || open(&kept, &lost, adapter.as_deref());
+        let opened = std::panic::catch_unwind(std::panic::AssertUnwindSafe(open));
+        let has_kept = kept.lock().unwrap_or_else(PoisonError::into_inner).is_some();
+        let is_unseen = !lost.is_shown.load(Ordering::Relaxed);
+        if is_after_panic && is_unseen && has_kept && matches!(opened, Ok(Ok(()))) {
+            // The event loop that a panic has left ends once more before it begins.
+            is_after_panic = false;
+            continue;
+        }
+        is_after_panic = opened.is_err();
+        if !lost.is_lost() || !has_kept {
+            return opened.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        }
+        losses.push(Instant::now());
+        losses.retain(|loss| loss.elapsed() < RECOVERY_TIME);
+        if losses.len() > MOST_RECOVERIES {
+            return Err(Failure {
+                message: format!(
+                    "the graphics adapter was lost {} times within {} seconds; try another one \
+                     with --adapter, or a newer driver",
+                    losses.len(),
+                    RECOVERY_TIME.as_secs()
+                ),
+                status: ExitStatus::NoAdapter,
+            });
+        }
+        log::warn!("the graphics adapter was lost; the window opens again");
+    }
+}
+
+/// What goes on from one window to the next.
+pub(super) struct Kept {
+    pub(super) recipe: Recipe,
+    /// None before the first window.
+    pub(super) remembered: Option<Remembered>,
+    /// The models, where they were there.
+    pub(super) scene: Option<(Arc<Scene>, Vec<SceneObject>)>,
+}
+
+/// What is known of a device that may be lost.
+#[derive(Debug, Default)]
+pub(super) struct Lost {
+    is_lost: AtomicBool,
+    device: Mutex<Option<wgpu::Device>>,
+    /// Whether the window had a frame.
+    pub(super) is_shown: AtomicBool,
+}
+
+impl Lost {
+    /// Destroys the device. It tells so later than one that is really lost, so it is noted
+    /// here.
+    pub(super) fn lose(&self) {
+        self.is_lost.store(true, Ordering::Relaxed);
+        if let Some(device) = &*self.device.lock().unwrap_or_else(PoisonError::into_inner) {
+            device.destroy();
+        }
+    }
+
+    /// Whether it is lost. A device says so when it is asked.
+    pub(super) fn is_lost(&self) -> bool {
+        if let Some(device) = &*self.device.lock().unwrap_or_else(PoisonError::into_inner) {
+            let _ = device.poll(wgpu::PollType::Poll);
+        }
+        self.is_lost.load(Ordering::Relaxed)
+    }
+}
+
+/// Opens one window, until it is closed or its device is lost.
+fn open(
+    kept: &Arc<Mutex<Option<Kept>>>,
+    lost: &Arc<Lost>,
+    adapter: Option<&str>,
+) -> Result<(), Failure> {
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title("Edgemesh")
+            .with_app_id(APP_ID)
+            .with_inner_size([1280.0, 800.0])
+            .with_min_inner_size([320.0, 240.0]),
+        wgpu_options: egui_wgpu::WgpuConfiguration {
+            wgpu_setup: window_setup(adapter).into(),
+            ..egui_wgpu::WgpuConfiguration::default()
+        },
+        // What is drawn is drawn with the colours that files have.
+        dithering: false,
+        ..eframe::NativeOptions::default()
+    };
+    let (creator_kept, creator_lost) = (kept.clone(), lost.clone());
+    let made = eframe::run_native(
+        APP_ID,
+        options,
+        Box::new(move |context| Ok(Box::new(Window::new(context, creator_kept, creator_lost)?))),
+    );
+    made.map_err(|error| window_failure(&error))
+}
+
+/// The adapter and the device, asked for as `viewer render` does.
+fn window_setup(adapter: Option<&str>) -> egui_wgpu::WgpuSetupCreateNew {
+    let mut setup = egui_wgpu::WgpuSetupCreateNew::without_display_handle();
+    setup.instance_descriptor.backends = gpu::backends();
+    let wanted = adapter.map(str::to_owned);
+    setup.native_adapter_selector = Some(Arc::new(move |adapters, surface| {
+        gpu::choose(adapters, wanted.as_deref(), surface).map_err(|error| error.to_string())
+    }));
+    setup.device_descriptor = Arc::new(gpu::device_descriptor);
+    setup
+}
+
+fn window_failure(error: &eframe::Error) -> Failure {
+    match error {
+        eframe::Error::Wgpu(error) => {
+            let text = error.to_string();
+            let message = text.strip_prefix("Adapter selection failed: ").unwrap_or(&text);
+            Failure { message: message.to_owned(), status: ExitStatus::NoAdapter }
+        }
+        eframe::Error::AppCreation(error) => Failure::fault(error.to_string()),
+        error => Failure::fault(format!(
+            "no window can be opened: {error}; is there a display? (DISPLAY or WAYLAND_DISPLAY \
+             says which.) viewer render draws without one"
+        )),
+    }
+}
+
+/// Has a lost device and faults of ours told instead of ending the program.
+pub(super) fn watch_device(
+    device: &wgpu::Device,
+    context: &egui::Context,
+    lost: &Arc<Lost>,
+    faults: &Arc<Mutex<Vec<String>>>,
+) {
+    *lost.device.lock().unwrap_or_else(PoisonError::into_inner) = Some(device.clone());
+    let (told, repaint) = (lost.clone(), context.clone());
+    device.set_device_lost_callback(move |reason, what| {
+        log::error!("the graphics adapter was lost ({reason:?}): {what}");
+        told.is_lost.store(true, Ordering::Relaxed);
+        repaint.request_repaint();
+    });
+    let (lost, faults) = (lost.clone(), faults.clone());
+    device.on_uncaptured_error(Arc::new(move |error| {
+        // A lost device has more to say than anyone wants to hear.
+        if lost.is_lost.load(Ordering::Relaxed) {
+            return;
+        }
+        let text = format!("a fault in the use of the graphics adapter, please report it: {error}");
+        log::error!("{text}");
+        let mut faults = faults.lock().unwrap_or_else(PoisonError::into_inner);
+        if !faults.contains(&text) {
+            faults.push(text);
+        }
+    }));
+}
