@@ -168,5 +168,5 @@ fn is_own_surface(edge: f32, filled: f32) -> bool {
     // A wall seen nearly edge on comes nearer by its whole length within a pixel;
     // and as far its fill is pushed back, by a pixel of slope.
     let away_px = abs(edge_distance - distance_of(filled)) * px_per_unit_at(edge_distance);
-    return away_px <= OWN_REACH * frame.viewport_px.y;
+    return away_px <= OWN_REACH * frame.picture_px.y;
 }

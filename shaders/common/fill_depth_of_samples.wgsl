@@ -11,3 +11,7 @@ fn filled_depths(pixel: vec2i) -> vec4f {
         textureLoad(fill_depth, pixel, 3),
     );
 }
+
+fn filled_size() -> vec2u {
+    return vec2u(textureDimensions(fill_depth));
+}

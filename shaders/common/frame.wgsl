@@ -2,12 +2,19 @@
 // Rust twins: FrameUniform and ObjectUniform in crates/strokes/src/frame.rs.
 
 struct FrameUniform {
+    // Size of what is drawn: the picture, or a part of it.
     viewport_px: vec2f,
     // Pixels a unit of the world has at w = 1.
     px_per_unit: f32,
     clip_plane_count: u32,
     // At a distance d along the line of sight, clip z is x d + y and w is z d + w.
     projection: vec4f,
+    // Size of the whole picture.
+    picture_px: vec2f,
+    // The upper left corner of what is drawn, from that of the picture.
+    corner_px: vec2f,
+    // Where edges are clipped at the sides: left, right, bottom, top, at w = 1.
+    guard_band: vec4f,
     // Takes points of clip space back to the world.
     world_from_clip: mat4x4f,
     // The eye with w = 1, or the direction to the viewer with w = 0.
@@ -40,6 +47,7 @@ struct ObjectUniform {
     eye: vec4f,
     // The distance from the eye along the line of sight is dot(position, this).
     distance: vec4f,
+    // The object's origin on the screen, from the middle of what is drawn.
     origin_px: vec2f,
     // -1 where the object is seen as in a mirror, else 1.
     mirror: f32,
@@ -83,7 +91,14 @@ fn is_cut_away(point_in_world: vec3f) -> bool {
     return false;
 }
 
-// The point of the world at a place of the picture, in pixels, and a depth.
+// The middle of what is drawn, in pixels from the middle of the picture, y up; twin:
+// PicturePart::middle_px in crates/strokes/src/picture_part.rs.
+fn middle_px() -> vec2f {
+    let from_corner = frame.corner_px + 0.5 * (frame.viewport_px - frame.picture_px);
+    return vec2f(from_corner.x, -from_corner.y);
+}
+
+// The point of the world at a place of what is drawn, in pixels, and a depth.
 fn world_of(place_px: vec2f, depth: f32) -> vec3f {
     let across = place_px / frame.viewport_px;
     let clip = vec4f(2.0 * across.x - 1.0, 1.0 - 2.0 * across.y, depth, 1.0);

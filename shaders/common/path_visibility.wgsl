@@ -3,6 +3,9 @@
 // Creases ask where they are: the fill is pushed back behind them. A contour asks
 // beside itself, off the surface that it bounds, as its fragments do where strokes are
 // not linked (stroke_over_surface.wgsl). Half of the samples of a pixel decide.
+//
+// Where a part of a picture is drawn, the depth is that of the whole, in larger pixels:
+// so all parts agree on where a stroke begins and ends.
 #import <common/path.wgsl>
 #import <common/silhouette.wgsl>
 #import <common/fill_depth.wgsl>
@@ -30,7 +33,8 @@ fn visibility_at(
     draw: u32,
 ) -> u32 {
     // A contour's front is on its left, but in a mirror.
-    let outward = object.mirror * vec2f(direction.y, -direction.x);
+    let pixel_px = filled_pixel_px();
+    let outward = pixel_px * object.mirror * vec2f(direction.y, -direction.x);
     let foot = place + select(vec2f(0.0), outward * FOOT_PX, on_contour);
     if !is_in_picture(foot) {
         // Beyond the picture nothing is known to hide it.
@@ -42,7 +46,7 @@ fn visibility_at(
         let nearest = distance_of(max(max(filled.x, filled.y), max(filled.z, filled.w)));
         let here = distance_of(depth);
         let before_px = (here - nearest) * px_per_unit_at(here);
-        return select(SEEN_NOT, SEEN_ALMOST, before_px < GRAZED_PX);
+        return select(SEEN_NOT, SEEN_ALMOST, before_px < GRAZED_PX * pixel_px);
     }
     if paths[draw].visibility != SILHOUETTE_STROKES {
         return SEEN;
@@ -52,12 +56,19 @@ fn visibility_at(
     return select(SEEN_NOT, SEEN, is_around);
 }
 
-fn is_in_picture(place: vec2f) -> bool {
-    return all(abs(place) < 0.5 * frame.viewport_px);
+// How many pixels of the picture one of the depth is.
+fn filled_pixel_px() -> f32 {
+    return frame.picture_px.y / vec2f(filled_size()).y;
 }
 
-// The pixel of a place in pixels from the middle of the picture, y up.
+fn is_in_picture(place: vec2f) -> bool {
+    return all(abs(place + middle_px()) < 0.5 * frame.picture_px);
+}
+
+// The pixel of the depth at a place in pixels from the middle of what is drawn, y up.
 fn pixel_of(place: vec2f) -> vec2i {
-    let at = vec2f(place.x, -place.y) + 0.5 * frame.viewport_px;
-    return clamp(vec2i(floor(at)), vec2i(0), vec2i(frame.viewport_px) - 1);
+    let from_middle = place + middle_px();
+    let at = vec2f(from_middle.x, -from_middle.y) + 0.5 * frame.picture_px;
+    let size = vec2f(filled_size());
+    return clamp(vec2i(floor(at / (frame.picture_px / size))), vec2i(0), vec2i(size) - 1);
 }

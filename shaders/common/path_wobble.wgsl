@@ -19,8 +19,10 @@ fn wobble_at(place: vec2f, depth: f32, draw: u32) -> f32 {
     // Pixels that a unit of the object has there.
     let m = object.clip_from_object;
     let clip_w = 1.0 / moved.w;
-    let px_per_unit =
-        length(vec3f(m[0].y, m[1].y, m[2].y)) * 0.5 * frame.viewport_px.y / max(clip_w, 1e-6);
+    // Up in the whole picture: what is added for a part of it goes by w.
+    let up_px = 0.5 * frame.viewport_px.y * vec3f(m[0].y, m[1].y, m[2].y)
+        + middle_px().y * vec3f(m[0].w, m[1].w, m[2].w);
+    let px_per_unit = length(up_px) / max(clip_w, 1e-6);
     let seed = u32(style.seed);
     return style.wobble_px * noise_of(position, style.wobble_length_px / px_per_unit, seed)
         + style.jitter_px * noise_of(position, JITTER_LENGTH_PX / px_per_unit, seed + 1u);

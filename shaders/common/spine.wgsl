@@ -1,11 +1,11 @@
 // The spine: an edge clipped in clip space and projected to pixels from the
-// middle of the picture, y up. Rust twin: crates/edgemesh/src/oracle/spine.rs.
+// middle of what is drawn, y up. Rust twin: crates/edgemesh/src/oracle/spine.rs, which
+// knows whole pictures only.
 //
 //            p      left of the edge
 //            ^
 //   s0 ------+-----> s1
 
-const GUARD_BAND: f32 = 4.0;
 const MIN_LENGTH_PX: f32 = 1e-4;
 
 struct Spine {
@@ -18,15 +18,15 @@ struct Spine {
     t1: f32,
 }
 
-// The parameters of what the near plane and the guard band leave; t0 > t1 where
-// they leave nothing.
-fn clip_segment(c0: vec4f, c1: vec4f) -> vec2f {
+// The parameters of what the near plane and the guard band (left, right, bottom, top,
+// at w = 1) leave; t0 > t1 where they leave nothing.
+fn clip_segment(c0: vec4f, c1: vec4f, band: vec4f) -> vec2f {
     var range = vec2f(0.0, 1.0);
     range = clip_by_plane(range, c0.w - c0.z, c1.w - c1.z);
-    range = clip_by_plane(range, GUARD_BAND * c0.w - c0.x, GUARD_BAND * c1.w - c1.x);
-    range = clip_by_plane(range, GUARD_BAND * c0.w + c0.x, GUARD_BAND * c1.w + c1.x);
-    range = clip_by_plane(range, GUARD_BAND * c0.w - c0.y, GUARD_BAND * c1.w - c1.y);
-    return clip_by_plane(range, GUARD_BAND * c0.w + c0.y, GUARD_BAND * c1.w + c1.y);
+    range = clip_by_plane(range, band.y * c0.w - c0.x, band.y * c1.w - c1.x);
+    range = clip_by_plane(range, c0.x - band.x * c0.w, c1.x - band.x * c1.w);
+    range = clip_by_plane(range, band.w * c0.w - c0.y, band.w * c1.w - c1.y);
+    return clip_by_plane(range, c0.y - band.z * c0.w, c1.y - band.z * c1.w);
 }
 
 fn clip_by_plane(range: vec2f, d0: f32, d1: f32) -> vec2f {
@@ -43,8 +43,8 @@ fn clip_by_plane(range: vec2f, d0: f32, d1: f32) -> vec2f {
     return range;
 }
 
-fn project_spine(c0: vec4f, c1: vec4f, viewport_px: vec2f) -> Spine {
-    let range = clip_segment(c0, c1);
+fn project_spine(c0: vec4f, c1: vec4f, viewport_px: vec2f, band: vec4f) -> Spine {
+    let range = clip_segment(c0, c1, band);
     var spine = Spine();
     spine.t0 = range.x;
     spine.t1 = range.y;

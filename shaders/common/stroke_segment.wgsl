@@ -50,6 +50,8 @@ struct StrokeShape {
     parameterization: u32,
     // Whether the width is in units of the world, else in pixels.
     is_world_width: bool,
+    // Where edges are clipped at the sides: left, right, bottom, top, at w = 1.
+    guard_band: vec4f,
 }
 
 struct Segment {
@@ -79,7 +81,7 @@ struct Segment {
 
 fn stroke_segment(edge: ClipEdge, shape: StrokeShape, bits: u32) -> Segment {
     var segment = Segment();
-    let spine = project_spine(edge.c0, edge.c1, shape.viewport_px);
+    let spine = project_spine(edge.c0, edge.c1, shape.viewport_px, shape.guard_band);
     segment.spine = spine;
     segment.is_drawn = any(spine.p != vec2f(0.0));
     if !segment.is_drawn {

@@ -41,6 +41,7 @@ fn stroke_shape() -> StrokeShape {
         stroke.placement,
         stroke.parameterization,
         stroke.is_world_width != 0u,
+        frame.guard_band,
     );
 }
 

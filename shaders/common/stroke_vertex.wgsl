@@ -136,7 +136,7 @@ fn of_end(values: vec2f, is_end: bool) -> f32 {
 // vertex normals. Corners as those of the quad, 2 and 3 pushed out.
 fn fin_vertex(edge: ClipEdge, shape: StrokeShape, corner: u32) -> StrokeVertex {
     let hidden = unseen_vertex();
-    let spine = project_spine(edge.c0, edge.c1, shape.viewport_px);
+    let spine = project_spine(edge.c0, edge.c1, shape.viewport_px, shape.guard_band);
     if all(spine.p == vec2f(0.0)) {
         return hidden;
     }

@@ -61,7 +61,7 @@ fn link_node(entry: u32, edge: u32) -> LinkNode {
         c0 = c1;
         c1 = last;
     }
-    let spine = project_spine(c0, c1, frame.viewport_px);
+    let spine = project_spine(c0, c1, frame.viewport_px, frame.guard_band);
     let is_unseen = spine.t0 >= spine.t1;
     return LinkNode(
         spine.s0,

@@ -229,7 +229,7 @@ fn width_of(style: PathUniform, depth: f32) -> f32 {
         return style.width;
     }
     // At the eye a width has no bound; more than the picture is not seen.
-    return min(style.width * px_per_unit_at(distance_of(depth)), frame.viewport_px.y);
+    return min(style.width * px_per_unit_at(distance_of(depth)), frame.picture_px.y);
 }
 
 fn taper_of(style: PathUniform, arc_px: f32, total_px: f32) -> f32 {

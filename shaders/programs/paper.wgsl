@@ -24,12 +24,12 @@ fn paper_at(pixel: vec2f) -> vec4f {
 // All over.
 @fragment
 fn sheet(at: ScreenVarying) -> @location(0) vec4f {
-    return paper_at(at.position.xy);
+    return paper_at(at.position.xy + frame.corner_px);
 }
 
 // On the surfaces of the scene.
 @fragment
 fn surface(at: SurfaceVarying) -> @location(0) vec4f {
     cut(at);
-    return paper_at(at.position.xy);
+    return paper_at(at.position.xy + frame.corner_px);
 }

@@ -7,9 +7,10 @@ use edgemesh::index::to_u32;
 use edgemesh::oracle::feature::eye_is_outside;
 use edgemesh::oracle::spine::to_pixels;
 use edgemesh::replicate::Quantization;
-use glam::{DMat3, DMat4, Mat4, Vec2, Vec4};
+use glam::{DMat3, DMat4, Mat4, Vec4};
 use wgpu::util::DeviceExt as _;
 
+use crate::picture_part::PicturePart;
 use crate::targets::{TargetFormats, Targets};
 
 /// The uniform of a view: `@group(0)` everywhere. WGSL twin:
@@ -17,7 +18,7 @@ use crate::targets::{TargetFormats, Targets};
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct FrameUniform {
-    /// Size of the picture.
+    /// Size of what is drawn: the picture, or a part of it.
     pub viewport_px: [f32; 2],
     /// Pixels that a unit of the world has at w = 1.
     pub px_per_unit: f32,
@@ -25,6 +26,12 @@ pub struct FrameUniform {
     pub clip_plane_count: u32,
     /// At a distance d along the line of sight, clip z is x d + y, and w is z d + w.
     pub projection: [f32; 4],
+    /// Size of the whole picture.
+    pub picture_px: [f32; 2],
+    /// The upper left corner of what is drawn, from that of the picture.
+    pub corner_px: [f32; 2],
+    /// Where edges are clipped at the sides: left, right, bottom, top, at w = 1.
+    pub guard_band: [f32; 4],
     /// Takes points of clip space back to the world.
     pub world_from_clip: [[f32; 4]; 4],
     /// The eye with w = 1, or the direction to the viewer with w = 0.
@@ -72,24 +79,27 @@ impl Default for Surroundings {
 }
 
 impl FrameUniform {
-    /// The uniform of `view` on a picture of `viewport_px`.
+    /// The uniform of `view` on a part of a picture; `view` sees the whole.
     #[must_use]
-    pub fn new(view: &View, viewport_px: Vec2, around: &Surroundings) -> Self {
+    pub fn new(view: &View, part: &PicturePart, around: &Surroundings) -> Self {
         // How long the row that makes y is, in units of the clip volume.
         let y_row = view.clip_from_world.row(1).truncate();
-        let px_per_unit = y_row.length() * viewport_px.y * 0.5;
+        let px_per_unit = y_row.length() * part.picture_px.y * 0.5;
         let [[z_scale, z_offset], [w_scale, w_offset]] =
             [2, 3].map(|row| along_sight(view.clip_from_world.row(row), view.distance));
         // Rows of the view's matrix, but for the projection's scale.
         let axis = |row: usize| view.clip_from_world.row(row).truncate().normalize_or_zero();
         let mut clip_planes = [[0.0; 4]; MAX_CLIP_PLANES];
         clip_planes.iter_mut().zip(&around.clip_planes).for_each(|(plane, given)| *plane = *given);
-        let world_from_clip = view.clip_from_world.as_dmat4().inverse().as_mat4();
+        let world_from_clip = part.view(view).clip_from_world.as_dmat4().inverse().as_mat4();
         Self {
-            viewport_px: viewport_px.to_array(),
+            viewport_px: part.size_px.to_array(),
             px_per_unit,
             clip_plane_count: to_u32(around.clip_planes.len().min(MAX_CLIP_PLANES)),
             projection: [z_scale, z_offset, w_scale, w_offset],
+            picture_px: part.picture_px.to_array(),
+            corner_px: part.corner_px.to_array(),
+            guard_band: part.guard_band(),
             world_from_clip: world_from_clip.to_cols_array_2d(),
             eye: view.eye.to_array(),
             sight: view.distance.to_array(),
@@ -99,6 +109,16 @@ impl FrameUniform {
             light_color: around.light_color,
             scene_radius: around.scene_radius,
             clip_planes,
+        }
+    }
+
+    /// The part of the picture that is drawn.
+    #[must_use]
+    pub fn part(&self) -> PicturePart {
+        PicturePart {
+            picture_px: self.picture_px.into(),
+            corner_px: self.corner_px.into(),
+            size_px: self.viewport_px.into(),
         }
     }
 }
@@ -130,7 +150,7 @@ pub struct ObjectUniform {
     /// The distance from the eye along the line of sight is the product of a
     /// position with this.
     pub distance: [f32; 4],
-    /// The object's origin on the screen, from the middle.
+    /// The object's origin on the screen, from the middle of what is drawn.
     pub origin_px: [f32; 2],
     /// -1 where the object is seen as in a mirror, else 1.
     pub mirror: f32,
@@ -148,11 +168,12 @@ pub struct ObjectUniform {
 
 impl ObjectUniform {
     /// What `view` makes of an object with `bounds` that `world_from_object`
-    /// places in the world. A transform that cannot be undone draws nothing.
+    /// places in the world, on a part of the picture that `view` sees. A transform that
+    /// cannot be undone draws nothing.
     #[must_use]
     pub fn new(
         view: &View,
-        viewport_px: Vec2,
+        part: &PicturePart,
         world_from_object: DMat4,
         bounds: &Bounds,
     ) -> Option<Self> {
@@ -161,7 +182,7 @@ impl ObjectUniform {
         if determinant == 0.0 || !determinant.is_finite() || !object_from_world.is_finite() {
             return None;
         }
-        let clip_from_world = view.clip_from_world.as_dmat4();
+        let clip_from_world = part.view(view).clip_from_world.as_dmat4();
         let clip_from_object = clip_from_world * world_from_object;
         let object_from_clip = clip_from_object.inverse().as_mat4();
         let clip_from_object = clip_from_object.as_mat4();
@@ -173,7 +194,8 @@ impl ObjectUniform {
         let origin = clip_from_object * Vec4::W;
         // Behind the eye the origin has no place; any will do that stays.
         let is_in_front = origin.w > f32::EPSILON;
-        let origin_px = if is_in_front { to_pixels(origin, viewport_px) } else { Vec2::ZERO };
+        let origin_px =
+            if is_in_front { to_pixels(origin, part.size_px) } else { -part.middle_px() };
         let distance = (world_from_object.transpose() * view.distance.as_dvec4()).as_vec4();
         let quantization = Quantization::of(bounds);
         #[expect(clippy::cast_possible_truncation, reason = "as the shader has it")]
@@ -397,6 +419,8 @@ mod tests {
     }
 
     /// The NPRView thesis, Equation 3.11, for a depth from 0 to 1.
+    const PART: PicturePart = PicturePart::whole(glam::Vec2::new(300.0, 200.0));
+
     fn equation_3_11(depth: f64, near: f64, far: f64) -> f64 {
         -2.0 * near * far / ((2.0 * depth - 1.0) * (far - near) - (far + near))
     }
@@ -422,7 +446,7 @@ mod tests {
                 distance: sight.extend(-sight.dot(eye)).as_vec4(),
             };
             let around = Surroundings::default();
-            let frame = FrameUniform::new(&view, Vec2::new(300.0, 200.0), &around);
+            let frame = FrameUniform::new(&view, &PART, &around);
             for want in [0.6_f32, 1.0, 3.0, 12.5, 39.0] {
                 // Exact, as a depth buffer of 32 bits rounds it.
                 let clip = clip_from_view * glam::DVec4::new(0.4, -0.3, -f64::from(want), 1.0);
@@ -448,7 +472,7 @@ mod tests {
         for is_orthographic in [false, true] {
             let camera = Camera { is_orthographic, ..Camera::default_view(&bounds) };
             let view = camera.view(&bounds, 1.5);
-            let frame = FrameUniform::new(&view, Vec2::new(300.0, 200.0), &around);
+            let frame = FrameUniform::new(&view, &PART, &around);
             for point in [DVec3::ZERO, DVec3::new(2.0, -1.0, -2.5), camera.target] {
                 let point = point.as_vec3().extend(1.0);
                 let clip = view.clip_from_world * point;

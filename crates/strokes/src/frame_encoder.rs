@@ -24,6 +24,8 @@ pub(crate) struct FrameEncoder<'a> {
     pub(crate) objects: &'a [&'a Object],
     /// The frame with what was filled, where a draw asks for it.
     pub(crate) frame_fill: Option<wgpu::BindGroup>,
+    /// The same of the whole picture, where a part is drawn.
+    pub(crate) overview_fill: Option<wgpu::BindGroup>,
     pub(crate) steps: Vec<DrawStep>,
     /// Whether the samples are averaged to the picture in the end.
     pub(crate) resolves: bool,
@@ -178,8 +180,8 @@ impl FrameEncoder<'_> {
             label: Some(PASS_NAMES[4]),
             timestamp_writes: timer.map(|timer| timer.compute(4)),
         });
-        let Some((frame, pipelines)) = self.frame_fill.as_ref().zip(self.renderer.graph.as_ref())
-        else {
+        let frame = self.overview_fill.as_ref().or(self.frame_fill.as_ref());
+        let Some((frame, pipelines)) = frame.zip(self.renderer.graph.as_ref()) else {
             return;
         };
         pass.set_bind_group(0, frame, &[]);

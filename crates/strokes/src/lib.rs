@@ -36,6 +36,7 @@ pub mod graph;
 pub mod look;
 pub mod mesh_buffers;
 pub mod object;
+pub mod picture_part;
 pub mod readback;
 pub mod renderer;
 pub mod shader;

@@ -215,7 +215,7 @@ impl Object {
     pub(crate) fn look_from(&mut self, gpu: &Gpu, view: &View, frame: &FrameUniform) {
         let viewport_px = frame.viewport_px.into();
         let mut uniform =
-            ObjectUniform::new(view, viewport_px, self.world_from_object, &self.mesh.bounds);
+            ObjectUniform::new(view, &frame.part(), self.world_from_object, &self.mesh.bounds);
         // What is cut open shows its inside, as to an eye within.
         if let Some(uniform) = uniform.as_mut().filter(|_| frame.clip_plane_count > 0) {
             uniform.eye_is_outside = 0;

@@ -21,6 +21,7 @@ use crate::graph::link::LinkPipeline;
 use crate::look::{Look, Visibility};
 use crate::mesh_buffers::{Layout, MeshBuffers};
 use crate::object::Object;
+use crate::picture_part::PicturePart;
 use crate::shader::ShaderError;
 use crate::stroke::{StrokeVariant, VertexSource, stroke_pipeline, style_group};
 use crate::stroke_indices::{IndexBuffer, IndexKey};
@@ -86,12 +87,15 @@ pub enum Fill {
 pub struct FrameRequest<'a> {
     /// Where to.
     pub targets: &'a Targets,
-    /// As who sees it.
+    /// As who sees the whole picture.
     pub view: &'a View,
-    /// The same for the shaders.
+    /// The same for the shaders, and which part of it is drawn.
     pub uniform: &'a FrameUniform,
     /// What is under the strokes.
     pub fill: Fill,
+    /// The whole picture, smaller, where a part of it is drawn: its depth tells where
+    /// linked strokes are seen, so that they begin and end alike in all parts.
+    pub overview: Option<&'a Targets>,
     /// Whether the samples are averaged to the picture in the end.
     pub resolves: bool,
     /// [`PASS_NAMES`] passes of a timer.
@@ -334,13 +338,15 @@ impl Renderer {
         objects: &mut [Object],
         timer: Option<&GpuTimer>,
     ) {
-        let uniform = FrameUniform::new(view, targets.viewport_px(), &Surroundings::default());
+        let part = PicturePart::whole(targets.viewport_px());
+        let uniform = FrameUniform::new(view, &part, &Surroundings::default());
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let frame = FrameRequest {
             targets,
             view,
             uniform: &uniform,
             fill: Fill::Clear(background),
+            overview: None,
             resolves: true,
             timer: timer.map(|timer| timer.passes_from(0)),
         };
@@ -371,17 +377,19 @@ impl Renderer {
         let asks_for_fill = |object: &&Object| {
             object.look.draws.iter().any(|draw| draw.lies_over_surface || draw.is_linked)
         };
-        let frame_fill = placed
-            .iter()
-            .any(asks_for_fill)
-            .then(|| self.frame.with_fill(&gpu.device, &self.layouts.frame_fill, targets));
+        let asks_for_fill = placed.iter().any(asks_for_fill);
+        let with_fill = |targets: &Targets| {
+            asks_for_fill
+                .then(|| self.frame.with_fill(&gpu.device, &self.layouts.frame_fill, targets))
+        };
         let steps = DrawStep::plan(&placed);
         let resolves = frame.resolves;
         let encode = FrameEncoder {
             renderer: self,
             targets,
             objects: &placed,
-            frame_fill,
+            frame_fill: with_fill(targets),
+            overview_fill: frame.overview.and_then(with_fill),
             steps,
             resolves,
             clips: frame.uniform.clip_plane_count > 0,

@@ -25,6 +25,7 @@ use edgemesh::read::read_model;
 use glam::Vec2;
 use strokes::frame::{FrameUniform, Surroundings};
 use strokes::gpu::{self, Gpu};
+use strokes::picture_part::PicturePart;
 use strokes::readback::read_texels;
 use viewer::render::{PictureOptions, PictureRenderer, Scene};
 use viewer::technique::Technique;
@@ -91,7 +92,11 @@ fn measure(gpu: &Gpu, path: &Path, side: u32, frames: usize) {
     let mut maps = renderer(MAPS).unwrap();
     let camera = Camera::default_view(&scene.bounds);
     let view = camera.view(&scene.bounds, 1.0);
-    let frame = FrameUniform::new(&view, Vec2::splat(side as f32), &Surroundings::default());
+    let frame = FrameUniform::new(
+        &view,
+        &PicturePart::whole(Vec2::splat(side as f32)),
+        &Surroundings::default(),
+    );
     let [mut of_gpu, mut of_cpu] = [Times::default(), Times::default()];
     for _ in 0..frames {
         let statistics = on_gpu.render(&camera).unwrap().1;

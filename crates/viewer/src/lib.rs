@@ -8,6 +8,7 @@
 //!
 //! - [`technique`]: what a picture looks like, by name, with its variables.
 //! - [`render`]: a scene of edge meshes to pictures, without any window.
+//! - [`parts`]: pictures of any size, in parts where they are too large.
 //! - [`picture`]: PNG in and out, and the comparison with a reference.
 //! - [`animation`]: several pictures as a GIF or an animated PNG.
 //! - [`comparison`]: stroke textures, measured along camera paths.
@@ -21,6 +22,7 @@ pub mod animation;
 pub mod command;
 pub mod comparison;
 pub mod lighting;
+pub mod parts;
 pub mod pass_graph;
 pub mod picture;
 pub mod render;

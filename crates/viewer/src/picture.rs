@@ -1,9 +1,10 @@
 //! Pictures: PNG in and out, and the comparison with a reference.
 
+use std::io::Write as _;
 use std::path::Path;
 
 use edgemesh::command::Failure;
-use image::{DynamicImage, Rgba, RgbaImage};
+use image::{Rgba, RgbaImage};
 
 /// Two pixels differ where a channel differs by more than this, of 255. Less is
 /// what adapters round apart; more would hide a stroke drawn in grey.
@@ -35,11 +36,7 @@ pub fn encode_png_with_text(
 ) -> Result<Vec<u8>, Failure> {
     let failed =
         |error: png::EncodingError| Failure::fault(format!("the PNG cannot be encoded: {error}"));
-    let straight = DynamicImage::ImageRgba8(straight_alpha(picture));
-    let (color, texels) = match is_transparent {
-        true => (png::ColorType::Rgba, straight.into_rgba8().into_raw()),
-        false => (png::ColorType::Rgb, straight.into_rgb8().into_raw()),
-    };
+    let color = if is_transparent { png::ColorType::Rgba } else { png::ColorType::Rgb };
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, picture.width(), picture.height());
     encoder.set_color(color);
@@ -48,7 +45,18 @@ pub fn encode_png_with_text(
         encoder.add_itxt_chunk(keyword.to_owned(), text.to_owned()).map_err(failed)?;
     }
     let mut writer = encoder.write_header().map_err(failed)?;
-    writer.write_image_data(&texels).map_err(failed)?;
+    let mut stream = writer.stream_writer().map_err(failed)?;
+    // Row by row: a large picture has no room beside itself.
+    let mut row = Vec::new();
+    for pixels in picture.rows() {
+        row.clear();
+        for pixel in pixels {
+            let straight = straight(*pixel).0;
+            row.extend_from_slice(if is_transparent { &straight } else { &straight[..3] });
+        }
+        stream.write_all(&row).map_err(|error| failed(error.into()))?;
+    }
+    stream.finish().map_err(failed)?;
     writer.finish().map_err(failed)?;
     Ok(bytes)
 }
@@ -65,16 +73,23 @@ pub fn read_png_text(path: &Path, keyword: &str) -> Option<String> {
 /// Divides the colours by their alpha, as files store them.
 #[must_use]
 pub fn straight_alpha(picture: &RgbaImage) -> RgbaImage {
-    let mut straight = picture.clone();
-    for Rgba([r, g, b, a]) in straight.pixels_mut() {
-        if *a != 0 {
-            for channel in [r, g, b] {
-                let value = (u32::from(*channel) * 255 + u32::from(*a) / 2) / u32::from(*a);
-                *channel = u8::try_from(value).unwrap_or(u8::MAX);
-            }
-        }
+    let mut pixels = picture.clone();
+    for pixel in pixels.pixels_mut() {
+        *pixel = straight(*pixel);
     }
-    straight
+    pixels
+}
+
+/// A colour divided by its alpha.
+fn straight(Rgba([r, g, b, a]): Rgba<u8>) -> Rgba<u8> {
+    if a == 0 {
+        return Rgba([r, g, b, a]);
+    }
+    let [r, g, b] = [r, g, b].map(|channel| {
+        let value = (u32::from(channel) * 255 + u32::from(a) / 2) / u32::from(a);
+        u8::try_from(value).unwrap_or(u8::MAX)
+    });
+    Rgba([r, g, b, a])
 }
 
 /// Reads a PNG.

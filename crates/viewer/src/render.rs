@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use edgemesh::build::{BuildOptions, Frame};
-use edgemesh::camera::Camera;
+use edgemesh::camera::{Camera, View};
 use edgemesh::command::input::{InputOptions, Loaded};
 use edgemesh::command::{ExitStatus, Failure, Listener};
 use edgemesh::edge_mesh::Bounds;
@@ -14,13 +14,14 @@ use strokes::gpu::{Gpu, GpuError, ResourceError};
 use strokes::gpu_time::GpuTimer;
 use strokes::mesh_buffers::Layout;
 use strokes::object::GraphReadback;
+use strokes::picture_part::PicturePart;
 use strokes::readback::{PendingRead, ReadbackError, read_picture};
 use strokes::renderer::DetectionPath;
 use strokes::targets::Targets;
 use strokes::view_buffers::Tally;
 
 use crate::lighting::Lighting;
-use crate::pass_graph::{GraphOptions, PassGraph};
+use crate::pass_graph::{GraphOptions, PartOf, PassGraph, Seen};
 use crate::scene_file::SceneObject;
 use crate::technique::Technique;
 use crate::technique::mistake::Mistakes;
@@ -182,6 +183,18 @@ pub struct FrameStatistics {
     pub frame_ms: f64,
 }
 
+impl FrameStatistics {
+    /// Those of two parts of one picture: times are added up, counts are of the whole
+    /// scene in both.
+    #[must_use]
+    pub fn plus(mut self, other: Self) -> Self {
+        for (sum, time) in self.passes.iter_mut().zip(other.passes) {
+            sum.1 = sum.1.zip(time.1).map(|(one, other)| one + other);
+        }
+        Self { frame_ms: self.frame_ms + other.frame_ms, ..self }
+    }
+}
+
 /// What a picture drew and cost, not yet read.
 #[derive(Debug)]
 pub struct PendingStatistics {
@@ -288,6 +301,45 @@ impl PictureRenderer {
     pub fn render(&mut self, camera: &Camera) -> Result<(RgbaImage, FrameStatistics), Failure> {
         let started = Instant::now();
         self.draw(camera)?;
+        self.read(started)
+    }
+
+    /// Draws one part of a picture for itself, as the first picture that there is; the
+    /// part must be of this renderer's size, and `overview` have drawn the whole picture
+    /// last.
+    ///
+    /// # Errors
+    /// As [`Self::render`].
+    pub fn render_part(
+        &mut self,
+        view: &View,
+        part: PicturePart,
+        overview: &Self,
+    ) -> Result<(RgbaImage, FrameStatistics), Failure> {
+        let started = Instant::now();
+        let overview = overview.graph()?.framebuffer();
+        self.draw_first(view, Some(PartOf { part, overview }))?;
+        self.read(started)
+    }
+
+    /// Draws the whole picture for itself, as the first one that there is.
+    ///
+    /// # Errors
+    /// Where an image cannot be read.
+    pub fn draw_overview(&mut self, view: &View) -> Result<(), Failure> {
+        self.draw_first(view, None)
+    }
+
+    fn draw_first(&mut self, view: &View, part: Option<PartOf>) -> Result<(), Failure> {
+        let graph = self.graph.as_mut().ok_or_else(no_graph)?;
+        let (gpu, plan) = (&self.gpu, &self.plan);
+        gpu.make(|| graph.forget_frames(&gpu.device, plan))
+            .map_err(|error| resource_failure(&error, self.options.size, self.options.samples))?;
+        self.submit(view, part)
+    }
+
+    /// Waits for the picture that was submitted, and reads it.
+    fn read(&self, started: Instant) -> Result<(RgbaImage, FrameStatistics), Failure> {
         self.gpu
             .device
             .poll(wgpu::PollType::wait_indefinitely())
@@ -340,13 +392,23 @@ impl PictureRenderer {
     /// # Errors
     /// Where an image cannot be read.
     pub fn draw(&mut self, camera: &Camera) -> Result<(), Failure> {
-        let [width, height] = self.options.size;
-        let view = camera.view(&self.bounds, f64::from(width) / f64::from(height));
-        let around = self.options.lighting.surroundings(&view, &self.bounds, &self.frame);
+        let view = self.view(camera, self.options.size);
+        self.submit(&view, None)
+    }
+
+    /// How a camera sees the scene in a picture of a size.
+    #[must_use]
+    pub fn view(&self, camera: &Camera, [width, height]: [u32; 2]) -> View {
+        camera.view(&self.bounds, f64::from(width) / f64::from(height))
+    }
+
+    fn submit(&mut self, view: &View, part: Option<PartOf>) -> Result<(), Failure> {
+        let around = self.options.lighting.surroundings(view, &self.bounds, &self.frame);
+        let seen = Seen { view, around: &around, part };
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let timer = self.timer.as_ref().map(|timer| timer.passes_from(0));
         let graph = self.graph.as_mut().ok_or_else(no_graph)?;
-        graph.encode(&self.gpu, &mut encoder, &view, &around, timer)?;
+        graph.encode(&self.gpu, &mut encoder, &seen, timer)?;
         if let Some(timer) = &self.timer {
             timer.resolve(&mut encoder);
         }
@@ -449,7 +511,7 @@ fn check_size(gpu: &Gpu, size: [u32; 2]) -> Result<(), Failure> {
     if size.iter().any(|&side| side > limit) {
         let [width, height] = size;
         return Err(Failure::fault(format!(
-            "--size {width}x{height}: this adapter draws at most {limit} pixels a side"
+            "--size {width}x{height}: this adapter draws at most {limit} pixels a side at once"
         )));
     }
     Ok(())

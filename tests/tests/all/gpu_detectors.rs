@@ -15,6 +15,7 @@ use edgemesh::oracle::detector::{Image, Texel, regions};
 use edgemesh::read::read_model;
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use strokes::frame::FrameUniform;
+use strokes::picture_part::PicturePart;
 use strokes::readback::read_texels;
 use testkit::locate::{left_out, shared};
 use viewer::lighting::Lighting;
@@ -284,7 +285,10 @@ fn compare(mesh: &EdgeMesh, camera: &Camera) {
     let viewport_px = Vec2::new(237.0, 181.0);
     let view = camera.view(&scene.bounds, f64::from(viewport_px.x) / f64::from(viewport_px.y));
     let around = Lighting::default().surroundings(&view, &scene.bounds, &scene.frame);
-    let inputs = Inputs::read(&renderer, FrameUniform::new(&view, viewport_px, &around));
+    let inputs = Inputs::read(
+        &renderer,
+        FrameUniform::new(&view, &PicturePart::whole(viewport_px), &around),
+    );
     for (at, case) in CASES.iter().enumerate() {
         let what = format!("{} {}", case.component, case.values.replace('\n', ", "));
         let texture = renderer.generated(&format!("of_{at}_color")).unwrap();

@@ -11,6 +11,7 @@ use edgemesh::oracle::detector::depth::distance_of;
 use edgemesh::read::read_model;
 use glam::DVec3;
 use strokes::frame::{FrameUniform, Surroundings};
+use strokes::picture_part::PicturePart;
 use strokes::readback::read_texels;
 use viewer::render::{PictureOptions, PictureRenderer};
 use viewer::technique::library::Library;
@@ -429,7 +430,12 @@ fn chiang_adds_gradients_and_drops_edges_without_a_step_of_depth() {
     let mesh = strips(folder.path(), &STEP);
     let projection = |mesh: &EdgeMesh| {
         let view = camera().view(&mesh.bounds, 1.0);
-        FrameUniform::new(&view, glam::Vec2::splat(32.0), &Surroundings::default()).projection
+        FrameUniform::new(
+            &view,
+            &PicturePart::whole(glam::Vec2::splat(32.0)),
+            &Surroundings::default(),
+        )
+        .projection
     };
     let range = |mesh: &EdgeMesh| {
         let [far, near] = [0.0, 1.0].map(|depth| distance_of(depth, projection(mesh)));

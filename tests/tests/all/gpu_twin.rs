@@ -365,7 +365,7 @@ const STROKE_BODY: &str = "#import <common/stroke_vertex.wgsl>
             input.facing, input.distance, input.r);
         let shape = StrokeShape(input.viewport_px, vec2f(13.0, -7.0), input.fade, input.width,
             300.0, 8.0, input.mirror, input.kind, input.placement, input.parameterization,
-            input.is_world_width != 0u);
+            input.is_world_width != 0u, vec4f(-4.0, 4.0, -4.0, 4.0));
         let counts = array<u32, 5>(2u, 4u, 10u, 24u, 4u);
         var output: Output;
         for (var i = 0u; i < counts[input.kind]; i++) {

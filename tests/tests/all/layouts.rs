@@ -9,7 +9,7 @@ use edgemesh::oracle::feature::{
     ClassTable, EdgeClass, LEAST_GROOVE_STEPS, LineBits, MOST_GROOVE_STEPS, NO_LAYER,
 };
 use edgemesh::oracle::normal_cone::{CONE_MARGIN, ConeFacing, NormalCone};
-use edgemesh::oracle::spine::{GUARD_BAND, MIN_LENGTH_PX};
+use edgemesh::oracle::spine::MIN_LENGTH_PX;
 use edgemesh::oracle::stroke_cap::DISK_STEPS;
 use edgemesh::oracle::stroke_quad::Placement;
 use edgemesh::oracle::stroke_segment::{EDGE_ON_FACING, LIFTED_FACING, LineKind, Parameterization};
@@ -70,6 +70,9 @@ fn scene_layouts() -> BTreeMap<String, Layout> {
             px_per_unit,
             clip_plane_count,
             projection,
+            picture_px,
+            corner_px,
+            guard_band,
             world_from_clip,
             eye,
             sight,
@@ -444,7 +447,6 @@ fn constants_are_equal_and_found_on_both_sides() {
         ("MAX_DRAWS", MAX_DRAWS as u64),
         ("NO_LAYER", NO_LAYER.into()),
         ("NO_OBJECT", NO_OBJECT.into()),
-        ("GUARD_BAND", float(GUARD_BAND)),
         ("MIN_LENGTH_PX", float(MIN_LENGTH_PX)),
         ("EDGE_ON_FACING", float(EDGE_ON_FACING)),
         ("LIFTED_FACING", float(LIFTED_FACING)),

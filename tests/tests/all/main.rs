@@ -24,6 +24,8 @@ mod gpu_layouts;
 #[cfg(feature = "gpu")]
 mod gpu_lines;
 #[cfg(feature = "gpu")]
+mod gpu_parts;
+#[cfg(feature = "gpu")]
 mod gpu_render;
 #[cfg(feature = "gpu")]
 mod gpu_scenes;

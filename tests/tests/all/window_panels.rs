@@ -185,12 +185,78 @@ fn inspection_shows_times_and_what_was_repaired() {
         let passes = vec![("fill".to_owned(), Some(1.5 + f64::from(frame)))];
         session.keep(FrameStatistics { tally: None, passes, frame_ms: 9.0 });
     }
-    let mut harness = side(Tab::Inspect, session);
+    let harness = side(Tab::Inspect, session);
     assert!(harness.query_by_label("3.50 ms").is_some(), "the last picture's time");
-    assert!(harness.query_by_label_contains("demo:: nothing").is_some(), "nothing was repaired");
-    harness.get_by_label("Wireframe").click();
+    assert!(harness.query_by_label_contains("demo: nothing").is_some(), "nothing was repaired");
+}
+
+#[test]
+fn looks_for_looking_come_and_go() {
+    let mut harness = side(Tab::Inspect, session("--technique pen --set strokes.width=5"));
+    for (name, technique) in [("Wireframe", "wireframe"), ("Normals", "debug_normals")] {
+        harness.get_by_label(name).click();
+        harness.run_ok();
+        assert_eq!(harness.state().recipe.appearance.technique_name, technique);
+    }
+    harness.get_by_label("The picture").click();
     harness.run_ok();
-    assert_eq!(harness.state().recipe.appearance.technique_name, "wireframe");
+    assert_eq!(harness.state().recipe.appearance.technique_name, "pen");
+    assert_eq!(value(harness.state(), "strokes", "width"), "5", "as it was changed");
+    // What was chosen meanwhile is what is drawn.
+    harness.get_by_label("Regions").click();
+    harness.run_ok();
+    harness.state_mut().take_technique("toon");
+    harness.run_ok();
+    harness.get_by_label("The picture").click();
+    harness.run_ok();
+    assert_eq!(harness.state().recipe.appearance.technique_name, "toon");
+}
+
+#[test]
+fn drags_over_the_picture_turn_it_or_the_light_or_move_a_cut() {
+    let mut hands = Hands::default();
+    let show = move |ui: &mut egui::Ui, session: &mut Session| {
+        let rect = ui.available_rect_before_wrap();
+        let response = ui.allocate_rect(rect, egui::Sense::click_and_drag());
+        hands.pointer(ui, &response, session);
+    };
+    let session = session("--clip 0,0,-1,0.2 --light 0,0,1");
+    let mut harness = Harness::builder().with_size([800.0, 600.0]).build_ui_state(show, session);
+    let mut drag = |key: Option<Key>| {
+        let before = harness.state().recipe.clone();
+        let pressed = |key, pressed| egui::Event::Key {
+            key,
+            physical_key: None,
+            pressed,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        };
+        if let Some(key) = key {
+            harness.event(pressed(key, true));
+        }
+        let at = |x: f32| egui::pos2(300.0 + x, 300.0 - x);
+        harness.drag_at(at(0.0));
+        harness.run_ok();
+        for step in [20.0, 60.0] {
+            harness.hover_at(at(step));
+            harness.run_ok();
+        }
+        harness.drop_at(at(60.0));
+        if let Some(key) = key {
+            harness.event(pressed(key, false));
+        }
+        harness.run_ok();
+        let after = harness.state().recipe.clone();
+        let lighting = [&before, &after].map(|recipe| recipe.appearance.lighting.clone());
+        (
+            before.viewpoint != after.viewpoint,
+            lighting[0].light != lighting[1].light,
+            lighting[0].clip_planes != lighting[1].clip_planes,
+        )
+    };
+    assert_eq!(drag(None), (true, false, false), "the eye");
+    assert_eq!(drag(Some(Key::L)), (false, true, false), "the light");
+    assert_eq!(drag(Some(Key::C)), (false, false, true), "the cut");
 }
 
 #[test]
@@ -212,7 +278,7 @@ fn textures_between_passes_are_listed_and_looked_at() {
     assert_eq!(inspection.texture.name, "scene_depth");
     let command = harness.state().command(SIZE).unwrap();
     assert!(!command.contains("shown"), "it is no part of the picture's recipe: {command}");
-    harness.get_by_label("The picture").click();
+    harness.get_by_label("None").click();
     harness.run_ok();
     assert_eq!(harness.state().inspection, None);
 }
@@ -240,6 +306,8 @@ fn output_shows_the_command_and_asks_for_pictures() {
     assert!(shown, "the command");
     harness.get_by_label("Save picture…").click();
     harness.run_ok();
+    harness.get_by_label("Save window…").click();
+    harness.run_ok();
     harness.get_by_label("Save turntable…").click();
     harness.run_ok();
     harness.get_by_label("Copy command").click();
@@ -248,7 +316,12 @@ fn output_shows_the_command_and_asks_for_pictures() {
     assert!(
         matches!(
             requests[..],
-            [Request::SavePicture(None), Request::SavePicture(Some(72)), Request::Copy(..)]
+            [
+                Request::SavePicture(None),
+                Request::SaveWindow,
+                Request::SavePicture(Some(72)),
+                Request::Copy(..)
+            ]
         ),
         "{requests:?}"
     );

@@ -118,7 +118,7 @@ impl CompareStrokesCommand {
                 for &path in paths {
                     rows.extend(comparison.measure(scene, path)?);
                     done += 1;
-                    show_progress(done, u32::try_from(all).unwrap_or(u32::MAX));
+                    show_progress("picture", done, u32::try_from(all).unwrap_or(u32::MAX));
                 }
                 let sheet = comparison.sheet(scene)?;
                 let name = format!("{}-{brush}.png", file_stem(&comparison.model.name));

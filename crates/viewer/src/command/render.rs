@@ -17,8 +17,9 @@ use serde::Serialize;
 use strokes::gpu::{self, Gpu};
 
 use crate::animation::AnimationKind;
+use crate::parts::AnySizeRenderer;
 use crate::picture::{DEFAULT_REFERENCE_THRESHOLD, compare, encode_png, read_png};
-use crate::render::{FrameStatistics, PictureRenderer, Scene, adapter_failure};
+use crate::render::{FrameStatistics, Scene, adapter_failure};
 use crate::scene_file::SceneObject;
 use crate::technique::Technique;
 use crate::technique::library::Library;
@@ -127,7 +128,7 @@ impl RenderCommand {
         log::info!("drawing on {} ({})", gpu.info.name, gpu.info.backend);
         let camera = self.picture.camera.camera(&scene.bounds, &scene.frame)?;
         let options = self.picture.picture_options(self.size)?;
-        let mut renderer = PictureRenderer::new(&gpu, &scene, &technique, &looks, &options)?;
+        let mut renderer = AnySizeRenderer::new(&gpu, &scene, &technique, &looks, &options)?;
         let statistics = match self.turntable {
             Some(steps) => self.write_turntable(&mut renderer, &camera, steps)?,
             None => self.write_picture(&mut renderer, &camera, reference.as_ref())?,
@@ -168,7 +169,7 @@ impl RenderCommand {
     /// Reads the technique again, and draws with it.
     fn draw_again(
         &self,
-        renderer: &mut PictureRenderer,
+        renderer: &mut AnySizeRenderer,
         scene: &Scene,
         objects: &[SceneObject],
         camera: &Camera,
@@ -239,11 +240,14 @@ impl RenderCommand {
 
     fn write_picture(
         &self,
-        renderer: &mut PictureRenderer,
+        renderer: &mut AnySizeRenderer,
         camera: &Camera,
         reference: Option<&RgbaImage>,
     ) -> Result<FrameStatistics, Failure> {
-        let (picture, statistics) = renderer.render(camera)?;
+        let (picture, statistics) = renderer.render(camera, &mut |done, total| {
+            show_progress("part", done, total);
+            Ok(())
+        })?;
         if let Some(reference) = reference {
             self.compare_with(&picture, reference)?;
         }
@@ -276,16 +280,16 @@ impl RenderCommand {
 
     fn write_turntable(
         &self,
-        renderer: &mut PictureRenderer,
+        renderer: &mut AnySizeRenderer,
         camera: &Camera,
         steps: u32,
     ) -> Result<FrameStatistics, Failure> {
         let mut last = None;
         turntable::write(&self.output, steps, self.size, self.picture.transparent, |step| {
             let (picture, statistics) =
-                renderer.render(&turntable::camera_at(camera, step, steps))?;
+                renderer.render(&turntable::camera_at(camera, step, steps), &mut |_, _| Ok(()))?;
             last = Some(statistics);
-            show_progress(step + 1, steps);
+            show_progress("picture", step + 1, steps);
             Ok(picture)
         })?;
         last.ok_or_else(|| Failure::usage("--turntable needs at least one step"))
@@ -340,12 +344,12 @@ fn tell_drawn(path: &Path, after: Duration) {
     eprintln!("{}: drawn again in {} ms", path.display(), after.as_millis());
 }
 
-/// Says on a terminal how far a turntable is.
+/// Says on a terminal how far a picture or a turntable is.
 #[expect(clippy::print_stderr, reason = "progress, on a terminal only")]
-pub(super) fn show_progress(done: u32, total: u32) {
+pub(super) fn show_progress(what: &str, done: u32, total: u32) {
     if std::io::stderr().is_terminal() {
         let end = if done == total { "\n" } else { "" };
-        eprint!("\rpicture {done} of {total}{end}");
+        eprint!("\r{what} {done} of {total}{end}");
     }
 }
 

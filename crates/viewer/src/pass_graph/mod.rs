@@ -28,16 +28,16 @@ mod screen_pass;
 mod stroke_pass;
 mod stroke_style;
 pub mod surface;
-mod textures;
+pub(crate) mod textures;
 
 use edgemesh::camera::View;
 use edgemesh::command::Failure;
-use glam::Vec2;
 use strokes::frame::{Frame, FrameUniform, ObjectUniform, Surroundings};
 use strokes::gpu::Gpu;
 use strokes::gpu_time::TimedPasses;
 use strokes::look::Look;
 use strokes::mesh_buffers::Layout;
+use strokes::picture_part::PicturePart;
 use strokes::renderer::{DetectionPath, PASS_NAMES};
 use strokes::targets::Targets;
 use strokes::view_buffers::Tally;
@@ -120,6 +120,26 @@ enum When {
     Changed,
 }
 
+/// What a frame sees.
+#[derive(Debug, Clone, Copy)]
+pub struct Seen<'a> {
+    /// Who sees the whole picture.
+    pub view: &'a View,
+    /// Light and what cuts the scene.
+    pub around: &'a Surroundings,
+    /// Which part of the picture is drawn, where it is not the whole.
+    pub part: Option<PartOf<'a>>,
+}
+
+/// A part of a picture that is too large to be drawn at once.
+#[derive(Debug, Clone, Copy)]
+pub struct PartOf<'a> {
+    /// The part.
+    pub part: PicturePart,
+    /// The whole picture, smaller, whose depth tells where strokes are seen.
+    pub overview: &'a Targets,
+}
+
 /// What steps share while a frame is encoded.
 struct Encoding<'a> {
     gpu: &'a Gpu,
@@ -128,6 +148,7 @@ struct Encoding<'a> {
     surfaces: Option<&'a Surfaces>,
     view: &'a View,
     uniform: &'a FrameUniform,
+    overview: Option<&'a Targets>,
     /// Whether nothing was drawn to the framebuffer yet.
     is_fresh: bool,
     /// Whether the framebuffer's depth is that of the scene.
@@ -192,6 +213,23 @@ impl PassGraph {
         group.map_or(&[], |group| &group.objects)
     }
 
+    /// What was drawn to last, with its depth.
+    #[must_use]
+    pub const fn framebuffer(&self) -> &Targets {
+        &self.framebuffer
+    }
+
+    /// Forgets what earlier frames have left in the textures of `plan`, the plan of this
+    /// graph: the next frame is the first one again.
+    pub fn forget_frames(&mut self, device: &wgpu::Device, plan: &Plan) {
+        for (texture, plan) in self.sources.generated.iter_mut().zip(&plan.textures) {
+            texture.clear(device, plan);
+        }
+        for step in &mut self.steps {
+            step.run.is_done = false;
+        }
+    }
+
     /// Encodes a frame, to be submitted before the next one is encoded.
     ///
     /// # Errors
@@ -200,15 +238,15 @@ impl PassGraph {
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
-        view: &View,
-        around: &Surroundings,
+        seen: &Seen,
         timer: Option<TimedPasses>,
     ) -> Result<(), Failure> {
-        let viewport_px = self.framebuffer.viewport_px();
-        let uniform = FrameUniform::new(view, viewport_px, around);
+        let Seen { view, around, part } = *seen;
+        let whole = || PicturePart::whole(self.framebuffer.viewport_px());
+        let uniform = FrameUniform::new(view, &part.map_or_else(whole, |of| of.part), around);
         self.frame.write(&gpu.queue, &uniform);
         if let Some(surfaces) = &mut self.surfaces {
-            place(gpu, surfaces, view, viewport_px);
+            place(gpu, surfaces, view, &uniform.part());
         }
         let mut encoding = Encoding {
             gpu,
@@ -217,6 +255,7 @@ impl PassGraph {
             surfaces: self.surfaces.as_ref(),
             view,
             uniform: &uniform,
+            overview: part.map(|of| of.overview),
             is_fresh: true,
             has_depth: false,
         };
@@ -253,10 +292,9 @@ fn resolve(encoder: &mut wgpu::CommandEncoder, framebuffer: &Targets, is_fresh: 
 }
 
 /// Sets what the next submission sees of the surfaces.
-fn place(gpu: &Gpu, surfaces: &mut Surfaces, view: &View, viewport_px: Vec2) {
+fn place(gpu: &Gpu, surfaces: &mut Surfaces, view: &View, part: &PicturePart) {
     for object in &mut surfaces.objects {
-        let uniform =
-            ObjectUniform::new(view, viewport_px, object.world_from_object, &object.bounds);
+        let uniform = ObjectUniform::new(view, part, object.world_from_object, &object.bounds);
         object.is_placed = uniform.is_some();
         if let Some(uniform) = uniform {
             gpu.queue.write_buffer(&object.uniform, 0, bytemuck::bytes_of(&uniform));

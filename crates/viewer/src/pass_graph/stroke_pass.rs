@@ -157,6 +157,7 @@ impl StrokePasses {
             view: encoding.view,
             uniform: encoding.uniform,
             fill,
+            overview: encoding.overview,
             resolves: false,
             timer,
         };

@@ -39,6 +39,17 @@ impl GeneratedTexture {
         Self { views: views.collect(), textures, current: 0, name, is_kept: false }
     }
 
+    /// Forgets what is in it; `plan` is what it was made for.
+    pub(crate) fn clear(&mut self, device: &wgpu::Device, plan: &TexturePlan) {
+        let size = [self.textures[0].width(), self.textures[0].height()];
+        for (texture, view) in self.textures.iter_mut().zip(&mut self.views) {
+            // A new texture is empty.
+            *texture = target_texture(device, &plan.name, size, plan.format);
+            *view = texture.create_view(&Default::default());
+        }
+        (self.current, self.is_kept) = (0, false);
+    }
+
     /// Whether it is what `plan` asks for.
     pub(crate) fn is_for(&self, plan: &TexturePlan, picture: [u32; 2], is_double: bool) -> bool {
         let texture = &self.textures[0];

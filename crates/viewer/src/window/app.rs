@@ -7,13 +7,14 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use edgemesh::command::write_file;
+use edgemesh::command::{Failure, write_file};
 use egui::{CentralPanel, Panel, Sense, Ui};
 
-use super::background::Background;
+use super::background::{Background, Tell};
 use super::canvas::Canvas;
+use super::desktop;
 use super::hands::Hands;
-use super::loading::{self, LoadedScene};
+use super::loading::{self, Built, LoadedScene};
 use super::opening::{Kept, Lost, watch_device};
 use super::panels;
 use super::saving::{self, Order};
@@ -36,6 +37,8 @@ pub(super) struct Window {
     session: Session,
     canvas: Canvas,
     hands: Hands,
+    /// What is loaded once it is known how large the picture is.
+    to_load: Option<Vec<PathBuf>>,
     loading: Option<Background<LoadedScene>>,
     saving: Vec<Background<String>>,
     watching: Option<Watching>,
@@ -60,6 +63,9 @@ enum Arrival {
     Files(Vec<PathBuf>),
     TechniqueFile(PathBuf),
     PictureFile(PathBuf, Option<u32>),
+    WindowFile(PathBuf),
+    Fault(&'static str),
+    WindowPixels(PathBuf, Arc<egui::ColorImage>),
 }
 
 impl Window {
@@ -79,6 +85,7 @@ impl Window {
         };
         let remembered = remembered.or_else(stored).unwrap_or_default();
         style::apply(&context.egui_ctx);
+        desktop::follow_theme(&context.egui_ctx);
         let canvas = Canvas::new(window);
         let library = recipe.arguments.library.load();
         let mut session = Session::new(library, recipe, remembered);
@@ -89,6 +96,7 @@ impl Window {
             session,
             canvas,
             hands: Hands::default(),
+            to_load: None,
             loading: None,
             saving: Vec::new(),
             watching: None,
@@ -105,7 +113,7 @@ impl Window {
         };
         match scene {
             Some((scene, objects)) => this.take_scene(models, scene, objects, None),
-            None => this.load(models, &context.egui_ctx),
+            None => this.to_load = Some(models),
         }
         this.keep();
         Ok(this)
@@ -125,7 +133,7 @@ impl Window {
         models: Vec<PathBuf>,
         scene: Arc<Scene>,
         objects: Vec<SceneObject>,
-        renderer: Option<PictureRenderer>,
+        renderer: Option<(PictureRenderer, Built)>,
     ) {
         if let Err(failure) = self.session.take_scene(models, scene.clone(), objects) {
             self.session.messages.error(failure.message);
@@ -140,7 +148,12 @@ impl Window {
             models,
             arguments: recipe.arguments.clone(),
             gpu: Some(self.canvas.gpu().clone()),
-            technique: recipe.appearance.technique.clone(),
+            library: self.session.library.clone(),
+            built: Built {
+                technique: recipe.appearance.technique.clone(),
+                is_transparent: recipe.appearance.is_transparent,
+                size: self.size,
+            },
             options,
         };
         let context = context.clone();
@@ -190,6 +203,12 @@ impl Window {
                 Arrival::TechniqueFile(path) => self.save_technique(&path),
                 Arrival::PictureFile(path, turntable) => {
                     self.save_picture(path, turntable, context);
+                }
+                Arrival::Fault(what) => self.session.messages.error(what),
+                Arrival::WindowFile(path) => self.take_window_pixels(path, context),
+                Arrival::WindowPixels(path, pixels) => {
+                    let body = move |tell: Tell| saving::save_window(&path, &pixels, tell);
+                    self.save_aside(body, context);
                 }
             }
         }
@@ -250,6 +269,11 @@ impl Window {
                         if turntable.is_some() { &["apng", "gif", "png"][..] } else { &["png"] };
                     let path = dialog.add_filter("Pictures", ends).save_file()?;
                     Some(Arrival::PictureFile(path, turntable))
+                }),
+                Request::SaveWindow => self.ask(context, |dialog| {
+                    let dialog = dialog.set_title("Save window").set_file_name("window.png");
+                    let path = dialog.add_filter("Pictures", &["png"]).save_file()?;
+                    Some(Arrival::WindowFile(with_ending(path, false)))
                 }),
                 Request::DrawThumbnails => self.draw_thumbnails(context),
                 Request::Copy(text, note) => {
@@ -320,7 +344,11 @@ impl Window {
     ) {
         let (sender, context) = (self.sender.clone(), context.clone());
         std::thread::spawn(move || {
-            if let Some(arrival) = dialog(rfd::FileDialog::new()) {
+            let arrival = match desktop::missing_for_dialogs() {
+                Some(what) => Some(Arrival::Fault(what)),
+                None => dialog(rfd::FileDialog::new()),
+            };
+            if let Some(arrival) = arrival {
                 // The window may be closed.
                 let _ = sender.send(arrival);
                 context.request_repaint();
@@ -359,9 +387,28 @@ impl Window {
             turntable,
             gpu: self.canvas.gpu().clone(),
         };
+        self.save_aside(move |tell| saving::save(&order, tell), context);
+    }
+
+    /// Saves something on another thread.
+    fn save_aside(
+        &mut self,
+        body: impl FnOnce(Tell) -> Result<String, Failure> + Send + 'static,
+        context: &egui::Context,
+    ) {
         let context = context.clone();
         let wake = move || context.request_repaint();
-        self.saving.push(Background::start(wake, move |tell| saving::save(&order, tell)));
+        self.saving.push(Background::start(wake, body));
+    }
+
+    /// Has the pixels of the next frame, panels and all, sent to be saved.
+    fn take_window_pixels(&self, path: PathBuf, context: &egui::Context) {
+        let (sender, waker) = (self.sender.clone(), context.clone());
+        context.request_screenshot(move |pixels| {
+            // The window may be closed.
+            let _ = sender.send(Arrival::WindowPixels(path, pixels));
+            waker.request_repaint();
+        });
     }
 
     /// Opens files: models, a technique, or a picture that carries its recipe.
@@ -497,6 +544,9 @@ impl eframe::App for Window {
         CentralPanel::no_frame().show(ui, |ui| self.picture(ui));
         if self.session.shows_keys {
             panels::keys_sheet(ui, &mut self.session);
+        }
+        if let Some(models) = self.to_load.take() {
+            self.load(models, &context);
         }
         self.answer(&context, time);
         self.hold_close(&context);

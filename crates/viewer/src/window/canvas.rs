@@ -11,6 +11,7 @@ use edgemesh::command::{ExitStatus, Failure};
 use strokes::gpu::Gpu;
 
 use super::inspection::Inspection;
+use super::loading::Built;
 use super::recipe::Appearance;
 use super::session::Session;
 use super::viewpoint::Viewpoint;
@@ -33,6 +34,8 @@ pub(super) struct Canvas {
 #[derive(Debug, Default)]
 struct Sheet {
     renderer: Option<PictureRenderer>,
+    /// What the renderer was built for; none where files have changed since.
+    built: Option<Built>,
     /// What was drawn last.
     drawn: Option<Drawn>,
     /// What could not be drawn.
@@ -88,14 +91,17 @@ impl Canvas {
     }
 
     /// Takes a scene that was loaded, with a renderer where one could be made.
-    pub(super) fn take_scene(&mut self, scene: Arc<Scene>, renderer: Option<PictureRenderer>) {
+    pub(super) fn take_scene(
+        &mut self,
+        scene: Arc<Scene>,
+        renderer: Option<(PictureRenderer, Built)>,
+    ) {
         self.scene = Some(scene);
         for sheet in self.compared.iter_mut().chain([&mut self.sheet]) {
-            sheet.renderer = None;
-            sheet.pending = None;
-            (sheet.drawn, sheet.failed) = (None, None);
+            (sheet.renderer, sheet.pending) = (None, None);
+            (sheet.built, sheet.drawn, sheet.failed) = (None, None, None);
         }
-        self.sheet.renderer = renderer;
+        (self.sheet.renderer, self.sheet.built) = renderer.unzip();
     }
 
     /// Takes the session's scene where it is not the one that was loaded any more, as its
@@ -111,7 +117,7 @@ impl Canvas {
     /// it is settled.
     pub(super) fn forget(&mut self, change: Change) {
         for sheet in self.compared.iter_mut().chain([&mut self.sheet]) {
-            (sheet.drawn, sheet.failed) = (None, None);
+            (sheet.built, sheet.drawn, sheet.failed) = (None, None, None);
             sheet.is_doubted = change == Change::Now;
         }
     }
@@ -232,16 +238,16 @@ impl Sheet {
             ..session.recipe.picture_options(wanted.size)?
         };
         let technique = &wanted.appearance.technique;
-        let is_same = self.drawn.as_ref().is_some_and(|drawn| {
-            let (old, new) = (&drawn.appearance, &wanted.appearance);
-            drawn.size == wanted.size
-                && old.technique == new.technique
-                && old.is_transparent == new.is_transparent
-        });
+        let built = Built {
+            technique: technique.clone(),
+            is_transparent: wanted.appearance.is_transparent,
+            size: wanted.size,
+        };
+        let is_same = self.built.as_ref() == Some(&built);
         let is_lit = |renderer: &mut PictureRenderer| renderer.set_lighting(&options.lighting);
         let is_ready = is_same && self.renderer.as_mut().is_some_and(is_lit);
         if !is_ready {
-            self.pending = None;
+            (self.pending, self.built) = (None, None);
             let looks = session.object_looks()?;
             match &mut self.renderer {
                 Some(renderer) => renderer.reload(scene, technique, &looks, &options)?,
@@ -251,6 +257,7 @@ impl Sheet {
                 }
             }
         }
+        self.built = Some(built);
         let Some(renderer) = &mut self.renderer else { return Ok(()) };
         renderer.draw(&wanted.viewpoint.camera(&scene.frame))?;
         if self.pending.is_none() {

@@ -3,6 +3,7 @@
 use egui::{Key, Modifiers, PointerButton, Rect, Response, Ui};
 use glam::{DVec2, DVec3};
 
+use super::light_hand;
 use super::marking::edge_under;
 use super::navigation::{Canvas, between, flown, looked_around, panned, rolled, turned, zoomed};
 use super::session::{Request, Session};
@@ -121,7 +122,12 @@ impl Hands {
         let pixels = DVec2::new(f64::from(delta.x), f64::from(delta.y));
         let (up, mode) = (session.remembered.up, session.remembered.turn_mode);
         let is_shifted = ui.input(|input| input.modifiers.shift);
-        if response.dragged_by(PointerButton::Middle)
+        let is_held = |key| ui.input(|input| input.key_down(key));
+        if response.dragged_by(PointerButton::Primary) && is_held(Key::L) {
+            drag_light(session, &view, &canvas, pixels);
+        } else if response.dragged_by(PointerButton::Primary) && is_held(Key::C) {
+            drag_cut(session, &view, &canvas, pixels);
+        } else if response.dragged_by(PointerButton::Middle)
             || response.dragged_by(PointerButton::Primary) && is_shifted
         {
             new = panned(&view, canvas, pixels);
@@ -288,6 +294,24 @@ pub fn run(command: Command, session: &mut Session, size: [u32; 2]) {
         Command::Redo => session.redo(),
         Command::Quit => session.ask(Request::Quit),
     }
+}
+
+/// Turns the light.
+fn drag_light(session: &mut Session, view: &Viewpoint, canvas: &Canvas, pixels: DVec2) {
+    let Some(scene) = &session.scene else { return };
+    let light = &mut session.recipe.appearance.lighting.light;
+    *light = light_hand::light_dragged(light, view, scene, canvas, pixels);
+}
+
+/// Moves the cut that is chosen.
+fn drag_cut(session: &mut Session, view: &Viewpoint, canvas: &Canvas, pixels: DVec2) {
+    let Some(scene) = &session.scene else { return };
+    let planes = &mut session.recipe.appearance.lighting.clip_planes;
+    let Some(last) = planes.len().checked_sub(1) else {
+        return session.messages.note("there is no cut yet: add one under Light");
+    };
+    let plane = &mut planes[session.chosen_cut.min(last)];
+    *plane = light_hand::cut_dragged(*plane, view, scene, canvas, pixels);
 }
 
 /// Shows the edge under the pointer, and marks it where it is clicked.

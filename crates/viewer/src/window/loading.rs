@@ -15,6 +15,7 @@ use crate::command::picture_arguments::{PictureArguments, objects_of};
 use crate::render::{PictureOptions, PictureRenderer, Scene};
 use crate::scene_file::SceneObject;
 use crate::technique::Technique;
+use crate::technique::library::Library;
 
 /// What is loaded, and what it is to be drawn with at first.
 #[derive(Debug, Clone)]
@@ -25,10 +26,23 @@ pub struct Request {
     pub arguments: PictureArguments,
     /// The device to upload to; none where nothing is drawn.
     pub gpu: Option<Gpu>,
-    /// The technique.
-    pub technique: Technique,
+    /// Techniques and components.
+    pub library: Library,
+    /// What they are drawn with at first.
+    pub built: Built,
     /// How it is drawn.
     pub options: PictureOptions,
+}
+
+/// What a renderer was built for: what else it draws, it draws as it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Built {
+    /// The technique.
+    pub technique: Technique,
+    /// Whether there is no paper behind the scene.
+    pub is_transparent: bool,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
 }
 
 /// Models that are there.
@@ -40,8 +54,8 @@ pub struct LoadedScene {
     pub scene: Arc<Scene>,
     /// The objects of scene files.
     pub objects: Vec<SceneObject>,
-    /// Ready to draw, where there is a device.
-    pub renderer: Option<PictureRenderer>,
+    /// Ready to draw, where there is a device, and for what.
+    pub renderer: Option<(PictureRenderer, Built)>,
 }
 
 /// Reads the models of a request, and uploads them.
@@ -56,12 +70,15 @@ pub fn load(request: Request, tell: Tell) -> Result<LoadedScene, Failure> {
         None => None,
         Some(gpu) => {
             listener.begin("uploading")?;
-            let Request { technique, options, .. } = &request;
+            let Request { built, options, .. } = &request;
+            let technique = &built.technique;
+            let looks =
+                request.arguments.object_techniques(&objects, &request.library, technique, true)?;
             // What is wrong with a technique is no fault of the models: the window tells it.
-            let made = PictureRenderer::new(gpu, &scene, technique, &[], options);
+            let made = PictureRenderer::new(gpu, &scene, technique, &looks, options);
             match made {
                 Err(failure) if failure.status != ExitStatus::Shader => return Err(failure),
-                made => made.ok(),
+                made => made.ok().map(|made| (made, built.clone())),
             }
         }
     };
@@ -71,17 +88,19 @@ pub fn load(request: Request, tell: Tell) -> Result<LoadedScene, Failure> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::technique::library::Library;
     use crate::window::background::Background;
     use crate::window::recipe::Recipe;
 
     fn start(model: &str) -> Background<LoadedScene> {
-        let recipe = Recipe::of_words(&[model.to_owned()], &Library::shipped()).unwrap();
+        let library = Library::shipped();
+        let recipe = Recipe::of_words(&[model.to_owned()], &library).unwrap();
+        let technique = recipe.appearance.technique;
         let request = Request {
             models: recipe.models,
             arguments: recipe.arguments,
             gpu: None,
-            technique: recipe.appearance.technique,
+            library,
+            built: Built { technique, is_transparent: false, size: [1024; 2] },
             options: PictureOptions::default(),
         };
         Background::start(|| {}, |tell| load(request, tell))

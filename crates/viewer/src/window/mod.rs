@@ -8,19 +8,23 @@
 //!
 //! - `session`: what is shown and known, without GPU; `recipe`, `viewpoint`: what makes a
 //!   picture, as a command line; `messages`, `remembered`.
-//! - `navigation`: from hands to viewpoints. `background`, `loading`: models on another thread.
+//! - `navigation`: from hands to viewpoints; `light_hand`: to light and cuts. `background`, `loading`: models on another thread.
 //!   `picking`: what is under the pointer. `watching`: files that change.
 //! - `canvas`: the session as a picture, drawn when something changed.
 //! - `inspection`: what passes draw for each other, shown. `marking`: edges marked by hand.
 //!   `saving`, `thumbnails`: pictures drawn on the side.
 //! - `opening`: the window opens, and again where its device was lost.
+//! - `style`: what the window looks like. `desktop`: light or dark as the desktop is, and its
+//!   dialogs.
 //! - `app`: one frame of the window. `hands`: pointer and keys. `panels`: what is beside the picture.
 
 mod app;
 pub mod background;
 mod canvas;
+mod desktop;
 pub mod hands;
 pub mod inspection;
+pub mod light_hand;
 pub mod loading;
 pub mod marking;
 pub mod messages;

@@ -11,8 +11,9 @@ use strokes::gpu::Gpu;
 
 use super::background::Tell;
 use super::recipe::Recipe;
-use crate::picture::{encode_png_with_text, read_png_text};
-use crate::render::{PictureRenderer, Scene};
+use crate::parts::AnySizeRenderer;
+use crate::picture::{encode_png, encode_png_with_text, read_png_text};
+use crate::render::Scene;
 use crate::technique::Technique;
 use crate::turntable;
 
@@ -53,19 +54,38 @@ pub fn save(order: &Order, tell: Tell) -> Result<String, Failure> {
     let camera = viewpoint.camera(&scene.frame);
     let options = recipe.picture_options(*size)?;
     let technique = &recipe.appearance.technique;
-    let mut renderer = PictureRenderer::new(gpu, scene, technique, looks, &options)?;
+    let mut renderer = AnySizeRenderer::new(gpu, scene, technique, looks, &options)?;
     if let &Some(steps) = turntable {
         let is_transparent = options.is_transparent;
         crate::turntable::write(path, steps, *size, is_transparent, |step| {
-            tell(&format!("drawing picture {} of {steps}", step + 1))?;
-            Ok(renderer.render(&turntable::camera_at(&camera, step, steps))?.0)
+            let stage = format!("drawing picture {} of {steps}", step + 1);
+            tell(&stage)?;
+            let camera = turntable::camera_at(&camera, step, steps);
+            Ok(renderer.render(&camera, &mut |_, _| tell(&stage))?.0)
         })?;
     } else {
-        let (picture, _) = renderer.render(&camera)?;
+        let (picture, _) = renderer.render(&camera, &mut |done, total| {
+            tell(&format!("drawing {}: part {done} of {total}", path.display()))
+        })?;
+        tell(&format!("writing {}", path.display()))?;
         let text = recipe.words().and_then(|words| serde_json::to_string(&words).ok());
         let text = text.as_deref().map(|text| (KEYWORD, text));
         write_file(path, &encode_png_with_text(&picture, options.is_transparent, text)?)?;
     }
+    Ok(format!("saved as {}", path.display()))
+}
+
+/// Writes the pixels of the window; says what was written.
+///
+/// # Errors
+/// Where they cannot be written.
+pub fn save_window(path: &Path, pixels: &egui::ColorImage, tell: Tell) -> Result<String, Failure> {
+    tell(&format!("writing {}", path.display()));
+    let [width, height] = pixels.size.map(edgemesh::index::to_u32);
+    let texels = pixels.pixels.iter().flat_map(egui::Color32::to_array).collect();
+    let picture = image::RgbaImage::from_raw(width, height, texels);
+    let picture = picture.ok_or_else(|| Failure::fault("the window gave too few pixels"))?;
+    write_file(path, &encode_png(&picture, false)?)?;
     Ok(format!("saved as {}", path.display()))
 }
 

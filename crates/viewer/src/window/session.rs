@@ -53,6 +53,10 @@ pub struct Session {
     pub generated: Vec<PassTexture>,
     /// The one that is shown instead of the picture.
     pub inspection: Option<Inspection>,
+    /// What was drawn before a look for looking, to go back to.
+    pub before_looking: Option<(String, Technique, Technique)>,
+    /// The number of the cut that the hand moves; the last one where there are fewer.
+    pub chosen_cut: usize,
     /// Edges that are marked by hand.
     pub marking: Marking,
     /// Another look beside this one.
@@ -116,6 +120,8 @@ pub enum Request {
     GoTo(Viewpoint),
     /// Ask where to save a picture, or so many around the target, and save it.
     SavePicture(Option<u32>),
+    /// Ask where to save the window as it is, panels and all, and save it.
+    SaveWindow,
     /// Close the window.
     Quit,
     /// Lose the graphics device, to see what happens.
@@ -124,6 +130,15 @@ pub enum Request {
         is_within_frame: bool,
     },
 }
+
+/// Techniques that show what others are made of, with what they show.
+pub const LOOKS: [(&str, &str); 5] = [
+    ("debug_features", "Edge classes"),
+    ("wireframe", "Wireframe"),
+    ("debug_normals", "Normals"),
+    ("debug_depth", "Depth"),
+    ("debug_ids", "Regions"),
+];
 
 /// A pass that takes longer makes the window wait, in milliseconds.
 const SLOW_MS: f64 = 2000.0;
@@ -155,6 +170,8 @@ impl Session {
             requests: Vec::new(),
             generated: Vec::new(),
             inspection: None,
+            before_looking: None,
+            chosen_cut: 0,
             marking: Marking::default(),
             comparison: None,
             undoer,
@@ -297,6 +314,34 @@ impl Session {
                 self.messages.technique = None;
             }
             Err(failure) => self.messages.technique = Some(failure.message),
+        }
+    }
+
+    /// Takes a look for looking; what was drawn before stays known with its changes.
+    pub fn look_with(&mut self, name: &str) {
+        let before = self.recipe.appearance.clone();
+        let is_looking = self.is_looking();
+        self.take_technique(name);
+        if self.recipe.appearance.technique_name == name && !is_looking {
+            self.before_looking = Some((before.technique_name, before.original, before.technique));
+        }
+    }
+
+    /// Whether what is drawn is a look for looking, with something to go back to.
+    #[must_use]
+    pub fn is_looking(&self) -> bool {
+        let name = self.recipe.appearance.technique_name.as_str();
+        self.before_looking.is_some() && LOOKS.iter().any(|(look, _)| *look == name)
+    }
+
+    /// Goes back to what was drawn before.
+    pub fn stop_looking(&mut self) {
+        let is_looking = self.is_looking();
+        if let Some((name, original, technique)) = self.before_looking.take().filter(|_| is_looking)
+        {
+            let appearance = &mut self.recipe.appearance;
+            (appearance.technique_name, appearance.original) = (name, original);
+            appearance.technique = technique;
         }
     }
 

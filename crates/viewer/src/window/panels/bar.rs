@@ -81,6 +81,10 @@ fn file_menu(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
     item(ui, session, size, "Read again", Command::Reload);
     ui.separator();
     item(ui, session, size, "Save picture…", Command::SavePicture);
+    if ui.button("Save window…").clicked() {
+        session.ask(Request::SaveWindow);
+        ui.close();
+    }
     item(ui, session, size, "Save technique…", Command::SaveTechnique);
     ui.separator();
     item(ui, session, size, "Quit", Command::Quit);

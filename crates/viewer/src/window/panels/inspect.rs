@@ -8,22 +8,19 @@ use egui_plot::{Legend, Line, Plot, PlotPoints};
 use super::bar::grouped;
 use crate::technique::texture_format::word_of;
 use crate::window::inspection::Inspection;
-use crate::window::session::{KEPT_FRAMES, Session};
+use crate::window::session::{KEPT_FRAMES, LOOKS, Session};
 
 /// The inspection panel.
 pub(super) fn inspect_panel(ui: &mut Ui, session: &mut Session) {
     ui.heading("Looks for looking");
     ui.horizontal_wrapped(|ui| {
-        for (technique, name) in [
-            ("debug_features", "Edge classes"),
-            ("wireframe", "Wireframe"),
-            ("debug_normals", "Normals"),
-            ("debug_depth", "Depth"),
-            ("debug_ids", "Regions"),
-        ] {
+        if ui.selectable_label(!session.is_looking(), "The picture").clicked() {
+            session.stop_looking();
+        }
+        for (technique, name) in LOOKS {
             let is_it = session.recipe.appearance.technique_name == technique;
             if ui.selectable_label(is_it, name).clicked() && !is_it {
-                session.take_technique(technique);
+                session.look_with(technique);
             }
         }
     });
@@ -45,7 +42,7 @@ fn textures(ui: &mut Ui, session: &mut Session) {
         return;
     }
     ui.horizontal_wrapped(|ui| {
-        if ui.selectable_label(session.inspection.is_none(), "The picture").clicked() {
+        if ui.selectable_label(session.inspection.is_none(), "None").clicked() {
             session.inspection = None;
         }
         for texture in session.generated.clone() {
@@ -141,7 +138,7 @@ fn repairs(ui: &mut Ui, session: &Session) {
     for model in &scene.models {
         let warnings = model.report.warnings();
         if warnings.is_empty() {
-            ui.weak(format!("{}: nothing", model.name));
+            ui.weak(format!("{}: nothing", model.name.trim_end_matches(':')));
         }
         for warning in warnings {
             ui.label(edgemesh::command::warning_line(&model.name, "", warning));

@@ -6,10 +6,12 @@ use crate::window::hands::{Command, KEYS};
 use crate::window::session::Session;
 
 /// What the pointer does.
-const POINTER: [(&str, &str); 6] = [
+const POINTER: [(&str, &str); 8] = [
     ("drag", "turn around the model"),
     ("Shift + drag, middle drag", "move the picture"),
     ("right drag", "look around"),
+    ("L + drag", "turn the light"),
+    ("C + drag", "move the chosen cut"),
     ("wheel", "come nearer to what is under the pointer"),
     ("double click", "turn around what is under the pointer"),
     ("drop a file", "open it"),

@@ -6,6 +6,7 @@ use strokes::frame::MAX_CLIP_PLANES;
 
 use crate::lighting::{Light, Lighting};
 use crate::render::Scene;
+use crate::window::light_hand::{in_camera, in_world, point_at, rounded, shone_from};
 use crate::window::session::Session;
 use crate::window::viewpoint::Viewpoint;
 
@@ -35,10 +36,11 @@ pub(super) fn light_panel(ui: &mut Ui, session: &mut Session) {
             (lighting.light, lighting.color) = (default.light, default.color);
         }
     });
+    ui.weak("L + drag over the picture turns it too");
     ui.add_space(10.0);
     ui.heading("Cuts");
     if let Some(scene) = scene {
-        cuts(ui, lighting, &scene, view.as_ref());
+        cuts(ui, lighting, &mut session.chosen_cut, (&scene, view.as_ref()));
     }
 }
 
@@ -65,41 +67,6 @@ fn kind(ui: &mut Ui, lighting: &mut Lighting, view: Option<&Viewpoint>, scene: O
     });
 }
 
-/// The direction to the light, in the camera's space.
-fn in_camera(light: &Light, view: &Viewpoint, scene: &Scene) -> DVec3 {
-    let [right, up, back] = view.axes();
-    let of_world = |v: DVec3| DVec3::new(v.dot(right), v.dot(up), v.dot(back));
-    let direction = match light {
-        Light::Camera(direction) => *direction,
-        Light::World(direction) => of_world(*direction),
-        Light::Point(point) => of_world(*point - scene.frame.to_file(scene.bounds.center())),
-    };
-    direction.normalize_or(DVec3::Z)
-}
-
-fn in_world(in_camera: DVec3, view: &Viewpoint) -> DVec3 {
-    let [right, up, back] = view.axes();
-    right * in_camera.x + up * in_camera.y + back * in_camera.z
-}
-
-/// A point in that direction, two radii from the middle of the scene.
-fn point_at(in_camera: DVec3, view: &Viewpoint, scene: &Scene) -> DVec3 {
-    let radius = scene.bounds.radius() / scene.frame.scale;
-    let center = scene.frame.to_file(scene.bounds.center());
-    rounded(center + in_world(in_camera, view) * (2.0 * radius))
-}
-
-/// With as many digits as a hand can tell.
-fn rounded(vector: DVec3) -> DVec3 {
-    let unit = 10_f64.powf(vector.abs().max_element().max(1e-12).log10().floor() - 3.0);
-    // Divided, so that the numbers are the nearest to their short texts.
-    let scale = (1.0 / unit).round();
-    match scale >= 1.0 {
-        true => (vector * scale).round() / scale,
-        false => (vector / unit).round() * unit,
-    }
-}
-
 /// A ball that is lit as the scene is; dragging over it moves the light.
 fn ball(ui: &mut Ui, lighting: &mut Lighting, view: &Viewpoint, scene: Option<&Scene>) {
     let Some(scene) = scene else { return };
@@ -116,11 +83,7 @@ fn ball(ui: &mut Ui, lighting: &mut Lighting, view: &Viewpoint, scene: Option<&S
         // Beyond the rim the light comes from the side.
         let (x, y) = if flat > 1.0 { (x / flat, y / flat) } else { (x, y) };
         let direction = DVec3::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt());
-        lighting.light = match lighting.light {
-            Light::Camera(_) => Light::Camera(rounded(direction)),
-            Light::World(_) => Light::World(rounded(in_world(direction, view))),
-            Light::Point(_) => Light::Point(point_at(direction, view, scene)),
-        };
+        lighting.light = shone_from(&lighting.light, direction, view, scene);
     }
     let light = in_camera(&lighting.light, view, scene);
     let base = egui::Rgba::from(ui.visuals().widgets.inactive.bg_fill);
@@ -168,7 +131,12 @@ fn numbers(ui: &mut Ui, lighting: &mut Lighting) {
     }
 }
 
-fn cuts(ui: &mut Ui, lighting: &mut Lighting, scene: &Scene, view: Option<&Viewpoint>) {
+fn cuts(
+    ui: &mut Ui,
+    lighting: &mut Lighting,
+    chosen: &mut usize,
+    (scene, view): (&Scene, Option<&Viewpoint>),
+) {
     let center = scene.frame.to_file(scene.bounds.center());
     let radius = scene.bounds.radius() / scene.frame.scale;
     let mut removed = None;
@@ -199,7 +167,11 @@ fn cuts(ui: &mut Ui, lighting: &mut Lighting, scene: &Scene, view: Option<&Viewp
                 }
             });
             ui.horizontal(|ui| {
-                let label = ui.label("Place");
+                let label = ui.selectable_label(*chosen == at, "Place");
+                let label = label.on_hover_text("C + drag over the picture moves this one");
+                if label.clicked() {
+                    *chosen = at;
+                }
                 let slider = Slider::new(&mut offset, -radius..=radius)
                     .clamping(egui::SliderClamping::Never);
                 ui.add(slider).labelled_by(label.id);
@@ -207,6 +179,7 @@ fn cuts(ui: &mut Ui, lighting: &mut Lighting, scene: &Scene, view: Option<&Viewp
             if (normal, offset) != before {
                 let d = -(normal.dot(center) + offset * normal.length());
                 *plane = [normal.x, normal.y, normal.z, d];
+                *chosen = at;
             }
         });
     }
@@ -215,6 +188,7 @@ fn cuts(ui: &mut Ui, lighting: &mut Lighting, scene: &Scene, view: Option<&Viewp
     }
     let can_add = lighting.clip_planes.len() < MAX_CLIP_PLANES;
     if ui.add_enabled(can_add, egui::Button::new("Add a cut")).clicked() {
+        *chosen = lighting.clip_planes.len();
         lighting.clip_planes.push([0.0, 0.0, -1.0, center.z]);
     }
 }

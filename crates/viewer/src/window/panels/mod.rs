@@ -1,13 +1,15 @@
 //! What is beside the picture. Panels read and change the session, and ask the window for
 //! what takes more than that.
 //!
-//! - `bar`: above and below the picture. `look`, with `variable`: the technique.
+//! - `bar`: above and below the picture. `look`, with `variable` and `image_preview`: the
+//!   technique.
 //! - `lines`, `light`, `view`, `inspect`, `output`: the other panels.
 //! - `comparison`: the line between two looks.
 //! - `notes`: what there is to say. `keys`: the sheet of keys.
 
 mod bar;
 mod comparison;
+mod image_preview;
 mod inspect;
 mod keys;
 mod light;

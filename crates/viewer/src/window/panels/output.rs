@@ -23,9 +23,15 @@ pub(super) fn output_panel(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
         ui.weak(format!("{} × {} pixels, as in the window", size[0], size[1]));
     }
     ui.checkbox(&mut session.recipe.appearance.is_transparent, "No paper behind the models");
-    if ui.button("Save picture…").on_hover_text("F12").clicked() {
-        run(Command::SavePicture, session, size);
-    }
+    ui.horizontal(|ui| {
+        if ui.button("Save picture…").on_hover_text("F12").clicked() {
+            run(Command::SavePicture, session, size);
+        }
+        let window = ui.button("Save window…");
+        if window.on_hover_text("as it is on the screen, panels and all").clicked() {
+            session.ask(Request::SaveWindow);
+        }
+    });
     ui.add_space(8.0);
     ui.heading("Turntable");
     ui.horizontal(|ui| {

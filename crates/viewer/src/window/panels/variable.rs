@@ -3,8 +3,9 @@
 
 use std::path::PathBuf;
 
-use egui::{ComboBox, DragValue, Id, Response, Slider, SliderClamping, TextEdit, Ui};
+use egui::{Button, ComboBox, DragValue, Id, Response, Slider, SliderClamping, TextEdit, Ui};
 
+use super::image_preview::image_preview;
 use crate::technique::descriptor::VariableDescriptor;
 use crate::technique::image_file::images_of;
 use crate::technique::texture_name::{TextureName, TextureSource};
@@ -165,19 +166,34 @@ fn texture(
         TextureSource::Image { image, .. } => image.clone(),
         _ => name.to_string(),
     };
-    ComboBox::from_id_salt(&variable.name)
-        .selected_text(shown)
-        .show_ui(ui, |ui| {
-            if variable.default.as_ref() == Some(&Value::Texture(TextureName::NONE)) {
-                ui.selectable_value(&mut new, TextureSource::None, "none");
+    let images = images_of(directory, folders);
+    let file_of = |source: &TextureSource| {
+        let TextureSource::Image { image, .. } = source else { return None };
+        images.iter().find(|(known, _)| known == image).map(|(_, file)| file)
+    };
+    let preview = file_of(&new).and_then(|file| image_preview(ui, file));
+    let list = ComboBox::from_id_salt(&variable.name).selected_text(shown).show_ui(ui, |ui| {
+        if variable.default.as_ref() == Some(&Value::Texture(TextureName::NONE)) {
+            ui.selectable_value(&mut new, TextureSource::None, "none");
+        }
+        for (image, file) in &images {
+            let directory = Some(directory.to_owned());
+            let source = TextureSource::Image { directory, image: image.clone() };
+            let is_it = source == new;
+            let button = match image_preview(ui, file) {
+                Some(texture) => Button::image_and_text(&texture, image.as_str()),
+                None => Button::new(image.as_str()),
+            };
+            if ui.add(button.selected(is_it).frame_when_inactive(is_it)).clicked() {
+                new = source;
             }
-            for (image, _) in images_of(directory, folders) {
-                let directory = Some(directory.to_owned());
-                let source = TextureSource::Image { directory, image: image.clone() };
-                ui.selectable_value(&mut new, source, image);
-            }
-        })
-        .response
-        .labelled_by(label);
+        }
+    });
+    let list = list.response.labelled_by(label);
+    if let Some(texture) = preview {
+        list.on_hover_ui(|ui| {
+            ui.image(&texture);
+        });
+    }
     (new != name.source).then_some(TextureName { source: new, is_filtered: name.is_filtered })
 }
