@@ -153,16 +153,26 @@ impl PreparedLook {
     }
 }
 
+impl RendererOptions {
+    /// What a renderer with these options comes to be: [`Layout::FaceNormals`] has no
+    /// lists.
+    #[must_use]
+    pub fn possible(self) -> Self {
+        match self.layout {
+            Layout::FaceNormals => Self { path: DetectionPath::Vertex, ..self },
+            _ => self,
+        }
+    }
+}
+
 impl Renderer {
     /// Builds the pipelines that every look needs.
     ///
     /// # Errors
     /// Where a shader cannot be put together.
-    pub fn new(gpu: &Gpu, mut options: RendererOptions) -> Result<Self, ShaderError> {
+    pub fn new(gpu: &Gpu, options: RendererOptions) -> Result<Self, ShaderError> {
         let device = &gpu.device;
-        if options.layout == Layout::FaceNormals {
-            options.path = DetectionPath::Vertex;
-        }
+        let options = options.possible();
         let frame = frame_layout(device);
         Ok(Self {
             layouts: StrokeLayouts::new(device, &frame, options.layout, &options.formats),

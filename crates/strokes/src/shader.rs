@@ -122,6 +122,7 @@ pub const EMBEDDED: &[(&str, &str)] = &[
     embedded!("stroke_over_surface.wgsl"),
     embedded!("stroke_replicated.wgsl"),
     embedded!("stroke_replicated_16.wgsl"),
+    embedded!("window.wgsl"),
 ];
 
 /// A shader module's text, joined from its files.

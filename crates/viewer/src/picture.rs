@@ -14,7 +14,7 @@ pub const PIXEL_TOLERANCE: u8 = 16;
 /// renderers found between drivers.
 pub const DEFAULT_REFERENCE_THRESHOLD: f64 = 0.0004;
 
-/// Encodes as PNG: with straight alpha where `is_transparent`, else opaque.
+/// Encodes as PNG: with straight alpha where `is_transparent`, else over white.
 ///
 /// `picture` has premultiplied alpha, as it comes from the GPU.
 ///
@@ -51,8 +51,10 @@ pub fn encode_png_with_text(
     for pixels in picture.rows() {
         row.clear();
         for pixel in pixels {
-            let straight = straight(*pixel).0;
-            row.extend_from_slice(if is_transparent { &straight } else { &straight[..3] });
+            match is_transparent {
+                true => row.extend_from_slice(&straight(*pixel).0),
+                false => row.extend_from_slice(&over_white(*pixel).0[..3]),
+            }
         }
         stream.write_all(&row).map_err(|error| failed(error.into()))?;
     }
@@ -70,14 +72,21 @@ pub fn read_png_text(path: &Path, keyword: &str) -> Option<String> {
     chunk.get_text().ok()
 }
 
-/// Divides the colours by their alpha, as files store them.
+/// The colours as files store them: divided by their alpha where `is_transparent`, else
+/// over white.
 #[must_use]
-pub fn straight_alpha(picture: &RgbaImage) -> RgbaImage {
+pub fn as_stored(picture: &RgbaImage, is_transparent: bool) -> RgbaImage {
     let mut pixels = picture.clone();
     for pixel in pixels.pixels_mut() {
-        *pixel = straight(*pixel);
+        *pixel = if is_transparent { straight(*pixel) } else { over_white(*pixel) };
     }
     pixels
+}
+
+/// A premultiplied colour over white paper.
+fn over_white(Rgba([r, g, b, a]): Rgba<u8>) -> Rgba<u8> {
+    let [r, g, b] = [r, g, b].map(|channel| channel.saturating_add(255 - a));
+    Rgba([r, g, b, 255])
 }
 
 /// A colour divided by its alpha.
@@ -161,5 +170,8 @@ mod tests {
         let png = encode_png(&grey, true).unwrap();
         let back = image::load_from_memory(&png).unwrap().to_rgba8();
         assert_eq!(back.get_pixel(0, 0), &Rgba([128, 128, 128, 128]));
+        let png = encode_png(&grey, false).unwrap();
+        let back = image::load_from_memory(&png).unwrap().to_rgba8();
+        assert_eq!(back.get_pixel(0, 0), &Rgba([191, 191, 191, 255]), "over white");
     }
 }

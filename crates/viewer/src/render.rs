@@ -273,6 +273,21 @@ impl PictureRenderer {
         Ok(())
     }
 
+    /// Goes on in another size; pipelines and meshes stay.
+    ///
+    /// # Errors
+    /// Where it is too large for the adapter; then a [`Self::reload`] must come first.
+    pub fn resize(&mut self, size: [u32; 2]) -> Result<(), Failure> {
+        check_size(&self.gpu, size)?;
+        let (gpu, plan, samples) = (&self.gpu, &self.plan, self.options.samples);
+        let mut graph = self.graph.take().ok_or_else(no_graph)?;
+        gpu.make(|| graph.resize(&gpu.device, plan, size))
+            .map_err(|error| resource_failure(&error, size, samples))?;
+        self.graph = Some(graph);
+        self.options.size = size;
+        Ok(())
+    }
+
     /// How it draws.
     #[must_use]
     pub const fn options(&self) -> &PictureOptions {

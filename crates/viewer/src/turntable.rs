@@ -10,7 +10,7 @@ use glam::DQuat;
 use image::RgbaImage;
 
 use crate::animation::{AnimationKind, encode_animation};
-use crate::picture::{encode_png, straight_alpha};
+use crate::picture::{as_stored, encode_png};
 
 /// The camera at one of `steps` around its target, to the left.
 #[must_use]
@@ -34,7 +34,7 @@ pub fn write(
 ) -> Result<(), Failure> {
     if let Some(kind) = AnimationKind::of(path) {
         let bytes = encode_animation(kind, steps, size, |step| {
-            draw(step).map(|picture| straight_alpha(&picture))
+            draw(step).map(|picture| as_stored(&picture, is_transparent))
         })?;
         return write_file(path, &bytes);
     }

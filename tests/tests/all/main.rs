@@ -8,6 +8,10 @@ mod commands;
 mod compare_strokes;
 mod corpus;
 mod dependencies;
+#[cfg(feature = "gpu")]
+mod display;
+#[cfg(feature = "gpu")]
+mod drop_file;
 mod expectations;
 #[cfg(feature = "gpu")]
 mod gpu_detectors;
@@ -25,6 +29,8 @@ mod gpu_layouts;
 mod gpu_lines;
 #[cfg(feature = "gpu")]
 mod gpu_parts;
+#[cfg(feature = "gpu")]
+mod gpu_real_window;
 #[cfg(feature = "gpu")]
 mod gpu_render;
 #[cfg(feature = "gpu")]

@@ -421,3 +421,24 @@ fn keys_do_what_their_sheet_says() {
     let Some(Request::GoTo(view)) = harness.state().requests.last() else { panic!("pasted") };
     assert_eq!(view.eye, glam::DVec3::new(9.0, 0.0, 0.0));
 }
+
+/// Every sign that panels write is in the fonts of the window.
+#[test]
+fn no_sign_is_missing_in_the_fonts() {
+    let window = testkit::locate::workspace_root().join("crates/viewer/src/window");
+    let folders = [window.clone(), window.join("panels")];
+    let files = folders.iter().flat_map(|folder| std::fs::read_dir(folder).unwrap());
+    let mut signs = std::collections::BTreeSet::new();
+    for path in files.map(|file| file.unwrap().path()).filter(|path| path.is_file()) {
+        let text = std::fs::read_to_string(path).unwrap();
+        let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
+        signs.extend(code.flat_map(str::chars).filter(|sign| !sign.is_ascii()));
+    }
+    assert!(signs.contains(&'…'), "{signs:?}");
+    let harness = Harness::new_ui(|ui| {
+        ui.label("");
+    });
+    let font = egui::FontId::proportional(13.0);
+    signs.retain(|&sign| !harness.ctx.fonts_mut(|fonts| fonts.has_glyph(&font, sign)));
+    assert!(signs.is_empty(), "{signs:?}");
+}

@@ -18,7 +18,7 @@ use strokes::gpu::{self, Gpu};
 
 use crate::animation::AnimationKind;
 use crate::parts::AnySizeRenderer;
-use crate::picture::{DEFAULT_REFERENCE_THRESHOLD, compare, encode_png, read_png};
+use crate::picture::{DEFAULT_REFERENCE_THRESHOLD, as_stored, compare, encode_png, read_png};
 use crate::render::{FrameStatistics, Scene, adapter_failure};
 use crate::scene_file::SceneObject;
 use crate::technique::Technique;
@@ -256,7 +256,8 @@ impl RenderCommand {
     }
 
     fn compare_with(&self, picture: &RgbaImage, reference: &RgbaImage) -> Result<(), Failure> {
-        let Some(difference) = compare(picture, reference) else {
+        let stored = as_stored(picture, self.picture.transparent);
+        let Some(difference) = compare(&stored, reference) else {
             let (width, height) = reference.dimensions();
             return Err(Failure::fault(format!(
                 "the reference is {width}x{height} and the picture {}x{}; give --size {width}x{height}",

@@ -1,23 +1,24 @@
 //! From a plan to steps with their pipelines and textures; what a graph before has that
 //! is still good is taken over.
 
-use std::sync::Arc;
+use std::cell::RefCell;
 
 use edgemesh::command::Failure;
 use strokes::frame::{Frame, frame_layout};
 use strokes::gpu::Gpu;
-use strokes::mesh_buffers::MeshBuffers;
 use strokes::targets::{TargetFormats, Targets};
 
 use super::bindings::{Samplers, Sources};
 use super::copy_pass::CopyPass;
 use super::ping_pong::PingPong;
+use super::pipeline::{Geometry, PassPipeline, PipelineTarget, Programs};
+use super::pipeline_cache::PipelineCache;
 use super::scene_pass::ScenePass;
 use super::screen_pass::ScreenPass;
 use super::stroke_pass::{self, StrokePasses};
 use super::surface::Surfaces;
 use super::textures::{GeneratedTexture, Images};
-use super::{GraphOptions, PassGraph, Run, Step, StepKind, blend, pipeline};
+use super::{GraphOptions, PassGraph, Run, Step, StepKind, blend};
 use crate::render::Scene;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
@@ -43,7 +44,8 @@ impl PassGraph {
     }
 
     /// As [`Self::new`], taking from `before`, a graph of the same scene, options and
-    /// looks, what is still good: surfaces, meshes, and textures with what is in them.
+    /// looks, what is still good: surfaces, meshes, pipelines, images, and textures with what
+    /// is in them.
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -75,7 +77,7 @@ impl PassGraph {
         let framebuffer = before.framebuffer(device, options.size, formats);
         let mut sources = Sources {
             generated: before.generated(device, plan, options.size),
-            images: Images::default(),
+            images: std::mem::take(&mut before.images),
             samplers: Samplers::new(device),
         };
         let has =
@@ -91,19 +93,22 @@ impl PassGraph {
         };
         let mut strokes = None;
         if has(CoreComponent::Strokes) {
-            let kept = (&technique.folders[..], std::mem::take(&mut before.meshes));
-            strokes = Some(StrokePasses::new(gpu, scene, options, formats, kept)?);
+            let before = std::mem::take(&mut before.strokes);
+            let folders = &technique.folders;
+            strokes = Some(StrokePasses::new(gpu, scene, options, formats, (folders, before))?);
         }
         let layout = frame_layout(device);
         let frame = Frame::new(device, &layout, &bytemuck::Zeroable::zeroed());
-        let builder = Builder { gpu, scene, technique, plan, looks, options, formats };
+        let pipelines = RefCell::new(std::mem::take(&mut before.pipelines));
+        let builder = Builder { gpu, scene, technique, plan, looks, options, formats, pipelines };
         let mut steps = Vec::new();
         for group in groups {
             let mut step = builder.step(&group, (&layout, surfaces.as_ref(), strokes.as_mut()))?;
             before.go_on(&mut step, &sources.generated);
             steps.push(step);
         }
-        Ok(Self { framebuffer, frame, sources, surfaces, strokes, steps })
+        let pipelines = builder.pipelines.into_inner();
+        Ok(Self { framebuffer, frame, sources, surfaces, strokes, steps, pipelines })
     }
 }
 
@@ -112,17 +117,23 @@ impl PassGraph {
 struct Before {
     framebuffer: Option<Targets>,
     surfaces: Option<Surfaces>,
-    meshes: Vec<Option<Arc<MeshBuffers>>>,
+    strokes: Option<StrokePasses>,
+    images: Images,
+    pipelines: PipelineCache,
     textures: Vec<GeneratedTexture>,
     runs: Vec<(String, Run)>,
 }
 
 impl Before {
     fn of(graph: PassGraph) -> Self {
+        let mut images = graph.sources.images;
+        images.forget_changed();
         Self {
             framebuffer: Some(graph.framebuffer),
             surfaces: graph.surfaces,
-            meshes: graph.strokes.map_or_else(Vec::new, StrokePasses::into_meshes),
+            strokes: graph.strokes,
+            images,
+            pipelines: graph.pipelines,
             textures: graph.sources.generated,
             runs: graph.steps.into_iter().map(|step| (step.name, step.run)).collect(),
         }
@@ -219,9 +230,22 @@ pub(super) struct Builder<'a> {
     pub(super) looks: &'a [Technique],
     pub(super) options: &'a GraphOptions,
     pub(super) formats: TargetFormats,
+    pipelines: RefCell<PipelineCache>,
 }
 
 impl Builder<'_> {
+    /// A pipeline, built where it was not built before.
+    pub(super) fn pipeline(
+        &self,
+        layouts: (&wgpu::BindGroupLayout, &wgpu::BindGroupLayout),
+        programs: Programs,
+        geometry: Geometry,
+        target: &PipelineTarget,
+    ) -> Result<PassPipeline, Failure> {
+        let mut pipelines = self.pipelines.borrow_mut();
+        pipelines.pipeline(self.gpu, layouts, programs, geometry, target)
+    }
+
     fn step(
         &self,
         group: &[usize],
@@ -255,13 +279,13 @@ impl Builder<'_> {
     }
 
     /// Formats and blending of what a pass draws into.
-    pub(super) fn target(&self, pass: &Pass, plan: &PassPlan) -> pipeline::PipelineTarget {
+    pub(super) fn target(&self, pass: &Pass, plan: &PassPlan) -> PipelineTarget {
         let blend = blend::blend_state(pass.string("blend"));
         match &plan.target {
             Target::Framebuffer => {
-                pipeline::PipelineTarget::framebuffer(&self.formats, blend, self.options.clips)
+                PipelineTarget::framebuffer(&self.formats, blend, self.options.clips)
             }
-            Target::Textures { colors, depth } => pipeline::PipelineTarget {
+            Target::Textures { colors, depth } => PipelineTarget {
                 colors: colors.iter().map(|&at| self.plan.textures[at].format).collect(),
                 depth: depth.map(|at| self.plan.textures[at].format),
                 samples: 1,

@@ -13,7 +13,7 @@
 //!   components. Who adds one: a variant of `CoreComponent`, its descriptor in
 //!   `techniques/components/core.toml`, a file here, a step below (thesis, section 2.3).
 //! - `surface`, `material`, `textures`: what they draw and read.
-//! - `bindings`, `params`, `pipeline`, `blend`: how programs are given what they want.
+//! - `bindings`, `params`, `pipeline` with its cache, `blend`: how programs are given what they want.
 
 mod bindings;
 mod blend;
@@ -23,6 +23,7 @@ pub mod material;
 mod params;
 mod ping_pong;
 mod pipeline;
+mod pipeline_cache;
 mod scene_pass;
 mod screen_pass;
 mod stroke_pass;
@@ -81,6 +82,7 @@ pub struct PassGraph {
     surfaces: Option<Surfaces>,
     strokes: Option<StrokePasses>,
     steps: Vec<Step>,
+    pipelines: pipeline_cache::PipelineCache,
 }
 
 /// One or several passes, done at once.
@@ -223,10 +225,31 @@ impl PassGraph {
     /// graph: the next frame is the first one again.
     pub fn forget_frames(&mut self, device: &wgpu::Device, plan: &Plan) {
         for (texture, plan) in self.sources.generated.iter_mut().zip(&plan.textures) {
-            texture.clear(device, plan);
+            texture.renew(device, plan, self.framebuffer.size);
         }
         for step in &mut self.steps {
             step.run.is_done = false;
+        }
+    }
+
+    /// Goes on in a picture of another size. Pipelines and meshes stay, and so do textures
+    /// of `plan`, the plan of this graph, whose size is not that of the picture.
+    pub fn resize(&mut self, device: &wgpu::Device, plan: &Plan, size: [u32; 2]) {
+        let formats = *self.framebuffer.formats();
+        self.framebuffer = Targets::new(device, size, formats);
+        let mut is_new = Vec::with_capacity(plan.textures.len());
+        for (texture, plan) in self.sources.generated.iter_mut().zip(&plan.textures) {
+            is_new.push(!texture.is_for(plan, size, texture.is_double()));
+            if is_new.last() == Some(&true) {
+                texture.renew(device, plan, size);
+            }
+        }
+        for step in &mut self.steps {
+            let mut written = step.plan.target.textures().into_iter();
+            step.run.is_done &= !written.any(|at| is_new[at]);
+            if let StepKind::PingPong(pass) = &mut step.kind {
+                pass.resize(device, size);
+            }
         }
     }
 

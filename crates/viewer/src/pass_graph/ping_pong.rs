@@ -18,6 +18,7 @@ use super::textures::target_texture;
 use crate::technique::pass::Pass;
 use crate::technique::plan::PassPlan;
 use crate::technique::program::ProgramKind;
+use crate::technique::texture_format::TextureSize;
 
 /// The variable that every run but the first reads as the output of the one before.
 const INPUT: &str = "texture";
@@ -30,6 +31,8 @@ pub(crate) struct PingPong {
     /// Into the target.
     last: PassPipeline,
     temporary: [wgpu::TextureView; 2],
+    /// The size and the format of those.
+    kind: (TextureSize, wgpu::TextureFormat),
     /// Of each run.
     buffers: Vec<GroupBuffers>,
     count: usize,
@@ -44,16 +47,10 @@ impl PingPong {
     ) -> Result<Self, Failure> {
         let target = builder.target(pass, plan);
         let size = [pass.int("render_target_width"), pass.int("render_target_height")];
-        let size = crate::technique::texture_format::TextureSize {
-            sides: size,
-            scale: pass.number("render_target_scale"),
-        };
+        let size = TextureSize { sides: size, scale: pass.number("render_target_scale") };
         let format = target.colors[0];
-        let temporary = [0, 1].map(|_| {
-            let size = size.pixels(builder.options.size);
-            target_texture(&builder.gpu.device, &pass.name, size, format)
-                .create_view(&Default::default())
-        });
+        let kind = (size, format);
+        let temporary = temporary(&builder.gpu.device, kind, builder.options.size);
         let offscreen = PipelineTarget {
             colors: vec![format],
             depth: None,
@@ -78,7 +75,12 @@ impl PingPong {
             let pipeline = if index + 1 >= count { &last } else { &between };
             pipeline.buffers(device, pass, iteration)
         });
-        Ok(Self { buffers: buffers.collect(), between, last, temporary, count })
+        Ok(Self { buffers: buffers.collect(), between, last, temporary, kind, count })
+    }
+
+    /// Goes on in a picture of another size.
+    pub(crate) fn resize(&mut self, device: &wgpu::Device, picture: [u32; 2]) {
+        self.temporary = temporary(device, self.kind, picture);
     }
 
     pub(crate) fn encode(
@@ -123,4 +125,15 @@ impl PingPong {
         }
         Ok(())
     }
+}
+
+fn temporary(
+    device: &wgpu::Device,
+    (size, format): (TextureSize, wgpu::TextureFormat),
+    picture: [u32; 2],
+) -> [wgpu::TextureView; 2] {
+    [0, 1].map(|_| {
+        let texture = target_texture(device, "ping pong", size.pixels(picture), format);
+        texture.create_view(&Default::default())
+    })
 }

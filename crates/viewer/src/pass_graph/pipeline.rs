@@ -13,14 +13,14 @@ use crate::technique::plan::Read;
 use crate::technique::program::Program;
 
 /// A pipeline with the layouts of its own groups.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct PassPipeline {
     pub(crate) pipeline: wgpu::RenderPipeline,
     pub(crate) groups: Vec<PassGroup>,
 }
 
 /// One of the groups that the pass fills.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct PassGroup {
     pub(crate) index: u32,
     pub(crate) plan: GroupPlan,
@@ -43,7 +43,7 @@ pub(crate) enum Geometry {
 }
 
 /// What a pipeline draws into.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PipelineTarget {
     pub(crate) colors: Vec<wgpu::TextureFormat>,
     pub(crate) depth: Option<wgpu::TextureFormat>,

@@ -42,20 +42,19 @@ impl ScenePass {
             pipeline.buffers(&builder.gpu.device, pass, Iteration::default())
         };
         let missing = || Failure::fault(format!("the pass '{}' has no program", pass.name));
-        let gpu = builder.gpu;
         let target = builder.target(pass, plan);
         let vertex = plan.vertex.as_ref().ok_or_else(missing)?;
         let fragment = plan.fragment.as_ref().ok_or_else(missing)?;
         let programs = Programs { label: &pass.name, vertex, fragment, reads: &plan.reads };
         let group = &surfaces.layout;
-        let pipeline = PassPipeline::new(gpu, frame, group, programs, Geometry::Surfaces, &target)?;
+        let layouts = (frame, group);
+        let pipeline = builder.pipeline(layouts, programs, Geometry::Surfaces, &target)?;
         let is_paper = plan.target == Target::Framebuffer;
         let background = match &plan.background {
             Some(fragment) if !(is_paper && builder.options.is_transparent) => {
                 let vertex = screen_vertex()?;
                 let programs = Programs { vertex: &vertex, fragment, ..programs };
-                let pipeline =
-                    PassPipeline::new(gpu, frame, group, programs, Geometry::Screen, &target)?;
+                let pipeline = builder.pipeline(layouts, programs, Geometry::Screen, &target)?;
                 let buffers = buffers_of(&pipeline, pass);
                 Some((pipeline, buffers))
             }

@@ -97,7 +97,7 @@ pub(crate) fn screen_pipeline(
     let programs = Programs { label: &pass.name, vertex: &vertex, fragment, reads: &plan.reads };
     // Where only the framebuffer has a surface's group, there is none to bind.
     let surface = empty_layout(builder.gpu);
-    PassPipeline::new(builder.gpu, frame, &surface, programs, Geometry::Screen, target)
+    builder.pipeline((frame, &surface), programs, Geometry::Screen, target)
 }
 
 fn empty_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {

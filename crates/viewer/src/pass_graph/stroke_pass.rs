@@ -55,23 +55,26 @@ fn shader_failure(error: &ShaderError) -> Failure {
 }
 
 impl StrokePasses {
+    /// For strokes in a scene; what those of `before` have is taken over, as far as it is
+    /// still good.
     pub(crate) fn new(
         gpu: &Gpu,
         scene: &Scene,
         options: &GraphOptions,
         formats: TargetFormats,
-        (folders, mut meshes): (&[std::path::PathBuf], Vec<Option<Arc<MeshBuffers>>>),
+        (folders, before): (&[std::path::PathBuf], Option<Self>),
     ) -> Result<Self, Failure> {
         let GraphOptions { layout, path, .. } = *options;
-        let renderer = Renderer::new(gpu, RendererOptions { layout, path, formats })
-            .map_err(|error| shader_failure(&error))?;
+        let options = RendererOptions { layout, path, formats }.possible();
+        let (renderer, meshes) = before.map(|before| (before.renderer, before.meshes)).unzip();
+        // With all pipelines that it has built.
+        let renderer = match renderer.filter(|known: &Renderer| *known.options() == options) {
+            Some(known) => known,
+            None => Renderer::new(gpu, options).map_err(|error| shader_failure(&error))?,
+        };
+        let mut meshes = meshes.unwrap_or_default();
         meshes.resize(scene.models.len(), None);
         Ok(Self { renderer, meshes, folders: folders.to_vec() })
-    }
-
-    /// The meshes that are uploaded, by model.
-    pub(crate) fn into_meshes(self) -> Vec<Option<Arc<MeshBuffers>>> {
-        self.meshes
     }
 
     /// Whether vertex shaders detect.

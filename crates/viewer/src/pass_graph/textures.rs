@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
+use std::time::SystemTime;
 
 use edgemesh::command::Failure;
 use image::RgbaImage;
@@ -39,9 +40,10 @@ impl GeneratedTexture {
         Self { views: views.collect(), textures, current: 0, name, is_kept: false }
     }
 
-    /// Forgets what is in it; `plan` is what it was made for.
-    pub(crate) fn clear(&mut self, device: &wgpu::Device, plan: &TexturePlan) {
-        let size = [self.textures[0].width(), self.textures[0].height()];
+    /// Forgets what is in it; `plan` is what it was made for, and `picture` the size of the
+    /// picture from now on.
+    pub(crate) fn renew(&mut self, device: &wgpu::Device, plan: &TexturePlan, picture: [u32; 2]) {
+        let size = plan.size.pixels(picture);
         for (texture, view) in self.textures.iter_mut().zip(&mut self.views) {
             // A new texture is empty.
             *texture = target_texture(device, &plan.name, size, plan.format);
@@ -57,6 +59,11 @@ impl GeneratedTexture {
             && texture.format() == plan.format
             && [texture.width(), texture.height()] == plan.size.pixels(picture)
             && self.textures.len() == if is_double { 2 } else { 1 }
+    }
+
+    /// Whether a pass reads and writes it at once.
+    pub(crate) const fn is_double(&self) -> bool {
+        self.textures.len() > 1
     }
 
     /// What is read.
@@ -112,7 +119,8 @@ pub(crate) fn target_texture(
 /// Images on the GPU, each once.
 #[derive(Debug, Default)]
 pub(crate) struct Images {
-    views: HashMap<ImageFile, wgpu::TextureView>,
+    /// With when the file was changed.
+    views: HashMap<ImageFile, (Option<SystemTime>, wgpu::TextureView)>,
     white: Option<wgpu::TextureView>,
 }
 
@@ -124,8 +132,9 @@ impl Images {
         file: &ImageFile,
     ) -> Result<wgpu::TextureView, Failure> {
         Ok(match self.views.entry(file.clone()) {
-            Entry::Occupied(known) => known.get().clone(),
+            Entry::Occupied(known) => known.get().1.clone(),
             Entry::Vacant(new) => {
+                let changed = file.changed();
                 let failed = |error: &dyn std::fmt::Display| {
                     Failure::fault(format!("{}: {error}", file.name()))
                 };
@@ -134,9 +143,14 @@ impl Images {
                 let is_atlas = file.directory().is_some_and(|name| name == MIP_ATLASES);
                 let levels =
                     if is_atlas { atlas_levels(&picture) } else { averaged_levels(picture) };
-                new.insert(upload(gpu, &file.name(), &levels)).clone()
+                new.insert((changed, upload(gpu, &file.name(), &levels))).1.clone()
             }
         })
+    }
+
+    /// Forgets images whose files have changed.
+    pub(crate) fn forget_changed(&mut self) {
+        self.views.retain(|file, (changed, _)| *changed == file.changed());
     }
 
     /// One white texel: what is read where there is no texture.

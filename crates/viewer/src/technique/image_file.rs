@@ -1,6 +1,7 @@
 //! Images: files in directories, shipped or the user's own.
 
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 use super::mistake::{Mistake, Place};
 use super::texture_name::{TextureName, TextureSource};
@@ -50,6 +51,15 @@ impl ImageFile {
         match self {
             Self::Shipped(at) => Ok(SHIPPED[*at].2.into()),
             Self::File(path) => std::fs::read(path).map(Into::into),
+        }
+    }
+
+    /// When the file was changed; none for those that are shipped.
+    #[must_use]
+    pub fn changed(&self) -> Option<SystemTime> {
+        match self {
+            Self::Shipped(_) => None,
+            Self::File(path) => path.metadata().and_then(|data| data.modified()).ok(),
         }
     }
 

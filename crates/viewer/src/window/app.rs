@@ -86,7 +86,7 @@ impl Window {
         let remembered = remembered.or_else(stored).unwrap_or_default();
         style::apply(&context.egui_ctx);
         desktop::follow_theme(&context.egui_ctx);
-        let canvas = Canvas::new(window);
+        let canvas = Canvas::new(&window).map_err(|error| error.to_string())?;
         let library = recipe.arguments.library.load();
         let mut session = Session::new(library, recipe, remembered);
         session.adapter.clone_from(&canvas.gpu().info.name);
@@ -438,15 +438,16 @@ impl Window {
 
     /// The picture, or two with a line between them.
     fn paint(&mut self, ui: &mut Ui, rect: egui::Rect) {
-        let Some(texture) = self.canvas.texture() else { return };
-        // Paper is white where a technique draws none.
-        ui.painter().rect_filled(rect, 0.0, egui::Color32::WHITE);
-        let other = self.canvas.compared_texture();
+        let Some(picture) = self.canvas.picture() else { return };
+        let other = self.canvas.compared_picture();
         let (Some(other), Some(comparison)) = (other, &mut self.session.comparison) else {
-            return paint_part(ui, texture, rect, 0.0, 1.0);
+            return picture.paint(ui.painter(), rect);
         };
-        paint_part(ui, texture, rect, 0.0, comparison.share);
-        paint_part(ui, other, rect, comparison.share, 1.0);
+        let line = egui::lerp(rect.left()..=rect.right(), comparison.share);
+        let [mut left, mut right] = [rect; 2];
+        (left.max.x, right.min.x) = (line, line);
+        picture.paint(&ui.painter().with_clip_rect(left), rect);
+        other.paint(&ui.painter().with_clip_rect(right), rect);
         let names = [&self.session.recipe.appearance, &comparison.appearance]
             .map(|appearance| appearance.technique_name.clone());
         comparison.share = panels::comparison_line(ui, rect, comparison.share, names);
@@ -478,14 +479,6 @@ impl Window {
         }
         panels::notes(ui, &mut self.session, rect);
     }
-}
-
-/// A part of a picture, from one share of its width to another.
-fn paint_part(ui: &Ui, texture: egui::TextureId, rect: egui::Rect, from: f32, to: f32) {
-    let at = |share: f32| egui::lerp(rect.left()..=rect.right(), share);
-    let place = egui::Rect::from_x_y_ranges(at(from)..=at(to), rect.y_range());
-    let part = egui::Rect::from_min_max(egui::pos2(from, 0.0), egui::pos2(to, 1.0));
-    ui.painter().image(texture, place, part, egui::Color32::WHITE);
 }
 
 /// A file name that ends as one of a picture does.
@@ -537,7 +530,7 @@ impl eframe::App for Window {
                 panels::top_bar(ui, &mut self.session, self.size);
             });
             Panel::bottom("status").show(ui, |ui| panels::status_bar(ui, &self.session));
-            Panel::right("side").default_size(340.0).size_range(260.0..=560.0).show(ui, |ui| {
+            Panel::right("side").default_size(356.0).size_range(260.0..=560.0).show(ui, |ui| {
                 panels::side_panel(ui, &mut self.session, self.size);
             });
         }

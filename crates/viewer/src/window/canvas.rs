@@ -9,9 +9,11 @@ use std::time::Instant;
 
 use edgemesh::command::{ExitStatus, Failure};
 use strokes::gpu::Gpu;
+use strokes::shader::ShaderError;
 
 use super::inspection::Inspection;
 use super::loading::Built;
+use super::picture_paint::{PaintedPicture, PicturePainter};
 use super::recipe::Appearance;
 use super::session::Session;
 use super::viewpoint::Viewpoint;
@@ -21,7 +23,7 @@ use crate::render::{FrameStatistics, PendingStatistics, PictureOptions, PictureR
 /// The pictures of the window: one, or two to be compared.
 pub(super) struct Canvas {
     gpu: Gpu,
-    window: egui_wgpu::RenderState,
+    painter: PicturePainter,
     /// The scene that the sheets have.
     scene: Option<Arc<Scene>>,
     sheet: Sheet,
@@ -42,7 +44,7 @@ struct Sheet {
     failed: Option<Drawn>,
     /// Whether files may be half saved.
     is_doubted: bool,
-    texture: Option<egui::TextureId>,
+    painted: Option<PaintedPicture>,
     pending: Option<PendingStatistics>,
 }
 
@@ -62,14 +64,23 @@ impl std::fmt::Debug for Canvas {
 
 impl Canvas {
     /// A canvas in a window.
-    #[must_use]
-    pub(super) fn new(window: egui_wgpu::RenderState) -> Self {
+    ///
+    /// # Errors
+    /// Where the shader of the window cannot be put together.
+    pub(super) fn new(window: &egui_wgpu::RenderState) -> Result<Self, ShaderError> {
         let gpu = Gpu {
             info: window.adapter.get_info(),
             device: window.device.clone(),
             queue: window.queue.clone(),
         };
-        Self { gpu, window, scene: None, sheet: Sheet::default(), compared: None, drawn_at: None }
+        Ok(Self {
+            gpu,
+            painter: PicturePainter::new(window)?,
+            scene: None,
+            sheet: Sheet::default(),
+            compared: None,
+            drawn_at: None,
+        })
     }
 
     /// The device.
@@ -78,16 +89,16 @@ impl Canvas {
         &self.gpu
     }
 
-    /// The picture as the window knows it.
+    /// The picture.
     #[must_use]
-    pub(super) const fn texture(&self) -> Option<egui::TextureId> {
-        self.sheet.texture
+    pub(super) const fn picture(&self) -> Option<&PaintedPicture> {
+        self.sheet.painted.as_ref()
     }
 
     /// The picture beside it, where two are compared.
     #[must_use]
-    pub(super) fn compared_texture(&self) -> Option<egui::TextureId> {
-        self.compared.as_ref()?.texture
+    pub(super) fn compared_picture(&self) -> Option<&PaintedPicture> {
+        self.compared.as_ref()?.painted.as_ref()
     }
 
     /// Takes a scene that was loaded, with a renderer where one could be made.
@@ -138,13 +149,15 @@ impl Canvas {
             appearance.technique = shown;
         }
         let wanted = Drawn { appearance, viewpoint, size };
+        let started = Instant::now();
         if self.sheet.draw(gpu, session, &scene, wanted) {
-            self.sheet.show(gpu, &self.window);
-            let before = self.drawn_at.replace(Instant::now());
-            if let Some(before) = before {
+            self.sheet.show(gpu, &self.painter);
+            let ms = |since: Instant| since.elapsed().as_secs_f64() * 1e3;
+            if let Some(before) = self.drawn_at.replace(Instant::now()) {
                 log::debug!(
-                    "a picture, {:.1} ms after the last",
-                    before.elapsed().as_secs_f64() * 1e3
+                    "a picture, {:.1} ms after the last, made in {:.1} ms",
+                    ms(before),
+                    ms(started)
                 );
             }
             let renderer = self.sheet.renderer.as_ref();
@@ -159,15 +172,10 @@ impl Canvas {
                 };
                 let wanted = Drawn { appearance, viewpoint, size };
                 if sheet.draw(gpu, session, &scene, wanted) {
-                    sheet.show(gpu, &self.window);
+                    sheet.show(gpu, &self.painter);
                 }
             }
-            None => {
-                let texture = self.compared.take().and_then(|sheet| sheet.texture);
-                if let Some(texture) = texture {
-                    self.window.renderer.write().free_texture(&texture);
-                }
-            }
+            None => self.compared = None,
         }
     }
 
@@ -243,11 +251,20 @@ impl Sheet {
             is_transparent: wanted.appearance.is_transparent,
             size: wanted.size,
         };
-        let is_same = self.built.as_ref() == Some(&built);
+        // None until it is built as wanted.
+        let before = self.built.take();
+        let is_same = |before: &Built| Built { size: built.size, ..before.clone() } == built;
         let is_lit = |renderer: &mut PictureRenderer| renderer.set_lighting(&options.lighting);
-        let is_ready = is_same && self.renderer.as_mut().is_some_and(is_lit);
+        let is_ready = before.is_some_and(|before| is_same(&before))
+            && self.renderer.as_mut().is_some_and(is_lit);
+        if let Some(renderer) = self.renderer.as_mut().filter(|_| is_ready)
+            && renderer.options().size != built.size
+        {
+            self.pending = None;
+            renderer.resize(built.size)?;
+        }
         if !is_ready {
-            (self.pending, self.built) = (None, None);
+            self.pending = None;
             let looks = session.object_looks()?;
             match &mut self.renderer {
                 Some(renderer) => renderer.reload(scene, technique, &looks, &options)?,
@@ -267,21 +284,9 @@ impl Sheet {
     }
 
     /// Hands the picture to the window.
-    fn show(&mut self, gpu: &Gpu, window: &egui_wgpu::RenderState) {
-        let Some(picture) = self.renderer.as_ref().and_then(PictureRenderer::picture) else {
-            return;
-        };
-        let view = picture.create_view(&wgpu::TextureViewDescriptor::default());
-        let mut window = window.renderer.write();
-        let filter = wgpu::FilterMode::Nearest;
-        match self.texture {
-            Some(texture) => {
-                window.update_egui_texture_from_wgpu_texture(&gpu.device, &view, filter, texture)
-            }
-            None => {
-                let texture = window.register_native_texture(&gpu.device, &view, filter);
-                self.texture = Some(texture);
-            }
+    fn show(&mut self, gpu: &Gpu, painter: &PicturePainter) {
+        if let Some(picture) = self.renderer.as_ref().and_then(PictureRenderer::picture) {
+            self.painted = Some(painter.picture(&gpu.device, picture));
         }
     }
 }

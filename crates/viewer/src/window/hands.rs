@@ -215,18 +215,13 @@ impl Hands {
             }
         }
         let pressed: Vec<Command> = ui.input_mut(|input| {
-            let is_pressed = |input: &mut egui::InputState, key, modifiers: Modifiers| {
-                // Keys that need shift on some keyboards do not need to be held with it.
-                let typed = matches!(key, Key::Questionmark | Key::OpenBracket | Key::CloseBracket);
-                if typed && !input.modifiers.command {
-                    return input.key_pressed(key);
-                }
-                input.modifiers.matches_exact(modifiers) && input.consume_key(modifiers, key)
-            };
-            let all = KEYS.iter();
-            all.filter(|(key, modifiers, ..)| is_pressed(input, *key, *modifiers))
-                .map(|(_, _, command, _)| *command)
-                .collect()
+            let mut commands = Vec::new();
+            input.events.retain(|event| {
+                let command = command_of(event);
+                commands.extend(command);
+                command.is_none()
+            });
+            commands
         });
         for command in pressed {
             run(command, session, size);
@@ -238,6 +233,22 @@ impl Hands {
             }
         }
     }
+}
+
+/// What a key asks that is pressed. Its modifiers are those of its own moment: in a long
+/// frame they may be let go already.
+fn command_of(event: &egui::Event) -> Option<Command> {
+    let egui::Event::Key { key, pressed: true, modifiers, .. } = event else { return None };
+    let is_it = |known: &&(Key, Modifiers, Command, &str)| {
+        // Keys that need shift on some keyboards do not need to be held with it.
+        let is_typed = matches!(key, Key::Questionmark | Key::OpenBracket | Key::CloseBracket);
+        let is_held = match is_typed {
+            true => !modifiers.command,
+            false => modifiers.matches_exact(known.1),
+        };
+        known.0 == *key && is_held
+    };
+    KEYS.iter().find(is_it).map(|(_, _, command, _)| *command)
 }
 
 /// Does what a key or a button asks.

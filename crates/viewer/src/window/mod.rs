@@ -10,7 +10,8 @@
 //!   picture, as a command line; `messages`, `remembered`.
 //! - `navigation`: from hands to viewpoints; `light_hand`: to light and cuts. `background`, `loading`: models on another thread.
 //!   `picking`: what is under the pointer. `watching`: files that change.
-//! - `canvas`: the session as a picture, drawn when something changed.
+//! - `canvas`: the session as a picture, drawn when something changed; `picture_paint`: its
+//!   pixels on the window.
 //! - `inspection`: what passes draw for each other, shown. `marking`: edges marked by hand.
 //!   `saving`, `thumbnails`: pictures drawn on the side.
 //! - `opening`: the window opens, and again where its device was lost.
@@ -32,6 +33,7 @@ pub mod navigation;
 mod opening;
 pub mod panels;
 pub mod picking;
+mod picture_paint;
 pub mod recipe;
 pub mod remembered;
 pub mod saving;

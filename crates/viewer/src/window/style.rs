@@ -9,8 +9,10 @@ pub(super) fn apply(context: &Context) {
     context.all_styles_mut(|style| {
         style.spacing.item_spacing = vec2(8.0, 5.0);
         style.spacing.button_padding = vec2(8.0, 3.0);
-        style.spacing.slider_width = 110.0;
+        style.spacing.slider_width = 100.0;
         style.spacing.combo_width = 130.0;
+        // Lists may be as high as a small window.
+        style.spacing.default_area_size = vec2(640.0, 700.0);
         style.text_styles.insert(TextStyle::Heading, FontId::proportional(15.0));
         style.text_styles.insert(TextStyle::Body, FontId::proportional(13.0));
         style.text_styles.insert(TextStyle::Button, FontId::proportional(13.0));

@@ -10,7 +10,7 @@ use image::RgbaImage;
 use strokes::gpu::Gpu;
 
 use super::background::Tell;
-use crate::picture::straight_alpha;
+use crate::picture::as_stored;
 use crate::render::{PictureOptions, PictureRenderer, Scene};
 use crate::scene_file::SceneObject;
 use crate::technique::library::Library;
@@ -53,7 +53,7 @@ pub fn draw(
         let Some(Ok((picture, _))) = drawn.map(|renderer| renderer.render(&camera)) else {
             continue;
         };
-        if sender.send((name.to_owned(), straight_alpha(&picture))).is_err() {
+        if sender.send((name.to_owned(), as_stored(&picture, false))).is_err() {
             return Ok(());
         }
     }

@@ -26,6 +26,10 @@ pub fn top_bar(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
 /// The size of small pictures in the list, in points.
 const THUMBNAIL: Vec2 = Vec2::new(72.0, 54.0);
 
+/// How many techniques are beside each other in the list, and how wide each is.
+const COLUMNS: usize = 3;
+const CELL_WIDTH: f32 = 196.0;
+
 fn technique_box(ui: &mut Ui, session: &mut Session) {
     let names: Vec<String> = session.library.technique_names().map(str::to_owned).collect();
     let appearance = &session.recipe.appearance;
@@ -34,24 +38,29 @@ fn technique_box(ui: &mut Ui, session: &mut Session) {
     let label = ui.label("Technique");
     egui::ComboBox::from_id_salt("technique")
         .selected_text(format!("{}{changed}", appearance.technique_name))
-        .height(560.0)
+        .height(660.0)
         .width(170.0)
         .show_ui(ui, |ui| {
             is_open = true;
-            ui.set_min_width(260.0);
-            for name in &names {
-                let is_it = *name == appearance.technique_name;
-                let button = match session.thumbnails.textures.get(name) {
-                    Some(texture) => {
-                        let image = egui::Image::new((texture.id(), THUMBNAIL));
-                        egui::Button::image_and_text(image, name.as_str())
+            egui::Grid::new("techniques").num_columns(COLUMNS).show(ui, |ui| {
+                for (at, name) in names.iter().enumerate() {
+                    let is_it = *name == appearance.technique_name;
+                    let button = match session.thumbnails.textures.get(name) {
+                        Some(texture) => {
+                            let image = egui::Image::new((texture.id(), THUMBNAIL));
+                            egui::Button::image_and_text(image, name.as_str())
+                        }
+                        None => egui::Button::new(name.as_str()),
+                    };
+                    let button = button.min_size(Vec2::new(CELL_WIDTH, 0.0)).selected(is_it);
+                    if ui.add(button.frame_when_inactive(is_it)).clicked() {
+                        chosen = Some(name.clone());
                     }
-                    None => egui::Button::new(name.as_str()),
-                };
-                if ui.add(button.selected(is_it).frame_when_inactive(is_it)).clicked() {
-                    chosen = Some(name.clone());
+                    if at % COLUMNS == COLUMNS - 1 {
+                        ui.end_row();
+                    }
                 }
-            }
+            });
         })
         .response
         .labelled_by(label.id);

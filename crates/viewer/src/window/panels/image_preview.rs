@@ -15,10 +15,7 @@ pub(super) const SIZE: Vec2 = Vec2::new(64.0, 24.0);
 /// The small picture of an image; none where it cannot be read. It is made once, and
 /// again when the file has changed.
 pub(super) fn image_preview(ui: &Ui, file: &ImageFile) -> Option<TextureHandle> {
-    let changed = match file {
-        ImageFile::Shipped(_) => None,
-        ImageFile::File(path) => path.metadata().and_then(|data| data.modified()).ok(),
-    };
+    let changed = file.changed();
     let id = Id::unique(("image preview", file));
     let known: Option<Preview> = ui.data(|data| data.get_temp(id));
     if let Some(known) = known.filter(|known| known.changed == changed) {

@@ -1,7 +1,7 @@
 //! The technique: its passes, on and off, and every variable of each.
 
 use egui::collapsing_header::CollapsingState;
-use egui::{Grid, Ui};
+use egui::{Button, Grid, Ui};
 
 use super::variable::{Edit, variable_widget};
 use crate::technique::mistake::Mistakes;
@@ -111,8 +111,11 @@ fn pass(ui: &mut Ui, session: &Session, at: usize) -> Option<Edit> {
                     let label = label.on_hover_text(&descriptor.about).id;
                     let folders = &appearance.technique.folders;
                     let changed = variable_widget(ui, descriptor, value, label, folders);
-                    let reset = before.filter(|before| *before != value).and_then(|before| {
-                        let reset = ui.small_button("⟲").on_hover_text(format!("back to {before}"));
+                    // Its place is kept, so that nothing moves when it comes.
+                    let other = before.filter(|before| *before != value);
+                    let reset = ui.add_visible(other.is_some(), Button::new("×").small());
+                    let reset = other.and_then(|before| {
+                        let reset = reset.on_hover_text(format!("back to {before}"));
                         reset.clicked().then(|| before.clone())
                     });
                     if let Some(value) = reset.or(changed) {

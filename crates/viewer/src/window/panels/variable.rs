@@ -86,6 +86,7 @@ fn numbers(
                 (Some(low), Some(high)) if numbers.len() == 1 => {
                     let is_wide = low >= 0.0 && high / low.max(1e-3) > 2e4;
                     let slider = Slider::new(number, low..=high)
+                        .max_decimals(4)
                         .clamping(SliderClamping::Never)
                         .logarithmic(is_wide);
                     ui.add(slider)
