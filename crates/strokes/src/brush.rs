@@ -10,6 +10,8 @@ use std::path::{Path, PathBuf};
 use image::GrayImage;
 use thiserror::Error;
 
+use crate::gpu::Gpu;
+
 /// The brushes that the project makes itself (`brushes/`).
 const OWN: [(&str, &[u8]); 5] = [
     ("pen", include_bytes!("../../../brushes/pen.png")),
@@ -193,18 +195,44 @@ fn halve(level: &GrayImage) -> GrayImage {
     })
 }
 
-/// The sampler of all brushes: tiled along, clamped across, mip-mapped.
-#[must_use]
-pub fn brush_sampler(device: &wgpu::Device) -> wgpu::Sampler {
-    device.create_sampler(&wgpu::SamplerDescriptor {
-        label: Some("brush"),
-        address_mode_u: wgpu::AddressMode::Repeat,
-        address_mode_v: wgpu::AddressMode::ClampToEdge,
-        mag_filter: wgpu::FilterMode::Linear,
-        min_filter: wgpu::FilterMode::Linear,
-        mipmap_filter: wgpu::MipmapFilterMode::Linear,
-        ..wgpu::SamplerDescriptor::default()
-    })
+/// So many brushes are kept; the one that was not used for the longest time goes first.
+const MOST_KEPT: usize = 16;
+
+/// Brushes on the GPU, each once, and how they are sampled: repeated along strokes.
+#[derive(Debug)]
+pub(crate) struct BrushTextures {
+    pub(crate) sampler: wgpu::Sampler,
+    /// The one that was used last behind all others.
+    known: Vec<(Brush, wgpu::TextureView)>,
+}
+
+impl BrushTextures {
+    pub(crate) fn new(device: &wgpu::Device) -> Self {
+        let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("brush"),
+            address_mode_u: wgpu::AddressMode::Repeat,
+            address_mode_v: wgpu::AddressMode::ClampToEdge,
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            ..wgpu::SamplerDescriptor::default()
+        });
+        Self { sampler, known: Vec::new() }
+    }
+
+    /// The texture of a brush.
+    pub(crate) fn texture(&mut self, gpu: &Gpu, brush: &Brush) -> wgpu::TextureView {
+        let known = match self.known.iter().position(|(known, _)| known == brush) {
+            Some(at) => self.known.remove(at),
+            None => (brush.clone(), brush.upload(&gpu.device, &gpu.queue)),
+        };
+        if self.known.len() == MOST_KEPT {
+            self.known.remove(0);
+        }
+        let texture = known.1.clone();
+        self.known.push(known);
+        texture
+    }
 }
 
 #[cfg(test)]

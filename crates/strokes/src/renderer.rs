@@ -9,6 +9,7 @@ use edgemesh::camera::View;
 use edgemesh::oracle::feature::EdgeClass;
 use edgemesh::oracle::stroke_segment::LineKind;
 
+use crate::brush::BrushTextures;
 use crate::detect::DetectPipeline;
 use crate::expand::ExpandPipeline;
 use crate::fill::{FillKind, FillPipeline};
@@ -68,6 +69,7 @@ pub struct Renderer {
     expand: HashMap<LineKind, Arc<ExpandPipeline>>,
     strokes: HashMap<StrokeVariant, wgpu::RenderPipeline>,
     indices: HashMap<IndexKey, IndexBuffer>,
+    brushes: BrushTextures,
 }
 
 /// What is done about the surface before strokes are drawn.
@@ -184,6 +186,7 @@ impl Renderer {
             expand: HashMap::new(),
             strokes: HashMap::new(),
             indices: HashMap::new(),
+            brushes: BrushTextures::new(device),
         })
     }
 
@@ -212,7 +215,7 @@ impl Renderer {
             if self.options.layout == Layout::FaceNormals {
                 draw.style.kind = LineKind::Fin;
             }
-            let style = style_group(gpu, &self.layouts, draw, index, &table);
+            let style = style_group(gpu, &self.layouts, &mut self.brushes, draw, index, &table);
             let RendererOptions { path, layout, .. } = self.options;
             let mut pipeline = |source| self.stroke(gpu, StrokeVariant::new(source, draw));
             let kind = draw.style.kind;

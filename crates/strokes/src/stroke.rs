@@ -29,7 +29,7 @@ use edgemesh::oracle::feature::ClassTable;
 use edgemesh::oracle::stroke_segment::LineKind;
 use wgpu::{CompareFunction, StencilFaceState, StencilOperation};
 
-use crate::brush::{Brush, brush_sampler};
+use crate::brush::{Brush, BrushTextures};
 use crate::frame::uniform_buffer;
 use crate::gpu::Gpu;
 use crate::look::{StyledDraw, Visibility, Width};
@@ -105,6 +105,7 @@ impl StrokeUniform {
 pub(crate) fn style_group(
     gpu: &Gpu,
     layouts: &StrokeLayouts,
+    brushes: &mut BrushTextures,
     draw: &StyledDraw,
     draw_index: usize,
     table: &ClassTable,
@@ -112,14 +113,14 @@ pub(crate) fn style_group(
     let device = &gpu.device;
     let solid = Brush::solid();
     let brush = draw.style.brush.as_ref().unwrap_or(&solid);
-    let texture = brush.upload(device, &gpu.queue);
-    let sampler = brush_sampler(device);
+    let texture = brushes.texture(gpu, brush);
+    let sampler = &brushes.sampler;
     let uniform = StrokeUniform::new(draw, draw_index, table);
     let uniform = uniform_buffer(device, "stroke style", &uniform);
     let resources = [
         uniform.as_entire_binding(),
         wgpu::BindingResource::TextureView(&texture),
-        wgpu::BindingResource::Sampler(&sampler),
+        wgpu::BindingResource::Sampler(sampler),
     ];
     let entries: Vec<wgpu::BindGroupEntry> = (0..)
         .zip(resources)

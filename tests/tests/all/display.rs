@@ -1,4 +1,4 @@
-//! A display of its own, with hands and eyes: Xvfb, xdotool, and ImageMagick's import.
+//! A display of its own, with hands and eyes: Xvfb, xdotool, and `import` of `ImageMagick`.
 
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -43,7 +43,7 @@ impl Display {
         Some(Self { server, number, home: tempfile::tempdir().unwrap(), window: None })
     }
 
-    fn command(&self, name: impl AsRef<std::ffi::OsStr>) -> Command {
+    pub(crate) fn command(&self, name: impl AsRef<std::ffi::OsStr>) -> Command {
         let mut command = Command::new(name);
         command.env("DISPLAY", &self.number).env("HOME", self.home.path());
         command.env_remove("WAYLAND_DISPLAY").env_remove("XDG_CONFIG_HOME");

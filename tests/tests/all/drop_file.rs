@@ -91,7 +91,7 @@ impl Source {
     fn give_list(&self, request: &SelectionRequestEvent) {
         let kind: Atom = request.target;
         let (requestor, property) = (request.requestor, request.property);
-        assert_ne!(property, u32::from(AtomEnum::NONE));
+        assert_ne!(property, u32::from(AtomEnum::NONE), "there is a place for the list");
         let bytes = self.list.as_bytes();
         let change = PropMode::REPLACE;
         self.connection.change_property8(change, requestor, property, kind, bytes).unwrap();

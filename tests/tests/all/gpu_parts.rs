@@ -31,7 +31,8 @@ fn difference(mesh: &EdgeMesh, camera: &Camera, technique: &Technique, name: &st
     let (whole, told) = drawn(u32::MAX);
     assert!(told.is_empty(), "at once");
     let (parts, told) = drawn(PART_PX);
-    assert_eq!(told, (0..=16).map(|done| (done, 16)).collect::<Vec<_>>());
+    let all: Vec<(u32, u32)> = (0..=16).map(|done| (done, 16)).collect();
+    assert_eq!(told, all, "each part is told");
     let difference = compare(&parts, &whole).unwrap();
     if let Some(folder) = std::env::var_os("PARTS_OUT") {
         let folder = std::path::PathBuf::from(folder);
@@ -43,6 +44,9 @@ fn difference(mesh: &EdgeMesh, camera: &Camera, technique: &Technique, name: &st
     difference.share
 }
 
+/// A technique with settings, from where it is seen, and the share that may differ.
+type Case<'a> = (&'a str, &'a [&'a str], &'a [(&'a Camera, &'a str)], f64);
+
 /// Surfaces, detectors, strokes edge by edge, linked strokes with all that varies along
 /// them, patterns of the picture, from outside and from so near that much is cut off.
 #[test]
@@ -53,7 +57,7 @@ fn parts_are_the_same_picture() {
     let flat = Camera { is_orthographic: true, ..far };
     let linked = ["strokes.wobble=3", "strokes.taper=30,60", "strokes.width=5"];
     // Where strokes are linked, the smaller picture of the whole tells where they end.
-    let cases: [(&str, &[&str], &[(&Camera, &str)], f64); 8] = [
+    let cases: [Case; 8] = [
         ("ink", &[], &[(&far, "far"), (&near, "near"), (&flat, "flat")], 0.0001),
         ("linked", &linked, &[(&far, "far"), (&near, "near"), (&flat, "flat")], 0.001),
         ("hidden_line", &[], &[(&flat, "flat")], 0.0001),

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use image::RgbaImage;
-use testkit::locate::workspace_root;
+use testkit::locate::{program, workspace_root};
 use viewer::picture::read_png;
 
 use crate::display::Display;
@@ -124,6 +124,23 @@ fn a_real_window_opens_changes_saves_and_marks() {
     assert!(is_called(&display, "cube.obj"), "dropped");
     display.hands(&["key ctrl+q"]);
     assert!(display.closes());
+}
+
+#[test]
+fn what_a_window_lacks_is_told_on_the_terminal() {
+    let Some(display) = Display::start() else { return };
+    let told = |settings: &[(&str, &str)]| {
+        let mut command = display.command(program("viewer"));
+        let output = command.envs(settings.iter().copied()).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let nothing = "/nonexistent.json";
+    let (status, text) = told(&[("VK_DRIVER_FILES", nothing), ("VK_ICD_FILENAMES", nothing)]);
+    assert_eq!(status, Some(3), "{text}");
+    assert!(text.contains("apt-get install mesa-vulkan-drivers"), "{text}");
+    let (status, text) = told(&[("DISPLAY", "")]);
+    assert_eq!(status, Some(1), "{text}");
+    assert!(text.contains("no display") && text.contains("viewer render draws"), "{text}");
 }
 
 /// Drags the knob of the third row of the strokes.

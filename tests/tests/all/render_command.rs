@@ -105,6 +105,7 @@ mod with_adapter {
     use super::*;
     use serde_json::Value;
     use testkit::locate::{left_out, shared};
+    use viewer::picture::read_png;
 
     fn statistics(arguments: &[&str]) -> Value {
         let folder = tempfile::tempdir().unwrap();
@@ -280,11 +281,21 @@ mod with_adapter {
     }
 
     #[test]
-    fn a_picture_beyond_the_adapter_is_refused_with_the_limit() {
-        let output = viewer(&["render", &cube(), "-o", "a.png", "--size", "1000000x4"]);
+    fn a_picture_beyond_the_adapter_is_drawn_and_one_beyond_the_memory_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("wide.png");
+        let render =
+            |size: &str| viewer(&["render", &cube(), "-o", out.to_str().unwrap(), "--size", size]);
+        let output = render("4000000000x4000000000");
         assert_eq!(output.status.code(), Some(1), "{}", message(&output));
-        assert!(message(&output).contains("at most"), "{}", message(&output));
-        assert!(!Path::new("a.png").exists());
+        assert!(message(&output).contains("no memory for a picture"), "{}", message(&output));
+        assert!(!out.exists());
+        let output = render("17000x30");
+        assert_eq!(output.status.code(), Some(0), "{}", message(&output));
+        let picture = read_png(&out).unwrap();
+        assert_eq!(picture.dimensions(), (17_000, 30));
+        let dark = picture.pixels().filter(|pixel| pixel.0[0] < 100).count();
+        assert!(dark > 20, "the cube is there: {dark}");
     }
 
     #[test]

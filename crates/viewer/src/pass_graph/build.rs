@@ -15,7 +15,7 @@ use super::pipeline::{Geometry, PassPipeline, PipelineTarget, Programs};
 use super::pipeline_cache::PipelineCache;
 use super::scene_pass::ScenePass;
 use super::screen_pass::ScreenPass;
-use super::stroke_pass::{self, StrokePasses};
+use super::stroke_pass::{self, StrokePasses, StrokeStore};
 use super::surface::Surfaces;
 use super::textures::{GeneratedTexture, Images};
 use super::{GraphOptions, PassGraph, Run, Step, StepKind, blend};
@@ -78,7 +78,7 @@ impl PassGraph {
         let mut sources = Sources {
             generated: before.generated(device, plan, options.size),
             images: std::mem::take(&mut before.images),
-            samplers: Samplers::new(device),
+            samplers: before.samplers.take().unwrap_or_else(|| Samplers::new(device)),
         };
         let has =
             |core| groups.iter().any(|group| technique.passes[group[0]].component.core == core);
@@ -93,9 +93,8 @@ impl PassGraph {
         };
         let mut strokes = None;
         if has(CoreComponent::Strokes) {
-            let before = std::mem::take(&mut before.strokes);
-            let folders = &technique.folders;
-            strokes = Some(StrokePasses::new(gpu, scene, options, formats, (folders, before))?);
+            let kept = (&technique.folders[..], &mut before.stroke_store);
+            strokes = Some(StrokePasses::new(gpu, scene, options, formats, kept)?);
         }
         let layout = frame_layout(device);
         let frame = Frame::new(device, &layout, &bytemuck::Zeroable::zeroed());
@@ -108,7 +107,8 @@ impl PassGraph {
             steps.push(step);
         }
         let pipelines = builder.pipelines.into_inner();
-        Ok(Self { framebuffer, frame, sources, surfaces, strokes, steps, pipelines })
+        let stroke_store = before.stroke_store;
+        Ok(Self { framebuffer, frame, sources, surfaces, strokes, stroke_store, steps, pipelines })
     }
 }
 
@@ -117,8 +117,9 @@ impl PassGraph {
 struct Before {
     framebuffer: Option<Targets>,
     surfaces: Option<Surfaces>,
-    strokes: Option<StrokePasses>,
+    stroke_store: StrokeStore,
     images: Images,
+    samplers: Option<Samplers>,
     pipelines: PipelineCache,
     textures: Vec<GeneratedTexture>,
     runs: Vec<(String, Run)>,
@@ -128,11 +129,16 @@ impl Before {
     fn of(graph: PassGraph) -> Self {
         let mut images = graph.sources.images;
         images.forget_changed();
+        let mut stroke_store = graph.stroke_store;
+        if let Some(strokes) = graph.strokes {
+            strokes.put_back(&mut stroke_store);
+        }
         Self {
             framebuffer: Some(graph.framebuffer),
             surfaces: graph.surfaces,
-            strokes: graph.strokes,
+            stroke_store,
             images,
+            samplers: Some(graph.sources.samplers),
             pipelines: graph.pipelines,
             textures: graph.sources.generated,
             runs: graph.steps.into_iter().map(|step| (step.name, step.run)).collect(),

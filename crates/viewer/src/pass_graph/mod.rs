@@ -48,7 +48,7 @@ use self::copy_pass::CopyPass;
 use self::ping_pong::PingPong;
 use self::scene_pass::ScenePass;
 use self::screen_pass::ScreenPass;
-use self::stroke_pass::{StrokeGroup, StrokePasses};
+use self::stroke_pass::{StrokeGroup, StrokePasses, StrokeStore};
 use self::surface::Surfaces;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
@@ -81,6 +81,7 @@ pub struct PassGraph {
     sources: Sources,
     surfaces: Option<Surfaces>,
     strokes: Option<StrokePasses>,
+    stroke_store: StrokeStore,
     steps: Vec<Step>,
     pipelines: pipeline_cache::PipelineCache,
 }

@@ -8,7 +8,7 @@ use super::pipeline::{Geometry, PassPipeline, PipelineTarget, Programs};
 use crate::technique::plan::Read;
 
 /// So many pipelines are kept; the one that was not used for the longest time goes first.
-const MOST_KEPT: usize = 64;
+const MOST_KEPT: usize = 256;
 
 /// The pipelines of passes, the one that was used last behind all others.
 #[derive(Debug, Default)]

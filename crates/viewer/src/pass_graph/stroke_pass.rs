@@ -33,6 +33,17 @@ pub(crate) struct StrokePasses {
     folders: Vec<std::path::PathBuf>,
 }
 
+/// What stays while techniques come and go: renderers with the pipelines that they have
+/// built, each for its kind of target, and the meshes.
+#[derive(Debug, Default)]
+pub(crate) struct StrokeStore {
+    renderers: Vec<Renderer>,
+    meshes: Vec<Option<Arc<MeshBuffers>>>,
+}
+
+/// Targets with a stencil and without.
+const MOST_RENDERERS: usize = 2;
+
 /// Passes that are drawn together.
 #[derive(Debug)]
 pub(crate) struct StrokeGroup {
@@ -55,26 +66,33 @@ fn shader_failure(error: &ShaderError) -> Failure {
 }
 
 impl StrokePasses {
-    /// For strokes in a scene; what those of `before` have is taken over, as far as it is
+    /// For strokes in a scene; what is in `store` is taken out of it, as far as it is
     /// still good.
     pub(crate) fn new(
         gpu: &Gpu,
         scene: &Scene,
         options: &GraphOptions,
         formats: TargetFormats,
-        (folders, before): (&[std::path::PathBuf], Option<Self>),
+        (folders, store): (&[std::path::PathBuf], &mut StrokeStore),
     ) -> Result<Self, Failure> {
         let GraphOptions { layout, path, .. } = *options;
         let options = RendererOptions { layout, path, formats }.possible();
-        let (renderer, meshes) = before.map(|before| (before.renderer, before.meshes)).unzip();
-        // With all pipelines that it has built.
-        let renderer = match renderer.filter(|known: &Renderer| *known.options() == options) {
-            Some(known) => known,
+        let renderer = match store.renderers.iter().position(|known| *known.options() == options) {
+            Some(at) => store.renderers.remove(at),
             None => Renderer::new(gpu, options).map_err(|error| shader_failure(&error))?,
         };
-        let mut meshes = meshes.unwrap_or_default();
+        let mut meshes = std::mem::take(&mut store.meshes);
         meshes.resize(scene.models.len(), None);
         Ok(Self { renderer, meshes, folders: folders.to_vec() })
+    }
+
+    /// Leaves everything for those who come after it.
+    pub(crate) fn put_back(self, store: &mut StrokeStore) {
+        store.meshes = self.meshes;
+        store.renderers.push(self.renderer);
+        if store.renderers.len() > MOST_RENDERERS {
+            store.renderers.remove(0);
+        }
     }
 
     /// Whether vertex shaders detect.

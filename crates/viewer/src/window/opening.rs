@@ -154,17 +154,34 @@ fn window_setup(adapter: Option<&str>) -> egui_wgpu::WgpuSetupCreateNew {
 
 fn window_failure(error: &eframe::Error) -> Failure {
     match error {
+        eframe::Error::Wgpu(egui_wgpu::WgpuError::CreateSurfaceError(error)) => {
+            // Without any adapter there is nothing to make a surface for.
+            let none = gpu::choose(&[], None, None).err();
+            let message = none.map_or_else(|| error.to_string(), |error| error.to_string());
+            Failure { message, status: ExitStatus::NoAdapter }
+        }
         eframe::Error::Wgpu(error) => {
             let text = error.to_string();
             let message = text.strip_prefix("Adapter selection failed: ").unwrap_or(&text);
             Failure { message: message.to_owned(), status: ExitStatus::NoAdapter }
         }
         eframe::Error::AppCreation(error) => Failure::fault(error.to_string()),
+        _ if has_no_display() => Failure::fault(
+            "no window can be opened, as there is no display (neither DISPLAY nor WAYLAND_DISPLAY \
+             is set); viewer render draws without one",
+        ),
         error => Failure::fault(format!(
-            "no window can be opened: {error}; is there a display? (DISPLAY or WAYLAND_DISPLAY \
-             says which.) viewer render draws without one"
+            "no window can be opened: {error}; is the display there that DISPLAY or \
+             WAYLAND_DISPLAY names? viewer render draws without one"
         )),
     }
+}
+
+/// Whether no display is named where displays have names.
+fn has_no_display() -> bool {
+    let is_named = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let has_names = cfg!(all(unix, not(target_os = "macos")));
+    has_names && !["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].iter().any(|name| is_named(name))
 }
 
 /// Has a lost device and faults of ours told instead of ending the program.
