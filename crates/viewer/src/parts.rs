@@ -267,12 +267,11 @@ mod tests {
             let layout = PartLayout::new(size, max_px);
             let mut covered = vec![0_u8; (size[0] * size[1]) as usize];
             for place in layout.places() {
-                for axis in 0..2 {
-                    let end = place.kept[axis] + place.size[axis];
-                    assert!(place.drawn[axis] <= place.kept[axis]);
-                    assert!(end <= place.drawn[axis] + layout.part[axis], "{place:?}");
-                    assert!(end <= size[axis]);
-                }
+                let ends = [0, 1].map(|axis| place.kept[axis] + place.size[axis]);
+                assert!(place.drawn[0] <= place.kept[0] && place.drawn[1] <= place.kept[1]);
+                assert!(ends[0] <= size[0] && ends[1] <= size[1], "{place:?}");
+                let drawn = [0, 1].map(|axis| place.drawn[axis] + layout.part[axis]);
+                assert!(ends[0] <= drawn[0] && ends[1] <= drawn[1], "{place:?}");
                 for y in place.kept[1]..place.kept[1] + place.size[1] {
                     for x in place.kept[0]..place.kept[0] + place.size[0] {
                         covered[(y * size[0] + x) as usize] += 1;
