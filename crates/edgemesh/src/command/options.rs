@@ -78,7 +78,8 @@ impl MessageOptions {
     pub fn start_logging(self) {
         let level = match (self.quiet, self.verbose) {
             (true, _) => "off",
-            (false, 0) => "error",
+            // What libraries log at this level, they report as errors too.
+            (false, 0) => "edgemesh=error,strokes=error,viewer=error",
             (false, 1) => "info",
             (false, _) => "debug",
         };
