@@ -83,7 +83,9 @@ fn is_cut_away(point_in_world: vec3f) -> bool {
     if !CLIPS {
         return false;
     }
-    for (var plane = 0u; plane < frame.clip_plane_count; plane++) {
+    // Those that are not there are zero and cut nothing. A bound from the uniform makes
+    // some drivers compile the shader anew in every frame (Mesa's llvmpipe).
+    for (var plane = 0u; plane < MAX_CLIP_PLANES; plane++) {
         if dot(frame.clip_planes[plane], vec4f(point_in_world, 1.0)) < 0.0 {
             return true;
         }

@@ -50,7 +50,7 @@ pub struct FrameUniform {
     /// Half the diagonal of the box around the scene.
     pub scene_radius: f32,
     /// A point of the world is drawn where its product with each of these is not
-    /// negative.
+    /// negative; those beyond the count are zero.
     pub clip_planes: [[f32; 4]; MAX_CLIP_PLANES],
 }
 
