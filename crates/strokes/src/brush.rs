@@ -5,12 +5,14 @@
 //! is the stroke's. Mip levels are averages of the level above, so that a brush
 //! drawn small keeps its amount of ink.
 
+use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 
 use image::GrayImage;
 use thiserror::Error;
 
 use crate::gpu::Gpu;
+use crate::recent::Recent;
 
 /// The brushes that the project makes itself (`brushes/`).
 const OWN: [(&str, &[u8]); 5] = [
@@ -195,15 +197,15 @@ fn halve(level: &GrayImage) -> GrayImage {
     })
 }
 
-/// So many brushes are kept; the one that was not used for the longest time goes first.
+/// So many brushes are kept.
 const MOST_KEPT: usize = 16;
 
-/// Brushes on the GPU, each once, and how they are sampled: repeated along strokes.
+/// Brushes on the GPU, each once, and how they are sampled: tiled along, clamped across,
+/// mip-mapped.
 #[derive(Debug)]
 pub(crate) struct BrushTextures {
     pub(crate) sampler: wgpu::Sampler,
-    /// The one that was used last behind all others.
-    known: Vec<(Brush, wgpu::TextureView)>,
+    known: Recent<Brush, wgpu::TextureView>,
 }
 
 impl BrushTextures {
@@ -217,20 +219,14 @@ impl BrushTextures {
             mipmap_filter: wgpu::MipmapFilterMode::Linear,
             ..wgpu::SamplerDescriptor::default()
         });
-        Self { sampler, known: Vec::new() }
+        Self { sampler, known: Recent::new(MOST_KEPT) }
     }
 
     /// The texture of a brush.
     pub(crate) fn texture(&mut self, gpu: &Gpu, brush: &Brush) -> wgpu::TextureView {
-        let known = match self.known.iter().position(|(known, _)| known == brush) {
-            Some(at) => self.known.remove(at),
-            None => (brush.clone(), brush.upload(&gpu.device, &gpu.queue)),
-        };
-        if self.known.len() == MOST_KEPT {
-            self.known.remove(0);
-        }
-        let texture = known.1.clone();
-        self.known.push(known);
+        let upload = || Ok((brush.clone(), brush.upload(&gpu.device, &gpu.queue)));
+        let texture: Result<_, Infallible> = self.known.get(|known| known == brush, upload);
+        let Ok(texture) = texture;
         texture
     }
 }

@@ -418,9 +418,9 @@ mod tests {
         (z_offset - depth * w_offset) / (depth * w_scale - z_scale)
     }
 
-    /// The NPRView thesis, Equation 3.11, for a depth from 0 to 1.
     const PART: PicturePart = PicturePart::whole(glam::Vec2::new(300.0, 200.0));
 
+    /// The NPRView thesis, Equation 3.11, for a depth from 0 to 1.
     fn equation_3_11(depth: f64, near: f64, far: f64) -> f64 {
         -2.0 * near * far / ((2.0 * depth - 1.0) * (far - near) - (far + near))
     }

@@ -38,6 +38,7 @@ pub mod mesh_buffers;
 pub mod object;
 pub mod picture_part;
 pub mod readback;
+pub mod recent;
 pub mod renderer;
 pub mod shader;
 pub mod silhouette;

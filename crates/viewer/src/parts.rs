@@ -8,9 +8,9 @@
 //!      +- - - - - -+
 //! ```
 //!
-//! Before them the whole picture is drawn as large as one part. Its depth tells all parts
-//! alike where linked strokes are seen, so that they begin, end and taper at the same
-//! places everywhere.
+//! Where strokes are linked, the whole picture is drawn before them as large as one part.
+//! Its depth tells all parts alike where those strokes are seen, so that they begin, end
+//! and taper at the same places everywhere.
 //!
 //! Rejected: drawing large and cutting with a viewport, since a viewport may not be
 //! larger than a texture either.
@@ -24,6 +24,8 @@ use strokes::targets::Targets;
 
 use crate::render::{FrameStatistics, PictureOptions, PictureRenderer, Scene};
 use crate::technique::Technique;
+use crate::technique::core::CoreComponent;
+use crate::technique::pass::Pass;
 
 /// The most pixels that a part has a side, with its margins.
 pub const MAX_PART_PX: u32 = 4096;
@@ -41,14 +43,21 @@ const MAX_BYTES: u64 = 2 << 30;
 /// Draws pictures of any size.
 #[derive(Debug)]
 pub struct AnySizeRenderer {
+    gpu: Gpu,
     kind: Kind,
     size: [u32; 2],
+    max_part_px: u32,
 }
 
 #[derive(Debug)]
 enum Kind {
     Whole(Box<PictureRenderer>),
-    Parts { part: Box<PictureRenderer>, overview: Box<PictureRenderer>, layout: PartLayout },
+    Parts {
+        part: Box<PictureRenderer>,
+        /// Where strokes are linked.
+        overview: Option<Box<PictureRenderer>>,
+        layout: PartLayout,
+    },
 }
 
 /// Is told how many parts are done, of how many; an error ends the picture.
@@ -97,11 +106,13 @@ impl AnySizeRenderer {
             let layout = PartLayout::new(size, max_part_px);
             Kind::Parts {
                 part: renderer(layout.part)?,
-                overview: renderer(overview_size(size, max_part_px))?,
+                overview: links_strokes(technique, looks)
+                    .then(|| renderer(overview_size(size, max_part_px)))
+                    .transpose()?,
                 layout,
             }
         };
-        Ok(Self { kind, size })
+        Ok(Self { gpu: gpu.clone(), kind, size, max_part_px })
     }
 
     /// As [`PictureRenderer::reload`]; the size stays.
@@ -119,12 +130,20 @@ impl AnySizeRenderer {
             let options = PictureOptions { size: renderer.options().size, ..options.clone() };
             renderer.reload(scene, technique, looks, &options)
         };
+        let is_linked = links_strokes(technique, looks);
         match &mut self.kind {
-            Kind::Whole(renderer) => reload(renderer),
-            Kind::Parts { part, overview, .. } => {
+            Kind::Parts { part, overview: Some(overview), .. } => {
                 reload(part)?;
                 reload(overview)
             }
+            // Strokes that are linked from now on ask for an overview.
+            Kind::Parts { .. } if is_linked => {
+                let options = PictureOptions { size: self.size, ..options.clone() };
+                let (gpu, most) = (self.gpu.clone(), self.max_part_px);
+                *self = Self::with_parts(&gpu, scene, technique, looks, &options, most)?;
+                Ok(())
+            }
+            Kind::Whole(part) | Kind::Parts { part, .. } => reload(part),
         }
     }
 
@@ -144,13 +163,16 @@ impl AnySizeRenderer {
         };
         let mut picture = empty_picture(self.size)?;
         let view = part.view(camera, self.size);
-        overview.draw_overview(&view)?;
+        if let Some(overview) = overview {
+            overview.draw_overview(&view)?;
+        }
         let mut sum: Option<FrameStatistics> = None;
         let places = layout.places();
         let total = edgemesh::index::to_u32(places.len());
         for (done, place) in (0..).zip(&places) {
             progress(done, total)?;
-            let (drawn, statistics) = part.render_part(&view, layout.part_at(place), overview)?;
+            let (drawn, statistics) =
+                part.render_part(&view, layout.part_at(place), overview.as_deref())?;
             let cut = [place.kept[0] - place.drawn[0], place.kept[1] - place.drawn[1]];
             let [width, height] = place.size;
             let kept = image::imageops::crop_imm(&drawn, cut[0], cut[1], width, height);
@@ -165,6 +187,15 @@ impl AnySizeRenderer {
         let statistics = sum.ok_or_else(|| Failure::fault("a picture without parts"))?;
         Ok((picture, statistics))
     }
+}
+
+/// Whether any strokes that are drawn are linked.
+fn links_strokes(technique: &Technique, looks: &[Technique]) -> bool {
+    let passes = std::iter::once(technique).chain(looks).flat_map(|look| &look.passes);
+    let is_linked = |pass: &Pass| {
+        pass.component.core == CoreComponent::Strokes && pass.is_rendered() && pass.bool("linked")
+    };
+    passes.into_iter().any(is_linked)
 }
 
 /// How a picture is cut.

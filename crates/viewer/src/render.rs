@@ -320,8 +320,8 @@ impl PictureRenderer {
     }
 
     /// Draws one part of a picture for itself, as the first picture that there is; the
-    /// part must be of this renderer's size, and `overview` have drawn the whole picture
-    /// last.
+    /// part must be of this renderer's size. Where strokes are linked, `overview` must
+    /// have drawn the whole picture last.
     ///
     /// # Errors
     /// As [`Self::render`].
@@ -329,10 +329,10 @@ impl PictureRenderer {
         &mut self,
         view: &View,
         part: PicturePart,
-        overview: &Self,
+        overview: Option<&Self>,
     ) -> Result<(RgbaImage, FrameStatistics), Failure> {
         let started = Instant::now();
-        let overview = overview.graph()?.framebuffer();
+        let overview = overview.map(Self::graph).transpose()?.map(PassGraph::framebuffer);
         self.draw_first(view, Some(PartOf { part, overview }))?;
         self.read(started)
     }

@@ -13,7 +13,8 @@
 //!   components. Who adds one: a variant of `CoreComponent`, its descriptor in
 //!   `techniques/components/core.toml`, a file here, a step below (thesis, section 2.3).
 //! - `surface`, `material`, `textures`: what they draw and read.
-//! - `bindings`, `params`, `pipeline` with its cache, `blend`: how programs are given what they want.
+//! - `bindings`, `params`, `pipeline`, `blend`: how programs are given what they want;
+//!   `pipeline_cache`: what was built before.
 
 mod bindings;
 mod blend;
@@ -46,6 +47,7 @@ use strokes::view_buffers::Tally;
 use self::bindings::Sources;
 use self::copy_pass::CopyPass;
 use self::ping_pong::PingPong;
+use self::pipeline_cache::PipelineCache;
 use self::scene_pass::ScenePass;
 use self::screen_pass::ScreenPass;
 use self::stroke_pass::{StrokeGroup, StrokePasses, StrokeStore};
@@ -83,7 +85,7 @@ pub struct PassGraph {
     strokes: Option<StrokePasses>,
     stroke_store: StrokeStore,
     steps: Vec<Step>,
-    pipelines: pipeline_cache::PipelineCache,
+    pipelines: PipelineCache,
 }
 
 /// One or several passes, done at once.
@@ -139,8 +141,8 @@ pub struct Seen<'a> {
 pub struct PartOf<'a> {
     /// The part.
     pub part: PicturePart,
-    /// The whole picture, smaller, whose depth tells where strokes are seen.
-    pub overview: &'a Targets,
+    /// The whole picture, smaller, whose depth tells where linked strokes are seen.
+    pub overview: Option<&'a Targets>,
 }
 
 /// What steps share while a frame is encoded.
@@ -279,7 +281,7 @@ impl PassGraph {
             surfaces: self.surfaces.as_ref(),
             view,
             uniform: &uniform,
-            overview: part.map(|of| of.overview),
+            overview: part.and_then(|of| of.overview),
             is_fresh: true,
             has_depth: false,
         };

@@ -1,29 +1,57 @@
 //! Pipelines that were built before: when a value or the order of passes changes, or a
 //! technique comes back, none is built again.
 
+use std::sync::Arc;
+
 use edgemesh::command::Failure;
 use strokes::gpu::Gpu;
+use strokes::recent::Recent;
+use strokes::shader::ShaderSource;
 
 use super::pipeline::{Geometry, PassPipeline, PipelineTarget, Programs};
 use crate::technique::plan::Read;
+use crate::technique::program::Program;
 
-/// So many pipelines are kept; the one that was not used for the longest time goes first.
+/// So many pipelines are kept: more than all techniques that ship have together.
 const MOST_KEPT: usize = 256;
 
-/// The pipelines of passes, the one that was used last behind all others.
-#[derive(Debug, Default)]
+/// The pipelines of passes.
+#[derive(Debug)]
 pub(crate) struct PipelineCache {
-    known: Vec<(Key, PassPipeline)>,
+    known: Recent<Key, PassPipeline>,
 }
 
 /// Everything that a pipeline depends on.
-#[derive(Debug, PartialEq)]
+#[derive(Debug)]
 struct Key {
-    /// Text and function of both programs.
-    programs: [(String, String); 2],
+    vertex: ProgramKey,
+    fragment: ProgramKey,
     reads: Vec<Read>,
     geometry: Geometry,
     target: PipelineTarget,
+}
+
+/// A program's text and its function.
+#[derive(Debug)]
+struct ProgramKey {
+    source: Arc<ShaderSource>,
+    function: String,
+}
+
+impl ProgramKey {
+    fn of(program: &Program) -> Self {
+        Self { source: program.source.clone(), function: program.function.clone() }
+    }
+
+    fn is_of(&self, program: &Program) -> bool {
+        self.function == program.function && self.source.text == program.source.text
+    }
+}
+
+impl Default for PipelineCache {
+    fn default() -> Self {
+        Self { known: Recent::new(MOST_KEPT) }
+    }
 }
 
 impl PipelineCache {
@@ -37,21 +65,22 @@ impl PipelineCache {
         geometry: Geometry,
         target: &PipelineTarget,
     ) -> Result<PassPipeline, Failure> {
-        let key = Key {
-            programs: [programs.vertex, programs.fragment]
-                .map(|program| (program.source.text.clone(), program.function.clone())),
-            reads: programs.reads.to_vec(),
-            geometry,
-            target: target.clone(),
+        let is_it = |key: &Key| {
+            (key.geometry, &key.target) == (geometry, target)
+                && key.reads == programs.reads
+                && key.vertex.is_of(programs.vertex)
+                && key.fragment.is_of(programs.fragment)
         };
-        let pipeline = match self.known.iter().position(|(known, _)| *known == key) {
-            Some(at) => self.known.remove(at).1,
-            None => PassPipeline::new(gpu, frame, surface, programs, geometry, target)?,
-        };
-        if self.known.len() == MOST_KEPT {
-            self.known.remove(0);
-        }
-        self.known.push((key, pipeline.clone()));
-        Ok(pipeline)
+        self.known.get(is_it, || {
+            let pipeline = PassPipeline::new(gpu, frame, surface, programs, geometry, target)?;
+            let key = Key {
+                vertex: ProgramKey::of(programs.vertex),
+                fragment: ProgramKey::of(programs.fragment),
+                reads: programs.reads.to_vec(),
+                geometry,
+                target: target.clone(),
+            };
+            Ok((key, pipeline))
+        })
     }
 }

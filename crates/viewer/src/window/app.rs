@@ -152,7 +152,6 @@ impl Window {
             built: Built {
                 technique: recipe.appearance.technique.clone(),
                 is_transparent: recipe.appearance.is_transparent,
-                size: self.size,
             },
             options,
         };

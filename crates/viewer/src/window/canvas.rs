@@ -246,24 +246,19 @@ impl Sheet {
             ..session.recipe.picture_options(wanted.size)?
         };
         let technique = &wanted.appearance.technique;
-        let built = Built {
-            technique: technique.clone(),
-            is_transparent: wanted.appearance.is_transparent,
-            size: wanted.size,
+        let is_same = |built: &Built| {
+            (&built.technique, built.is_transparent) == (technique, options.is_transparent)
         };
         // None until it is built as wanted.
-        let before = self.built.take();
-        let is_same = |before: &Built| Built { size: built.size, ..before.clone() } == built;
+        let before = self.built.take().filter(is_same);
         let is_lit = |renderer: &mut PictureRenderer| renderer.set_lighting(&options.lighting);
-        let is_ready = before.is_some_and(|before| is_same(&before))
-            && self.renderer.as_mut().is_some_and(is_lit);
-        if let Some(renderer) = self.renderer.as_mut().filter(|_| is_ready)
-            && renderer.options().size != built.size
-        {
-            self.pending = None;
-            renderer.resize(built.size)?;
-        }
-        if !is_ready {
+        let before = before.filter(|_| self.renderer.as_mut().is_some_and(is_lit));
+        if let (Some(renderer), Some(_)) = (&mut self.renderer, &before) {
+            if renderer.options().size != wanted.size {
+                self.pending = None;
+                renderer.resize(wanted.size)?;
+            }
+        } else {
             self.pending = None;
             let looks = session.object_looks()?;
             match &mut self.renderer {
@@ -274,7 +269,9 @@ impl Sheet {
                 }
             }
         }
-        self.built = Some(built);
+        let is_transparent = options.is_transparent;
+        let new = || Built { technique: technique.clone(), is_transparent };
+        self.built = Some(before.unwrap_or_else(new));
         let Some(renderer) = &mut self.renderer else { return Ok(()) };
         renderer.draw(&wanted.viewpoint.camera(&scene.frame))?;
         if self.pending.is_none() {

@@ -94,21 +94,28 @@ pub fn cut_dragged(
         _ => -pixels.y / radius_px * normal.dot(view.forward()).signum(),
     };
     let d = d - moved * radius * length;
-    // As many digits as a hand can tell.
-    let unit = 10_f64.powf((radius * length).max(1e-12).log10().floor() - 4.0);
-    let d = if unit < 1.0 { (d / unit).round() / (1.0 / unit).round() } else { d.round() };
-    [x, y, z, d]
+    [x, y, z, in_steps(d, step_of(radius * length) / 10.0)]
 }
 
 /// With as many digits as a hand can tell.
 #[must_use]
 pub fn rounded(vector: DVec3) -> DVec3 {
-    let unit = 10_f64.powf(vector.abs().max_element().max(1e-12).log10().floor() - 3.0);
-    // Divided, so that the numbers are the nearest to their short texts.
-    let scale = (1.0 / unit).round();
+    let step = step_of(vector.abs().max_element());
+    DVec3::from(vector.to_array().map(|number| in_steps(number, step)))
+}
+
+/// The power of ten that is a thousandth of a number, or up to ten times less.
+fn step_of(number: f64) -> f64 {
+    10_f64.powf(number.max(1e-12).log10().floor() - 3.0)
+}
+
+/// The nearest number of whole steps, each a power of ten.
+fn in_steps(number: f64, step: f64) -> f64 {
+    // Divided, so that the number is the nearest to its short text.
+    let scale = (1.0 / step).round();
     match scale >= 1.0 {
-        true => (vector * scale).round() / scale,
-        false => (vector / unit).round() * unit,
+        true => (number * scale).round() / scale,
+        false => (number / step).round() * step,
     }
 }
 

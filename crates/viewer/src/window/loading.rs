@@ -34,15 +34,13 @@ pub struct Request {
     pub options: PictureOptions,
 }
 
-/// What a renderer was built for: what else it draws, it draws as it is.
+/// What a renderer was built for; all else can change while it goes on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Built {
     /// The technique.
     pub technique: Technique,
     /// Whether there is no paper behind the scene.
     pub is_transparent: bool,
-    /// Width and height in pixels.
-    pub size: [u32; 2],
 }
 
 /// Models that are there.
@@ -100,7 +98,7 @@ mod tests {
             arguments: recipe.arguments,
             gpu: None,
             library,
-            built: Built { technique, is_transparent: false, size: [1024; 2] },
+            built: Built { technique, is_transparent: false },
             options: PictureOptions::default(),
         };
         Background::start(|| {}, |tell| load(request, tell))

@@ -54,7 +54,7 @@ pub struct Session {
     /// The one that is shown instead of the picture.
     pub inspection: Option<Inspection>,
     /// What was drawn before a look for looking, to go back to.
-    pub before_looking: Option<(String, Technique, Technique)>,
+    pub before_looking: Option<Appearance>,
     /// The number of the cut that the hand moves; the last one where there are fewer.
     pub chosen_cut: usize,
     /// Edges that are marked by hand.
@@ -323,7 +323,7 @@ impl Session {
         let is_looking = self.is_looking();
         self.take_technique(name);
         if self.recipe.appearance.technique_name == name && !is_looking {
-            self.before_looking = Some((before.technique_name, before.original, before.technique));
+            self.before_looking = Some(before);
         }
     }
 
@@ -337,11 +337,11 @@ impl Session {
     /// Goes back to what was drawn before.
     pub fn stop_looking(&mut self) {
         let is_looking = self.is_looking();
-        if let Some((name, original, technique)) = self.before_looking.take().filter(|_| is_looking)
-        {
-            let appearance = &mut self.recipe.appearance;
-            (appearance.technique_name, appearance.original) = (name, original);
-            appearance.technique = technique;
+        if let Some(before) = self.before_looking.take().filter(|_| is_looking) {
+            let now = &self.recipe.appearance;
+            // The light may have been moved meanwhile.
+            let (lighting, is_transparent) = (now.lighting.clone(), now.is_transparent);
+            self.recipe.appearance = Appearance { lighting, is_transparent, ..before };
         }
     }
 

@@ -167,21 +167,15 @@ fn texture(
         TextureSource::Image { image, .. } => image.clone(),
         _ => name.to_string(),
     };
-    let images = images_of(directory, folders);
-    let file_of = |source: &TextureSource| {
-        let TextureSource::Image { image, .. } = source else { return None };
-        images.iter().find(|(known, _)| known == image).map(|(_, file)| file)
-    };
-    let preview = file_of(&new).and_then(|file| image_preview(ui, file));
     let list = ComboBox::from_id_salt(&variable.name).selected_text(shown).show_ui(ui, |ui| {
         if variable.default.as_ref() == Some(&Value::Texture(TextureName::NONE)) {
             ui.selectable_value(&mut new, TextureSource::None, "none");
         }
-        for (image, file) in &images {
+        for (image, file) in images_of(directory, folders) {
             let directory = Some(directory.to_owned());
             let source = TextureSource::Image { directory, image: image.clone() };
             let is_it = source == new;
-            let button = match image_preview(ui, file) {
+            let button = match image_preview(ui, &file) {
                 Some(texture) => Button::image_and_text(&texture, image.as_str()),
                 None => Button::new(image.as_str()),
             };
@@ -190,11 +184,14 @@ fn texture(
             }
         }
     });
-    let list = list.response.labelled_by(label);
-    if let Some(texture) = preview {
-        list.on_hover_ui(|ui| {
+    list.response.labelled_by(label).on_hover_ui(|ui| {
+        // The folders are read while one looks there, not in every frame.
+        let TextureSource::Image { image, .. } = &new else { return };
+        let images = images_of(directory, folders);
+        let file = images.iter().find(|(known, _)| known == image).map(|(_, file)| file);
+        if let Some(texture) = file.and_then(|file| image_preview(ui, file)) {
             ui.image(&texture);
-        });
-    }
+        }
+    });
     (new != name.source).then_some(TextureName { source: new, is_filtered: name.is_filtered })
 }

@@ -1,0 +1,64 @@
+//! What was made before and may be wanted again.
+
+/// Made things with their keys, so many of them; the one that was not used for the longest
+/// time goes first.
+#[derive(Debug)]
+pub struct Recent<K, V> {
+    most: usize,
+    /// The one that was used last behind all others.
+    known: Vec<(K, V)>,
+}
+
+impl<K, V: Clone> Recent<K, V> {
+    /// Room for `most` things.
+    #[must_use]
+    pub const fn new(most: usize) -> Self {
+        Self { most, known: Vec::new() }
+    }
+
+    /// What has a key that `is_it`, made with its key where it is not known.
+    ///
+    /// # Errors
+    /// Those of `make`; what is known stays.
+    pub fn get<E>(
+        &mut self,
+        is_it: impl Fn(&K) -> bool,
+        make: impl FnOnce() -> Result<(K, V), E>,
+    ) -> Result<V, E> {
+        let found = match self.known.iter().position(|(key, _)| is_it(key)) {
+            Some(at) => self.known.remove(at),
+            None => make()?,
+        };
+        if self.known.len() >= self.most.max(1) {
+            self.known.remove(0);
+        }
+        let value = found.1.clone();
+        self.known.push(found);
+        Ok(value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_used_stays_and_what_is_not_goes() {
+        let mut recent = Recent::new(2);
+        let mut made = Vec::new();
+        let mut get = |key: u32| {
+            let make = || {
+                made.push(key);
+                Ok::<_, String>((key, key * 10))
+            };
+            assert_eq!(recent.get(|known| *known == key, make), Ok(key * 10));
+        };
+        for key in [1, 2, 1, 3, 1, 2] {
+            get(key);
+        }
+        assert_eq!(made, [1, 2, 3, 2], "2 went for 3, and 3 for 2");
+        let failed = recent.get(|_| false, || Err("no".to_owned()));
+        assert_eq!(failed, Err("no".to_owned()));
+        assert_eq!(recent.get(|key| *key == 1, || Err("gone".to_owned())), Ok(10));
+    }
+}
