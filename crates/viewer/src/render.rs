@@ -509,8 +509,8 @@ fn lost(error: ReadbackError) -> Failure {
 fn resource_failure(error: &ResourceError, size: [u32; 2], samples: u32) -> Failure {
     match error {
         ResourceError::OutOfMemory => Failure::fault(format!(
-            "{error}: the picture alone, {}x{} with {samples} samples, needs {} MiB; make --size \
-             smaller or use --samples 1",
+            "{error}: the picture alone, {}x{} with {samples} samples, needs {} MiB; a \
+             smaller one needs less, and one with --samples 1",
             size[0],
             size[1],
             Targets::byte_count(size, samples) >> 20
