@@ -113,13 +113,23 @@ fn a_real_window_opens_changes_saves_and_marks() {
     // A line more, where an edge is marked that is no feature; and its file.
     display.hands(&["key m", "mousemove 250 300", "mousemove_relative 3 2", "click 1"]);
     display.hands(&["mousemove 100 560", "key m"]);
+    // What is not saved outlives the graphics device.
+    display.hands(&["key ctrl+shift+F9"]);
+    std::thread::sleep(Duration::from_secs(2));
+    display.focus();
+    still(&display);
     display.hands(&["mousemove 630 44", "click 1", "mousemove 773 81", "click 1"]);
     let marks = knot.with_file_name("torus_knot.obj.marks");
     let text = display.until(|_| std::fs::read_to_string(&marks).ok());
     let text = text.expect("marks are saved beside the model");
     assert!(text.lines().filter(|line| !line.starts_with('#')).count() == 1, "{text}");
 
+    display.hands(&["key m", "mousemove 250 300", "mousemove_relative 3 2", "click 1"]);
+    display.hands(&["mousemove 100 560", "key m"]);
     let id = display.window_id().unwrap();
+    drop_file(&display.number, id, &cube);
+    still(&display);
+    assert!(display.title().starts_with("torus_knot.obj"), "marks are not lost unasked");
     drop_file(&display.number, id, &cube);
     assert!(is_called(&display, "cube.obj"), "dropped");
     display.hands(&["key ctrl+q"]);

@@ -13,7 +13,7 @@ use viewer::render::{FrameStatistics, Scene};
 use viewer::scene_file::SceneObject;
 use viewer::technique::library::Library;
 use viewer::technique::texture_format::PassTexture;
-use viewer::window::hands::Hands;
+use viewer::window::hands::{CUT_KEY, Hands, KEYS, LIGHT_KEY};
 use viewer::window::panels;
 use viewer::window::recipe::Recipe;
 use viewer::window::remembered::{Remembered, Tab};
@@ -212,6 +212,12 @@ fn looks_for_looking_come_and_go() {
     assert_eq!(harness.state().recipe.appearance.technique_name, "toon");
 }
 
+/// A key that goes down or up.
+fn pressed(key: Key, pressed: bool) -> egui::Event {
+    let (physical_key, repeat, modifiers) = (None, false, Modifiers::NONE);
+    egui::Event::Key { key, physical_key, pressed, repeat, modifiers }
+}
+
 #[test]
 fn drags_over_the_picture_turn_it_or_the_light_or_move_a_cut() {
     let mut hands = Hands::default();
@@ -224,13 +230,6 @@ fn drags_over_the_picture_turn_it_or_the_light_or_move_a_cut() {
     let mut harness = Harness::builder().with_size([800.0, 600.0]).build_ui_state(show, session);
     let mut drag = |key: Option<Key>| {
         let before = harness.state().recipe.clone();
-        let pressed = |key, pressed| egui::Event::Key {
-            key,
-            physical_key: None,
-            pressed,
-            repeat: false,
-            modifiers: Modifiers::NONE,
-        };
         if let Some(key) = key {
             harness.event(pressed(key, true));
         }
@@ -255,8 +254,8 @@ fn drags_over_the_picture_turn_it_or_the_light_or_move_a_cut() {
         )
     };
     assert_eq!(drag(None), (true, false, false), "the eye");
-    assert_eq!(drag(Some(Key::L)), (false, true, false), "the light");
-    assert_eq!(drag(Some(Key::C)), (false, false, true), "the cut");
+    assert_eq!(drag(Some(LIGHT_KEY)), (false, true, false), "the light");
+    assert_eq!(drag(Some(CUT_KEY)), (false, false, true), "the cut");
 }
 
 #[test]
@@ -410,6 +409,17 @@ fn keys_do_what_their_sheet_says() {
     harness.key_press(Key::CloseBracket);
     harness.run_ok();
     assert_eq!(harness.state().recipe.appearance.technique_name, "linked", "the one after ink");
+    // A key that is held repeats itself: nothing is to flicker, or be asked for many times.
+    for _ in 0..4 {
+        harness.event(pressed(Key::N, true));
+        harness.event(pressed(Key::Num4, true));
+    }
+    harness.run_ok();
+    assert!(harness.state().remembered.shows_panels, "changed once");
+    let rolls = harness.state().requests.iter().filter(|asked| matches!(asked, Request::GoTo(_)));
+    assert_eq!(rolls.count(), 1 + 4, "but it rolls on");
+    let is_held = |key: &Key| [LIGHT_KEY, CUT_KEY].contains(key);
+    assert!(!KEYS.iter().any(|(key, ..)| is_held(key)), "what is held for a drag does no more");
     harness.state_mut().requests.clear();
     harness.key_press_modifiers(Modifiers::SHIFT, Key::C);
     harness.run_ok();
@@ -420,6 +430,44 @@ fn keys_do_what_their_sheet_says() {
     harness.run_ok();
     let Some(Request::GoTo(view)) = harness.state().requests.last() else { panic!("pasted") };
     assert_eq!(view.eye, glam::DVec3::new(9.0, 0.0, 0.0));
+}
+
+#[test]
+fn without_a_picture_there_is_a_way_to_one() {
+    let show = |ui: &mut egui::Ui, (session, is_waiting): &mut (Session, bool)| {
+        let rect = ui.available_rect_before_wrap();
+        panels::no_picture(ui, session, rect, *is_waiting);
+    };
+    let mut harness = Harness::new_ui_state(show, (session(""), true));
+    assert!(harness.query_by_label_contains("Open").is_none(), "models are on their way");
+    (harness.state_mut().1, harness.state_mut().0.scene) = (false, None);
+    harness.run_ok();
+    harness.get_by_label_contains("Open").click();
+    harness.run_ok();
+    harness.get_by_label("See the demo").click();
+    harness.run_ok();
+    let wanted = [Request::ChooseFiles, Request::Open(vec![PathBuf::from(DEMO)])];
+    assert_eq!(harness.state().0.requests, wanted);
+}
+
+#[test]
+fn a_recipe_of_other_models_waits_for_them() {
+    let mut session = session("");
+    let before = session.recipe.clone();
+    let cube = testkit::locate::workspace_root().join("models/cube.obj");
+    let words = [cube.to_str().unwrap(), "--technique", "pen", "--eye", "0,0,9"];
+    let recipe = session.take_words(&words.map(str::to_owned)).unwrap();
+    let recipe = recipe.expect("the cube is to be loaded");
+    assert_eq!(recipe.models, [cube]);
+    assert_eq!(recipe.appearance.technique_name, "pen");
+    // Should they not load, nothing has changed.
+    assert_eq!(session.recipe.appearance, before.appearance);
+    assert_eq!(session.recipe.viewpoint, before.viewpoint);
+    // Models that are gone: the rest is taken at once.
+    let words = ["gone.obj", "--technique", "pen", "--eye", "0,0,9", "--target", "0,0,0"];
+    assert!(session.take_words(&words.map(str::to_owned)).unwrap().is_none());
+    assert_eq!(session.recipe.appearance.technique_name, "pen");
+    assert_eq!(session.recipe.viewpoint.unwrap().eye, glam::DVec3::new(0.0, 0.0, 9.0));
 }
 
 /// Every sign that panels write is in the fonts of the window.

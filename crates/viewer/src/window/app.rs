@@ -17,13 +17,12 @@ use super::hands::Hands;
 use super::loading::{self, Built, LoadedScene};
 use super::opening::{Kept, Lost, watch_device};
 use super::panels;
+use super::recipe::Recipe;
 use super::saving::{self, Order};
 use super::session::{Request, Session, Work};
 use super::style;
 use super::thumbnails::{self, Thumbnail};
 use super::watching::{Change, Watching};
-use crate::render::{PictureRenderer, Scene};
-use crate::scene_file::SceneObject;
 use crate::technique::write::written;
 
 /// The key under which the window remembers.
@@ -38,13 +37,13 @@ pub(super) struct Window {
     canvas: Canvas,
     hands: Hands,
     /// What is loaded once it is known how large the picture is.
-    to_load: Option<Vec<PathBuf>>,
-    loading: Option<Background<LoadedScene>>,
+    to_load: Option<ToLoad>,
+    loading: Option<Loading>,
     saving: Vec<Background<String>>,
     watching: Option<Watching>,
     thumbnails: Option<(Background<()>, Receiver<Thumbnail>)>,
-    /// Whether it was told that marks are not saved.
-    is_warned: bool,
+    /// What was not done yet, as marks would have been lost; it was told.
+    warned_of: Option<&'static str>,
     /// What dialogs on other threads have led to.
     arrived: Receiver<Arrival>,
     sender: Sender<Arrival>,
@@ -56,6 +55,20 @@ pub(super) struct Window {
     /// Whether the device is lost on purpose: before a frame or within one.
     is_to_be_lost: Option<bool>,
     faults: Arc<Mutex<Vec<String>>>,
+}
+
+/// Models to be loaded.
+#[derive(Debug, Clone)]
+pub(super) struct ToLoad {
+    pub(super) models: Vec<PathBuf>,
+    /// How they are to be seen; none where that stays as it is.
+    pub(super) recipe: Option<Recipe>,
+}
+
+/// Models that are being loaded.
+struct Loading {
+    what: ToLoad,
+    work: Background<LoadedScene>,
 }
 
 /// What comes from other threads.
@@ -75,33 +88,34 @@ impl Window {
         lost: Arc<Lost>,
     ) -> Result<Self, String> {
         let before = kept.lock().unwrap_or_else(PoisonError::into_inner).take();
-        let Kept { recipe, remembered, scene } = before.ok_or("there is nothing to show")?;
+        let Kept { mut session, to_load, is_new } = before.ok_or("there is nothing to show")?;
         let window = context.wgpu_render_state.clone().ok_or("the window has no device")?;
         let faults = Arc::new(Mutex::new(Vec::new()));
         watch_device(&window.device, &context.egui_ctx, &lost, &faults);
-        let stored = || {
-            let storage = context.storage?;
-            eframe::get_value(storage, REMEMBERED)
-        };
-        let remembered = remembered.or_else(stored).unwrap_or_default();
+        if is_new {
+            let stored = context.storage.and_then(|storage| eframe::get_value(storage, REMEMBERED));
+            session.remembered = stored.unwrap_or_default();
+        } else {
+            session.move_on();
+        }
         style::apply(&context.egui_ctx);
         desktop::follow_theme(&context.egui_ctx);
-        let canvas = Canvas::new(&window).map_err(|error| error.to_string())?;
-        let library = recipe.arguments.library.load();
-        let mut session = Session::new(library, recipe, remembered);
+        let mut canvas = Canvas::new(&window).map_err(|error| error.to_string())?;
         session.adapter.clone_from(&canvas.gpu().info.name);
-        let models = session.recipe.models.clone();
+        if let Some(scene) = &session.scene {
+            canvas.take_scene(scene.clone(), None);
+        }
         let (sender, arrived) = channel();
-        let mut this = Self {
+        Ok(Self {
             session,
             canvas,
             hands: Hands::default(),
-            to_load: None,
+            to_load,
             loading: None,
             saving: Vec::new(),
             watching: None,
             thumbnails: None,
-            is_warned: false,
+            warned_of: None,
             arrived,
             sender,
             size: [1, 1],
@@ -110,42 +124,29 @@ impl Window {
             lost,
             is_to_be_lost: None,
             faults,
-        };
-        match scene {
-            Some((scene, objects)) => this.take_scene(models, scene, objects, None),
-            None => this.to_load = Some(models),
+        })
+    }
+
+    fn take_loaded(&mut self, what: ToLoad, loaded: LoadedScene) {
+        let LoadedScene { models, scene, objects, renderer } = loaded;
+        if let Some(recipe) = what.recipe {
+            self.session.recipe = recipe;
         }
-        this.keep();
-        Ok(this)
-    }
-
-    /// Leaves what the next window needs, should this one lose its device.
-    fn keep(&self) {
-        *self.kept.lock().unwrap_or_else(PoisonError::into_inner) = Some(Kept {
-            recipe: self.session.recipe.clone(),
-            remembered: Some(self.session.remembered.clone()),
-            scene: self.session.scene.clone().map(|scene| (scene, self.session.objects.clone())),
-        });
-    }
-
-    fn take_scene(
-        &mut self,
-        models: Vec<PathBuf>,
-        scene: Arc<Scene>,
-        objects: Vec<SceneObject>,
-        renderer: Option<(PictureRenderer, Built)>,
-    ) {
         if let Err(failure) = self.session.take_scene(models, scene.clone(), objects) {
             self.session.messages.error(failure.message);
         }
         self.canvas.take_scene(scene, renderer);
     }
 
-    fn load(&mut self, models: Vec<PathBuf>, context: &egui::Context) {
-        let recipe = &self.session.recipe;
-        let Ok(options) = recipe.picture_options(self.size) else { return };
+    /// Begins to load models; what was being loaded is no longer wanted.
+    fn load(&mut self, what: ToLoad, context: &egui::Context) {
+        let recipe = what.recipe.as_ref().unwrap_or(&self.session.recipe);
+        let options = match recipe.picture_options(self.size) {
+            Ok(options) => options,
+            Err(failure) => return self.session.messages.error(failure.message),
+        };
         let request = loading::Request {
-            models,
+            models: what.models.clone(),
             arguments: recipe.arguments.clone(),
             gpu: Some(self.canvas.gpu().clone()),
             library: self.session.library.clone(),
@@ -157,17 +158,38 @@ impl Window {
         };
         let context = context.clone();
         let wake = move || context.request_repaint();
-        self.loading = Some(Background::start(wake, |tell| loading::load(request, tell)));
+        let work = Background::start(wake, |tell| loading::load(request, tell));
+        self.loading = Some(Loading { what, work });
+    }
+
+    /// Loads models instead of those that are there, unless marks would be lost.
+    fn replace(&mut self, what: ToLoad, context: &egui::Context) {
+        if !self.would_lose_marks("open") {
+            self.load(what, context);
+        }
+    }
+
+    /// Whether marks that were not saved keep from doing something. It is told; what is
+    /// asked for again is done.
+    fn would_lose_marks(&mut self, what: &'static str) -> bool {
+        let is_told = self.warned_of == Some(what);
+        if !self.session.marking.has_changes() || is_told {
+            return false;
+        }
+        self.warned_of = Some(what);
+        self.session.messages.error(format!(
+            "There are marks that were not saved: save them under Lines, or {what} again"
+        ));
+        true
     }
 
     /// Takes what other threads have made.
     fn take_arrivals(&mut self, context: &egui::Context) {
-        if let Some(loaded) = self.loading.as_ref().and_then(Background::take) {
-            self.loading = None;
+        if let Some(loaded) = self.loading.as_ref().and_then(|loading| loading.work.take())
+            && let Some(Loading { what, .. }) = self.loading.take()
+        {
             match loaded {
-                Ok(LoadedScene { models, scene, objects, renderer }) => {
-                    self.take_scene(models, scene, objects, renderer);
-                }
+                Ok(loaded) => self.take_loaded(what, loaded),
                 Err(failure) => self.session.messages.error(failure.message),
             }
         }
@@ -185,7 +207,7 @@ impl Window {
             }
         }
         self.session.work.clear();
-        if let Some(loading) = &self.loading {
+        if let Some(Loading { work: loading, .. }) = &self.loading {
             let work = Work { what: loading.stage(), since: loading.started, saving: None };
             self.session.work.push(work);
         }
@@ -244,7 +266,10 @@ impl Window {
                     dialog.pick_files().map(Arrival::Files)
                 }),
                 Request::Open(files) => self.open_files(files, context),
-                Request::Reload => self.load(self.session.recipe.models.clone(), context),
+                Request::Reload => {
+                    let models = self.session.recipe.models.clone();
+                    self.replace(ToLoad { models, recipe: None }, context);
+                }
                 Request::Cancel(None) => self.loading = None,
                 Request::Cancel(Some(saving)) => {
                     if let Some(saving) = self.saving.get(saving) {
@@ -326,12 +351,8 @@ impl Window {
     /// Does not close at once where marks would be lost.
     fn hold_close(&mut self, context: &egui::Context) {
         let is_closing = context.input(|input| input.viewport().close_requested());
-        if is_closing && self.session.marking.has_changes() && !self.is_warned {
-            self.is_warned = true;
+        if is_closing && self.would_lose_marks("close") {
             context.send_viewport_cmd(egui::ViewportCommand::CancelClose);
-            self.session.messages.error(
-                "There are marks that were not saved: save them under Lines, or close again",
-            );
         }
     }
 
@@ -415,7 +436,9 @@ impl Window {
         let has_ending = |path: &PathBuf, wanted: &str| {
             path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(wanted))
         };
-        let [file] = &files[..] else { return self.load(files, context) };
+        let [file] = &files[..] else {
+            return self.replace(ToLoad { models: files, recipe: None }, context);
+        };
         if has_ending(file, "png") {
             let Some(words) = saving::words_in(file) else {
                 let name = file.display();
@@ -425,19 +448,25 @@ impl Window {
             match self.session.take_words(&words) {
                 Err(failure) => self.session.messages.error(failure.message),
                 Ok(None) => {}
-                Ok(Some(models)) => self.load(models, context),
+                Ok(Some(recipe)) => {
+                    let models = recipe.models.clone();
+                    self.replace(ToLoad { models, recipe: Some(recipe) }, context);
+                }
             }
         } else if has_ending(file, "toml") && is_technique_file(file) {
             let name = file.display().to_string();
             self.session.take_technique(&name);
         } else {
-            self.load(files, context);
+            self.replace(ToLoad { models: files, recipe: None }, context);
         }
     }
 
     /// The picture, or two with a line between them.
     fn paint(&mut self, ui: &mut Ui, rect: egui::Rect) {
-        let Some(picture) = self.canvas.picture() else { return };
+        let Some(picture) = self.canvas.picture() else {
+            let is_waiting = self.loading.is_some() || self.to_load.is_some();
+            return panels::no_picture(ui, &mut self.session, rect, is_waiting);
+        };
         let other = self.canvas.compared_picture();
         let (Some(other), Some(comparison)) = (other, &mut self.session.comparison) else {
             return picture.paint(ui.painter(), rect);
@@ -499,6 +528,23 @@ fn is_technique_file(path: &std::path::Path) -> bool {
     text.lines().any(|line| line.trim_start().starts_with("[[pass]]"))
 }
 
+/// A window that is gone leaves what the next one needs, should its device be lost: even
+/// where that ends it in the midst of a frame.
+impl Drop for Window {
+    fn drop(&mut self) {
+        let Session { library, recipe, remembered, .. } = &self.session;
+        let nothing = Session::new(library.clone(), recipe.clone(), remembered.clone());
+        let mut session = std::mem::replace(&mut self.session, nothing);
+        if !self.saving.is_empty() {
+            session.messages.error("a picture was not saved: the graphics adapter was lost");
+        }
+        let loading = self.loading.take().map(|loading| loading.what);
+        let to_load = loading.or_else(|| self.to_load.take());
+        *self.kept.lock().unwrap_or_else(PoisonError::into_inner) =
+            Some(Kept { session, to_load, is_new: false });
+    }
+}
+
 impl eframe::App for Window {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
@@ -509,7 +555,9 @@ impl eframe::App for Window {
             context.send_viewport_cmd(egui::ViewportCommand::Close);
             return;
         }
-        self.keep();
+        if !self.session.marking.has_changes() {
+            self.warned_of = None;
+        }
         self.take_arrivals(&context);
         self.follow_files(&context);
         self.take_thumbnails(&context);
@@ -537,8 +585,8 @@ impl eframe::App for Window {
         if self.session.shows_keys {
             panels::keys_sheet(ui, &mut self.session);
         }
-        if let Some(models) = self.to_load.take() {
-            self.load(models, &context);
+        if let Some(what) = self.to_load.take() {
+            self.load(what, &context);
         }
         self.answer(&context, time);
         self.hold_close(&context);

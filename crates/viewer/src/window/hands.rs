@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use super::light_hand;
 use super::marking::edge_under;
 use super::navigation::{Canvas, between, flown, looked_around, panned, rolled, turned, zoomed};
-use super::session::{Request, Session};
+use super::session::{Request, Session, Work};
 use super::viewpoint::{NamedView, Viewpoint};
 
 /// How long it takes to go to a viewpoint, in seconds.
@@ -14,6 +14,12 @@ const FLIGHT_SECONDS: f64 = 0.25;
 
 /// Distances to the target that are flown in a second.
 const FLY_SPEED: f64 = 0.8;
+
+/// Held while a drag turns the light.
+pub const LIGHT_KEY: Key = Key::L;
+
+/// Held while a drag moves the chosen cut. No key of [`KEYS`], which would do that as well.
+pub const CUT_KEY: Key = Key::X;
 
 /// What of the hands goes on from frame to frame.
 #[derive(Debug, Default)]
@@ -106,6 +112,13 @@ pub const KEYS: &[(Key, Modifiers, Command, &str)] = &[
 /// that nothing else is lost; with Ctrl and Shift, and on no sheet.
 const LOSE_DEVICE: [(Key, bool); 2] = [(Key::F9, false), (Key::F10, true)];
 
+impl Command {
+    /// Whether it is done again and again while its key is held.
+    const fn goes_on(self) -> bool {
+        matches!(self, Self::Roll(_) | Self::Technique(_) | Self::Undo | Self::Redo)
+    }
+}
+
 impl Hands {
     /// Goes to a viewpoint, from where the window is now.
     pub fn go_to(&mut self, session: &Session, to: Viewpoint, time: f64) {
@@ -123,9 +136,9 @@ impl Hands {
         let (up, mode) = (session.remembered.up, session.remembered.turn_mode);
         let is_shifted = ui.input(|input| input.modifiers.shift);
         let is_held = |key| ui.input(|input| input.key_down(key));
-        if response.dragged_by(PointerButton::Primary) && is_held(Key::L) {
+        if response.dragged_by(PointerButton::Primary) && is_held(LIGHT_KEY) {
             drag_light(session, &view, &canvas, pixels);
-        } else if response.dragged_by(PointerButton::Primary) && is_held(Key::C) {
+        } else if response.dragged_by(PointerButton::Primary) && is_held(CUT_KEY) {
             drag_cut(session, &view, &canvas, pixels);
         } else if response.dragged_by(PointerButton::Middle)
             || response.dragged_by(PointerButton::Primary) && is_shifted
@@ -238,7 +251,9 @@ impl Hands {
 /// What a key asks that is pressed. Its modifiers are those of its own moment: in a long
 /// frame they may be let go already.
 fn command_of(event: &egui::Event) -> Option<Command> {
-    let egui::Event::Key { key, pressed: true, modifiers, .. } = event else { return None };
+    let egui::Event::Key { key, pressed: true, repeat, modifiers, .. } = event else {
+        return None;
+    };
     let is_it = |known: &&(Key, Modifiers, Command, &str)| {
         // Keys that need shift on some keyboards do not need to be held with it.
         let is_typed = matches!(key, Key::Questionmark | Key::OpenBracket | Key::CloseBracket);
@@ -248,7 +263,8 @@ fn command_of(event: &egui::Event) -> Option<Command> {
         };
         known.0 == *key && is_held
     };
-    KEYS.iter().find(is_it).map(|(_, _, command, _)| *command)
+    let command = KEYS.iter().find(is_it).map(|(_, _, command, _)| *command);
+    command.filter(|command| !repeat || command.goes_on())
 }
 
 /// Does what a key or a button asks.
@@ -328,6 +344,10 @@ fn drag_cut(session: &mut Session, view: &Viewpoint, canvas: &Canvas, pixels: DV
 /// Shows the edge under the pointer, and marks it where it is clicked.
 fn mark(ui: &Ui, response: &Response, session: &mut Session, canvas: &Canvas, at: DVec2) {
     let (Some(scene), Some(view)) = (&mut session.scene, session.recipe.viewpoint) else { return };
+    // Marks would be gone with the models that are replaced.
+    if session.work.iter().any(Work::is_loading) {
+        return;
+    }
     let Some(picked) = edge_under(scene, &view, canvas, at) else { return };
     #[expect(clippy::cast_possible_truncation, reason = "a position on the screen")]
     let place = |at: DVec2| response.rect.min + egui::vec2(at.x as f32, at.y as f32);

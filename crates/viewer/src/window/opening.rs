@@ -9,12 +9,11 @@ use std::time::{Duration, Instant};
 use edgemesh::command::{ExitStatus, Failure};
 use strokes::gpu;
 
-use super::app::Window;
+use super::app::{ToLoad, Window};
 use super::recipe::Recipe;
 use super::remembered::Remembered;
+use super::session::Session;
 use crate::command::picture_arguments::PictureArguments;
-use crate::render::Scene;
-use crate::scene_file::SceneObject;
 
 /// What the window is called, and where it remembers.
 const APP_ID: &str = "edgemesh";
@@ -37,11 +36,16 @@ pub(crate) fn run(models: &[PathBuf], arguments: PictureArguments) -> Result<(),
     let library = arguments.library.load();
     let recipe = Recipe::new(models, arguments, &library)?;
     let adapter = recipe.arguments.adapter.clone();
-    let kept = Arc::new(Mutex::new(Some(Kept { recipe, remembered: None, scene: None })));
+    let to_load = Some(ToLoad { models: recipe.models.clone(), recipe: None });
+    let session = Session::new(library, recipe, Remembered::default());
+    let kept = Arc::new(Mutex::new(Some(Kept { session, to_load, is_new: true })));
     let mut losses: Vec<Instant> = Vec::new();
     let mut is_after_panic = false;
+    let latest = Arc::new(Mutex::new(Arc::new(Lost::default())));
+    hush_panics_of_lost_devices(&latest);
     loop {
         let lost = Arc::new(Lost::default());
+        latest.lock().unwrap_or_else(PoisonError::into_inner).clone_from(&lost);
         // The window system's side of the window panics where it draws with a device that
         // is lost in that very frame.
         let open = || open(&kept, &lost, adapter.as_deref());
@@ -74,13 +78,26 @@ pub(crate) fn run(models: &[PathBuf], arguments: PictureArguments) -> Result<(),
     }
 }
 
+/// Has panics told as before, but for those that another window follows.
+fn hush_panics_of_lost_devices(latest: &Arc<Mutex<Arc<Lost>>>) {
+    let (latest, before) = (latest.clone(), std::panic::take_hook());
+    std::panic::set_hook(Box::new(move |panic| {
+        let lost = latest.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        match lost.is_lost.load(Ordering::Relaxed) {
+            true => log::info!("as the graphics adapter was lost: {panic}"),
+            false => before(panic),
+        }
+    }));
+}
+
 /// What goes on from one window to the next.
+#[derive(Debug)]
 pub(super) struct Kept {
-    pub(super) recipe: Recipe,
-    /// None before the first window.
-    pub(super) remembered: Option<Remembered>,
-    /// The models, where they were there.
-    pub(super) scene: Option<(Arc<Scene>, Vec<SceneObject>)>,
+    pub(super) session: Session,
+    /// What is not loaded yet.
+    pub(super) to_load: Option<ToLoad>,
+    /// Whether there was no window before.
+    pub(super) is_new: bool,
 }
 
 /// What is known of a device that may be lost.

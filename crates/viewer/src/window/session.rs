@@ -84,6 +84,14 @@ pub struct Work {
     pub saving: Option<usize>,
 }
 
+impl Work {
+    /// Whether models are loaded.
+    #[must_use]
+    pub const fn is_loading(&self) -> bool {
+        self.saving.is_none()
+    }
+}
+
 /// Small pictures of techniques, by name.
 #[derive(Default)]
 pub struct Thumbnails {
@@ -178,6 +186,17 @@ impl Session {
         }
     }
 
+    /// Goes on in another window, on another device: without what was that one's own. Its
+    /// clock begins anew.
+    pub fn move_on(&mut self) {
+        self.thumbnails = Thumbnails::default();
+        self.statistics.clear();
+        self.generated.clear();
+        self.work.clear();
+        self.requests.clear();
+        self.undoer.add_undo(&self.recipe.appearance);
+    }
+
     /// Asks something of the window.
     pub fn ask(&mut self, request: Request) {
         self.requests.push(request);
@@ -216,9 +235,6 @@ impl Session {
         self.objects = objects;
         self.statistics.clear();
         // Marks are of the models that were there.
-        if self.marking.has_changes() {
-            self.messages.error("the models were read anew; marks that were not saved are gone");
-        }
         self.marking.forget();
         told
     }
@@ -246,11 +262,12 @@ impl Session {
     }
 
     /// Takes the recipe of a picture: its technique with what was changed, its light, its
-    /// camera; and says which models it has, where those are there and are not open.
+    /// camera. Where its models are there and are not open, all of that waits for them: the
+    /// recipe is given back, to be taken once they are loaded.
     ///
     /// # Errors
     /// Where it cannot be read; everything stays as it was.
-    pub fn take_words(&mut self, words: &[String]) -> Result<Option<Vec<PathBuf>>, Failure> {
+    pub fn take_words(&mut self, words: &[String]) -> Result<Option<Recipe>, Failure> {
         let mut recipe = Recipe::of_words(words, &self.library)?;
         // Folders and the adapter are those of this machine.
         let own = &self.recipe.arguments;
@@ -273,10 +290,7 @@ impl Session {
             }
             return Ok(None);
         }
-        self.recipe.appearance = recipe.appearance;
-        let models = recipe.models;
-        (self.recipe.arguments, self.recipe.viewpoint) = (recipe.arguments, None);
-        Ok(Some(models))
+        Ok(Some(recipe))
     }
 
     /// Compares with a technique, or with nothing any more; what is wrong with it is told.

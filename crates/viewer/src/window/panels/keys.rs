@@ -11,7 +11,7 @@ const POINTER: [(&str, &str); 8] = [
     ("Shift + drag, middle drag", "move the picture"),
     ("right drag", "look around"),
     ("L + drag", "turn the light"),
-    ("C + drag", "move the chosen cut"),
+    ("X + drag", "move the chosen cut"),
     ("wheel", "come nearer to what is under the pointer"),
     ("double click", "turn around what is under the pointer"),
     ("drop a file", "open it"),

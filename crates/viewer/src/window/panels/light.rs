@@ -168,7 +168,7 @@ fn cuts(
             });
             ui.horizontal(|ui| {
                 let label = ui.selectable_label(*chosen == at, "Place");
-                let label = label.on_hover_text("C + drag over the picture moves this one");
+                let label = label.on_hover_text("X + drag over the picture moves this one");
                 if label.clicked() {
                     *chosen = at;
                 }

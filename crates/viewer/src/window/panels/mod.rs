@@ -5,7 +5,8 @@
 //!   technique.
 //! - `lines`, `light`, `view`, `inspect`, `output`: the other panels.
 //! - `comparison`: the line between two looks.
-//! - `notes`: what there is to say. `keys`: the sheet of keys.
+//! - `notes`: what there is to say. `keys`: the sheet of keys. `no_picture`: what is there
+//!   before the first picture.
 
 mod bar;
 mod comparison;
@@ -15,6 +16,7 @@ mod keys;
 mod light;
 mod lines;
 mod look;
+mod no_picture;
 mod notes;
 mod output;
 mod variable;
@@ -23,6 +25,7 @@ mod view;
 pub use bar::{status_bar, top_bar};
 pub use comparison::comparison_line;
 pub use keys::keys_sheet;
+pub use no_picture::no_picture;
 pub use notes::notes;
 
 use egui::{ScrollArea, Ui};
