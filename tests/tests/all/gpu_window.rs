@@ -11,15 +11,17 @@ use image::RgbaImage;
 use testkit::locate::{program, workspace_root};
 use viewer::lighting::Light;
 use viewer::picture::read_png;
-use viewer::render::Scene;
+use viewer::render::{PictureOptions, PictureRenderer, Scene};
 use viewer::scene_file::SceneObject;
 use viewer::technique::library::Library;
+use viewer::window::inspection::Inspection;
 use viewer::window::navigation::{Canvas, TurnMode, panned, turned, zoomed};
 use viewer::window::recipe::Recipe;
 use viewer::window::remembered::Remembered;
 use viewer::window::saving::{Order, save, words_in};
 use viewer::window::session::Session;
 use viewer::window::viewpoint::UpAxis;
+use wgpu::TextureFormat;
 
 use crate::gpu_device::gpu;
 
@@ -94,6 +96,68 @@ fn a_copied_command_draws_what_the_window_saves_and_its_picture_restores_the_rec
         assert!(fresh.take_words(&words).unwrap().is_none(), "the model is open");
         assert_eq!(fresh.recipe.appearance, session.recipe.appearance);
         assert_eq!(fresh.recipe.viewpoint, session.recipe.viewpoint);
+    }
+}
+
+/// A technique whose passes draw whole numbers for each other.
+const NUMBERS: &str = r#"
+[component.numbers]
+inherits = "process_texture"
+[component.numbers.variable]
+texture = { type = "texture" }
+[component.numbers.modify]
+fragment_program = { default = "numbers:numbers" }
+[[pass]]
+name = "light"
+component = "render_phong"
+render_target = "light"
+[[pass]]
+name = "count"
+component = "numbers"
+texture = "<generated>:light_color"
+render_target = "count"
+render_target_format = "r32u"
+[[pass]]
+name = "picture"
+component = "render_phong"
+"#;
+
+const NUMBERS_PROGRAM: &str = "#import <common/screen.wgsl>
+@group(1) @binding(1) var texture: texture_2d<f32>;
+@fragment
+fn numbers(at: ScreenVarying) -> @location(0) u32 {
+    return u32(textureLoad(texture, vec2i(at.position.xy), 0).r * 7.0);
+}
+";
+
+#[test]
+fn what_passes_draw_for_each_other_is_seen() {
+    let folder = tempfile::tempdir().unwrap();
+    let own = folder.path().join("numbers.toml");
+    std::fs::write(&own, NUMBERS).unwrap();
+    std::fs::write(folder.path().join("numbers.wgsl"), NUMBERS_PROGRAM).unwrap();
+    let model = workspace_root().join("models/bracket.obj");
+    let mut formats = Vec::new();
+    for technique in ["outline_combined", own.to_str().unwrap()] {
+        let session = session(&model, technique);
+        let (scene, recipe) = (session.scene.as_ref().unwrap(), &session.recipe);
+        let original = &recipe.appearance.technique;
+        let options = PictureOptions { size: [80, 60], ..PictureOptions::default() };
+        let camera = recipe.viewpoint.unwrap().camera(&scene.frame);
+        let mut renderer = PictureRenderer::new(gpu(), scene, original, &[], &options).unwrap();
+        for texture in renderer.generated_textures() {
+            let shown = Inspection::of(texture.clone()).shown(original, &session.library).unwrap();
+            renderer.reload(scene, &shown, &[], &options).unwrap();
+            let seen = renderer.render(&camera).unwrap().0;
+            let background = *seen.get_pixel(0, 0);
+            let model = seen.pixels().filter(|pixel| **pixel != background).count();
+            assert!(model > 500, "{technique}: {texture:?}: {model} pixels");
+            formats.push(texture.format);
+        }
+    }
+    for wanted in [TextureFormat::Rgba16Float, TextureFormat::Depth32Float, TextureFormat::R32Uint]
+    {
+        assert!(formats.contains(&wanted), "{formats:?}");
     }
 }
 
