@@ -341,6 +341,8 @@ fn bars_choose_techniques_and_open_menus() {
     harness.run_ok();
     assert_eq!(harness.state().requests, [Request::DrawThumbnails], "once the list is open");
     harness.state_mut().requests.clear();
+    let top = |name: &str| harness.get_by_label(name).rect().top();
+    assert!(top("charcoal") - top("anime") > 54.0, "there is room for the pictures to come");
     harness.get_by_label("anime").click();
     harness.run_ok();
     assert_eq!(harness.state().recipe.appearance.technique_name, "anime");
@@ -430,6 +432,39 @@ fn keys_do_what_their_sheet_says() {
     harness.run_ok();
     let Some(Request::GoTo(view)) = harness.state().requests.last() else { panic!("pasted") };
     assert_eq!(view.eye, glam::DVec3::new(9.0, 0.0, 0.0));
+}
+
+#[test]
+fn the_line_between_two_looks_is_moved_by_hand_and_by_keys() {
+    let show = |ui: &mut egui::Ui, share: &mut f32| {
+        let rect = ui.available_rect_before_wrap();
+        *share = panels::comparison_line(ui, rect, *share, ["ink", "pen"].map(str::to_owned));
+    };
+    let builder = Harness::builder().with_size([400.0, 300.0]);
+    let mut harness = builder.build_ui_state(show, 0.5);
+    let line = harness.get_by_label("Line between the looks").rect();
+    let step = egui::vec2(80.0, 30.0);
+    harness.drag_at(line.center());
+    harness.run_ok();
+    harness.hover_at(line.center() + step);
+    harness.run_ok();
+    harness.drop_at(line.center() + step);
+    harness.run_ok();
+    let dragged = *harness.state();
+    assert!((0.65..0.75).contains(&dragged), "{dragged}");
+    harness.get_by_label("Line between the looks").focus();
+    harness.run_ok();
+    for _ in 0..3 {
+        harness.key_press(Key::ArrowLeft);
+        harness.run_ok();
+    }
+    let stepped = *harness.state();
+    assert!((dragged - stepped - 0.06).abs() < 1e-4, "{stepped}: the focus stays");
+    for _ in 0..60 {
+        harness.key_press(Key::ArrowRight);
+        harness.run_ok();
+    }
+    assert!((*harness.state() - 1.0).abs() < 1e-6, "not beyond the picture");
 }
 
 #[test]

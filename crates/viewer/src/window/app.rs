@@ -14,10 +14,9 @@ use super::background::{Background, Tell};
 use super::canvas::Canvas;
 use super::desktop;
 use super::hands::Hands;
-use super::loading::{self, Built, LoadedScene};
+use super::loading::{self, Built, LoadedScene, Loading, ToLoad};
 use super::opening::{Kept, Lost, watch_device};
 use super::panels;
-use super::recipe::Recipe;
 use super::saving::{self, Order};
 use super::session::{Request, Session, Work};
 use super::style;
@@ -55,20 +54,6 @@ pub(super) struct Window {
     /// Whether the device is lost on purpose: before a frame or within one.
     is_to_be_lost: Option<bool>,
     faults: Arc<Mutex<Vec<String>>>,
-}
-
-/// Models to be loaded.
-#[derive(Debug, Clone)]
-pub(super) struct ToLoad {
-    pub(super) models: Vec<PathBuf>,
-    /// How they are to be seen; none where that stays as it is.
-    pub(super) recipe: Option<Recipe>,
-}
-
-/// Models that are being loaded.
-struct Loading {
-    what: ToLoad,
-    work: Background<LoadedScene>,
 }
 
 /// What comes from other threads.

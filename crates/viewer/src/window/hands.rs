@@ -21,6 +21,11 @@ pub const LIGHT_KEY: Key = Key::L;
 /// Held while a drag moves the chosen cut. No key of [`KEYS`], which would do that as well.
 pub const CUT_KEY: Key = Key::X;
 
+/// A drag over the picture with a key that is held, as it is written.
+pub fn drag_with(key: Key) -> String {
+    format!("{} + drag", key.name())
+}
+
 /// What of the hands goes on from frame to frame.
 #[derive(Debug, Default)]
 pub struct Hands {

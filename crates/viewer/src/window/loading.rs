@@ -10,12 +10,27 @@ use std::sync::Arc;
 use edgemesh::command::{ExitStatus, Failure, Listener};
 use strokes::gpu::Gpu;
 
-use super::background::Tell;
+use super::background::{Background, Tell};
+use super::recipe::Recipe;
 use crate::command::picture_arguments::{PictureArguments, objects_of};
 use crate::render::{PictureOptions, PictureRenderer, Scene};
 use crate::scene_file::SceneObject;
 use crate::technique::Technique;
 use crate::technique::library::Library;
+
+/// Models that are wanted.
+#[derive(Debug, Clone)]
+pub(super) struct ToLoad {
+    pub(super) models: Vec<PathBuf>,
+    /// How they are to be seen; none where that stays as it is.
+    pub(super) recipe: Option<Recipe>,
+}
+
+/// Models that are being loaded.
+pub(super) struct Loading {
+    pub(super) what: ToLoad,
+    pub(super) work: Background<LoadedScene>,
+}
 
 /// What is loaded, and what it is to be drawn with at first.
 #[derive(Debug, Clone)]
@@ -86,8 +101,6 @@ pub fn load(request: Request, tell: Tell) -> Result<LoadedScene, Failure> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::window::background::Background;
-    use crate::window::recipe::Recipe;
 
     fn start(model: &str) -> Background<LoadedScene> {
         let library = Library::shipped();

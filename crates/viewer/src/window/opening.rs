@@ -9,7 +9,8 @@ use std::time::{Duration, Instant};
 use edgemesh::command::{ExitStatus, Failure};
 use strokes::gpu;
 
-use super::app::{ToLoad, Window};
+use super::app::Window;
+use super::loading::ToLoad;
 use super::recipe::Recipe;
 use super::remembered::Remembered;
 use super::session::Session;

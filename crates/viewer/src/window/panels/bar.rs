@@ -42,6 +42,8 @@ fn technique_box(ui: &mut Ui, session: &mut Session) {
         .width(170.0)
         .show_ui(ui, |ui| {
             is_open = true;
+            // As high without pictures: a list keeps the size that it has at first.
+            let cell = Vec2::new(CELL_WIDTH, THUMBNAIL.y + 2.0 * ui.spacing().button_padding.y);
             egui::Grid::new("techniques").num_columns(COLUMNS).show(ui, |ui| {
                 for (at, name) in names.iter().enumerate() {
                     let is_it = *name == appearance.technique_name;
@@ -52,7 +54,7 @@ fn technique_box(ui: &mut Ui, session: &mut Session) {
                         }
                         None => egui::Button::new(name.as_str()),
                     };
-                    let button = button.min_size(Vec2::new(CELL_WIDTH, 0.0)).selected(is_it);
+                    let button = button.min_size(cell).selected(is_it);
                     if ui.add(button.frame_when_inactive(is_it)).clicked() {
                         chosen = Some(name.clone());
                     }

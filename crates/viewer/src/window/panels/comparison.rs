@@ -1,9 +1,14 @@
 //! The line between two looks.
 
-use egui::{Align2, Color32, CursorIcon, FontId, Rect, Sense, Stroke, Ui, pos2, vec2};
+use egui::{
+    Align2, Color32, CursorIcon, EventFilter, FontId, Key, Rect, Sense, Stroke, Ui, pos2, vec2,
+};
+
+/// How far an arrow key moves the line: a share of the width.
+const STEP: f32 = 0.02;
 
 /// The line between two looks, at a share of the width of `rect`, with their names at its
-/// sides; where it is after a hand has moved it.
+/// sides; where it is after a hand or, where it has the focus, an arrow key has moved it.
 pub fn comparison_line(ui: &Ui, rect: Rect, share: f32, names: [String; 2]) -> f32 {
     let x = egui::lerp(rect.left()..=rect.right(), share);
     let handle = Rect::from_center_size(pos2(x, rect.center().y), vec2(14.0, rect.height()));
@@ -12,7 +17,7 @@ pub fn comparison_line(ui: &Ui, rect: Rect, share: f32, names: [String; 2]) -> f
         egui::WidgetInfo::labeled(egui::Role::Slider, true, "Line between the looks")
     });
     let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
-    let color = match response.hovered() || response.dragged() {
+    let color = match response.hovered() || response.dragged() || response.has_focus() {
         true => ui.visuals().selection.bg_fill,
         false => Color32::from_gray(128),
     };
@@ -30,5 +35,19 @@ pub fn comparison_line(ui: &Ui, rect: Rect, share: f32, names: [String; 2]) -> f
         painter.galley(place.min, galley, Color32::BLACK);
     }
     let moved = response.interact_pointer_pos().filter(|_| response.dragged());
-    moved.map_or(share, |at| ((at.x - rect.left()) / rect.width()).clamp(0.0, 1.0))
+    let share = moved.map_or(share, |at| (at.x - rect.left()) / rect.width());
+    (share + stepped(ui, &response)).clamp(0.0, 1.0)
+}
+
+/// How far arrow keys move the line.
+fn stepped(ui: &Ui, response: &egui::Response) -> f32 {
+    if !response.has_focus() {
+        return 0.0;
+    }
+    // Arrows would go on to the next widget.
+    let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+    let presses = |key| ui.input(|input| input.num_presses(key));
+    let steps = |key| (0..presses(key)).map(|_| STEP).sum::<f32>();
+    steps(Key::ArrowRight) - steps(Key::ArrowLeft)
 }

@@ -2,16 +2,14 @@
 
 use egui::{Align2, Key, Modifiers, Ui};
 
-use crate::window::hands::{Command, KEYS};
+use crate::window::hands::{CUT_KEY, Command, KEYS, LIGHT_KEY, drag_with};
 use crate::window::session::Session;
 
 /// What the pointer does.
-const POINTER: [(&str, &str); 8] = [
+const POINTER: [(&str, &str); 6] = [
     ("drag", "turn around the model"),
     ("Shift + drag, middle drag", "move the picture"),
     ("right drag", "look around"),
-    ("L + drag", "turn the light"),
-    ("X + drag", "move the chosen cut"),
     ("wheel", "come nearer to what is under the pointer"),
     ("double click", "turn around what is under the pointer"),
     ("drop a file", "open it"),
@@ -36,7 +34,12 @@ pub fn keys_sheet(ui: &Ui, session: &mut Session) {
                     .map(|(key, modifiers, _, what)| (text_of(ui, *key, *modifiers), *what));
                 let keys: Vec<(String, &str)> = keys.collect();
                 let own = |(key, what): (&str, &'static str)| (key.to_owned(), what);
-                let hands: Vec<(String, &str)> = POINTER.into_iter().chain(HELD).map(own).collect();
+                let drags = [
+                    (drag_with(LIGHT_KEY), "turn the light"),
+                    (drag_with(CUT_KEY), "move the chosen cut"),
+                ];
+                let hands = POINTER.into_iter().map(own).chain(drags);
+                let hands: Vec<(String, &str)> = hands.chain(HELD.map(own)).collect();
                 let rows = keys.len().div_ceil(2);
                 let (left, right) = keys.split_at(rows);
                 for at in 0..rows.max(hands.len()) {

@@ -6,6 +6,7 @@ use strokes::frame::MAX_CLIP_PLANES;
 
 use crate::lighting::{Light, Lighting};
 use crate::render::Scene;
+use crate::window::hands::{CUT_KEY, LIGHT_KEY, drag_with};
 use crate::window::light_hand::{in_camera, in_world, point_at, rounded, shone_from};
 use crate::window::session::Session;
 use crate::window::viewpoint::Viewpoint;
@@ -36,7 +37,7 @@ pub(super) fn light_panel(ui: &mut Ui, session: &mut Session) {
             (lighting.light, lighting.color) = (default.light, default.color);
         }
     });
-    ui.weak("L + drag over the picture turns it too");
+    ui.weak(format!("{} over the picture turns it too", drag_with(LIGHT_KEY)));
     ui.add_space(10.0);
     ui.heading("Cuts");
     if let Some(scene) = scene {
@@ -168,7 +169,8 @@ fn cuts(
             });
             ui.horizontal(|ui| {
                 let label = ui.selectable_label(*chosen == at, "Place");
-                let label = label.on_hover_text("X + drag over the picture moves this one");
+                let hint = format!("{} over the picture moves this one", drag_with(CUT_KEY));
+                let label = label.on_hover_text(hint);
                 if label.clicked() {
                     *chosen = at;
                 }
