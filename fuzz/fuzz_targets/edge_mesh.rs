@@ -2,7 +2,7 @@
 //! it is made right first; what is then accepted must be sound.
 #![no_main]
 
-use edgemesh::file::{parse, with_checksum};
+use edgemesh::format::edge_mesh_file::{parse, with_checksum};
 use edgemesh_fuzz::use_mesh;
 use libfuzzer_sys::fuzz_target;
 

@@ -1,7 +1,7 @@
 //! The STL reader, and the builder behind it.
 #![no_main]
 
-use edgemesh::read::Format;
+use edgemesh::format::read::Format;
 use edgemesh_fuzz::read_and_build;
 use libfuzzer_sys::fuzz_target;
 

@@ -4,11 +4,11 @@
 //! the format. An input that ends a run becomes a test of its reader.
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::camera::Camera;
+use edgemesh::view::camera::Camera;
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::oracle::count_features;
-use edgemesh::read::{Format, ReadErrorKind, read_model_bytes};
-use edgemesh::replicate::{replicate, replicate_16};
+use edgemesh::view::feature_counts::count_features;
+use edgemesh::format::read::{Format, ReadErrorKind, read_model_bytes};
+use edgemesh::edge_mesh::replicate::{replicate, replicate_16};
 
 /// Reads a model and, where that succeeds, builds and uses its edge mesh.
 ///

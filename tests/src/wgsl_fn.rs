@@ -1,9 +1,11 @@
 //! Runs a WGSL function over data, to hold it to its Rust twin.
 
 use bytemuck::Pod;
-use strokes::gpu::Gpu;
-use strokes::readback::read_buffer;
-use strokes::shader::{ShaderSource, embedded_text};
+use edgemesh_shaders::ShaderSource;
+use edgemesh_shaders::files::text as embedded_text;
+use strokes::gpu::device::Gpu;
+use strokes::gpu::readback::read_buffer;
+use strokes::gpu::shader::shader_module;
 use wgpu::util::DeviceExt as _;
 
 /// What the output is filled with beforehand, so that a result that was never
@@ -70,7 +72,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {{
     );
     let load = |path: &str| match path {
         "snippet.wgsl" => Some(text.clone()),
-        _ => embedded_text(path),
+        _ => embedded_text(path).map(str::to_owned),
     };
     let source = ShaderSource::resolve("snippet.wgsl", &load).expect("the snippet resolves");
     if let Err(error) = source.validate() {
@@ -79,7 +81,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {{
     gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: None,
         layout: None,
-        module: &source.module(&gpu.device, "snippet"),
+        module: &shader_module(&gpu.device, &source, "snippet"),
         entry_point: Some("main"),
         compilation_options: wgpu::PipelineCompilationOptions::default(),
         cache: None,

@@ -21,12 +21,12 @@ use std::path::{Path, PathBuf};
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::camera::Camera;
-use edgemesh::file;
-use edgemesh::oracle::count_features;
-use edgemesh::read::read_model;
+use edgemesh::edge_mesh::topology::EdgeTable;
+use edgemesh::format::edge_mesh_file;
+use edgemesh::format::read::read_model;
 use edgemesh::report::Report;
-use edgemesh::topology::EdgeTable;
+use edgemesh::view::camera::Camera;
+use edgemesh::view::feature_counts::count_features;
 
 /// Rings of spheres of about 1e3, 1e4, 1e5 and 1e6 triangles.
 const SIZES: [u32; 4] = [16, 50, 158, 500];
@@ -78,7 +78,7 @@ fn stages(criterion: &mut Criterion) {
             |options: &BuildOptions| build_edge_mesh(&model, options, &mut Report::default());
         let mesh = build(&bare);
         let eye = Camera::default_view(&mesh.bounds).view(&mesh.bounds, 1.0).eye;
-        let bytes = file::to_bytes(&mesh, "bench", &Report::default(), &[]).unwrap();
+        let bytes = edge_mesh_file::to_bytes(&mesh, "bench", &Report::default(), &[]).unwrap();
         let mut stage = |name: &str, throughput: Throughput, body: &mut dyn FnMut()| {
             let mut group = criterion.benchmark_group(name);
             group.sample_size(10).throughput(throughput);
@@ -108,10 +108,10 @@ fn stages(criterion: &mut Criterion) {
             black_box(count_features(&mesh, eye));
         });
         stage("write", triangles(), &mut || {
-            black_box(file::to_bytes(&mesh, "bench", &Report::default(), &[]).unwrap());
+            black_box(edge_mesh_file::to_bytes(&mesh, "bench", &Report::default(), &[]).unwrap());
         });
         stage("load", triangles(), &mut || {
-            black_box(file::parse(&bytes).unwrap().to_mesh());
+            black_box(edge_mesh_file::parse(&bytes).unwrap().to_mesh());
         });
     }
 }

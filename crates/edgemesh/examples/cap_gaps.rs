@@ -21,18 +21,18 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::camera::{Camera, View};
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_word::edge_words;
-use edgemesh::oracle::classify_lines;
-use edgemesh::oracle::feature::{ClassTable, EdgeClass, Line, LineBits, eye_is_outside};
-use edgemesh::oracle::stroke_quad::Placement;
-use edgemesh::oracle::stroke_segment::{
-    ClipEdge, LineKind, Parameterization, Segment, StrokeShape, stroke_segment,
-};
+use edgemesh::edge_mesh::edge_word::edge_words;
+use edgemesh::edge_mesh::record::EdgeRecord;
+use edgemesh::format::read::read_model;
+use edgemesh::line::class::{ClassTable, LineClass};
+use edgemesh::line::kind::LineKind;
+use edgemesh::line::placement::{Parameterization, Placement};
+use edgemesh::oracle::stroke_segment::{ClipEdge, Segment, StrokeShape, stroke_segment};
 use edgemesh::oracle::stroke_vertex::segment_vertex;
-use edgemesh::read::read_model;
-use edgemesh::record::EdgeRecord;
+use edgemesh::view::camera::{Camera, View};
+use edgemesh::view::feature::{Line, LineBits, eye_is_outside};
+use edgemesh::view::feature_counts::classify_lines;
 use glam::{DVec3, Vec2, Vec3};
 
 const SIZE_PX: f32 = 1024.0;
@@ -167,7 +167,7 @@ fn directions() -> Vec<DVec3> {
         .collect()
 }
 
-fn measure(mesh: &EdgeMesh) -> BTreeMap<(EdgeClass, usize), Count> {
+fn measure(mesh: &EdgeMesh) -> BTreeMap<(LineClass, usize), Count> {
     let words = edge_words(mesh);
     let table = ClassTable::new(|class| Some(class as u32));
     let default = Camera::default_view(&mesh.bounds);
@@ -186,7 +186,7 @@ fn count_view(
     mesh: &EdgeMesh,
     view: &View,
     lines: &[Line],
-    counts: &mut BTreeMap<(EdgeClass, usize), Count>,
+    counts: &mut BTreeMap<(LineClass, usize), Count>,
 ) {
     // The drawn edges of each vertex, by class.
     let mut joints: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
@@ -210,7 +210,7 @@ fn count_view(
         let turn = 180.0 - first.2.angle_between(second.2).to_degrees();
         let bin = TURNS.iter().position(|bound| turn <= *bound).unwrap_or(TURNS.len() - 1);
         let gap = gap_px((&first.0, first.1), (&second.0, second.1));
-        let count = counts.entry((EdgeClass::ALL[layer as usize], bin)).or_default();
+        let count = counts.entry((LineClass::ALL[layer as usize], bin)).or_default();
         count.joints += 1;
         if gap >= GAP_PX {
             count.gaps += 1;

@@ -33,21 +33,13 @@
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 pub mod build;
-pub mod camera;
 #[cfg(feature = "command")]
 pub mod command;
 pub mod edge_mesh;
-pub mod edge_word;
-pub mod export;
-pub mod face_edges;
-pub mod file;
+pub mod format;
 pub mod index;
-mod material;
+pub mod line;
 pub mod model;
 pub mod oracle;
-pub mod read;
-pub mod record;
-pub mod replicate;
 pub mod report;
-pub mod rig;
-pub mod topology;
+pub mod view;

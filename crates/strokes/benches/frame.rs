@@ -17,22 +17,25 @@ use std::path::Path;
 use std::sync::Arc;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::camera::{Camera, View};
 use edgemesh::edge_mesh::EdgeMesh;
+use edgemesh::format::read::read_model;
+use edgemesh::line::class::LineClass;
+use edgemesh::line::kind::LineKind;
+use edgemesh::line::placement::Placement;
 use edgemesh::model::Model;
-use edgemesh::oracle::feature::EdgeClass;
-use edgemesh::oracle::stroke_quad::Placement;
-use edgemesh::oracle::stroke_segment::LineKind;
-use edgemesh::read::read_model;
 use edgemesh::report::Report;
-use strokes::brush::Brush;
-use strokes::gpu::{self, Gpu};
-use strokes::gpu_time::{GpuTimer, GpuTimes};
-use strokes::look::{Layer, Look, PathStyle, StrokeStyle, Width};
-use strokes::mesh_buffers::{Layout, MeshBuffers};
-use strokes::object::Object;
+use edgemesh::view::camera::{Camera, View};
+use strokes::draw::targets::Targets;
+use strokes::gpu::device;
+use strokes::gpu::device::Gpu;
+use strokes::gpu::target_formats::TargetFormats;
+use strokes::gpu::timer::{GpuTimer, GpuTimes};
+use strokes::mesh::buffers::MeshBuffers;
+use strokes::mesh::layout::Layout;
+use strokes::renderer::object::Object;
 use strokes::renderer::{DetectionPath, PASS_NAMES, Renderer, RendererOptions};
-use strokes::targets::{TargetFormats, Targets};
+use strokes::style::brush::Brush;
+use strokes::style::drawing_style::{Layer, Look, PathStyle, StrokeStyle, Width};
 
 const SIZE_PX: u32 = 1024;
 
@@ -60,7 +63,7 @@ struct Runner {
     byte_count: u64,
 }
 
-fn look(classes: &[EdgeClass], style: StrokeStyle) -> Look {
+fn look(classes: &[LineClass], style: StrokeStyle) -> Look {
     let layer = Layer { classes: classes.to_vec(), visible: Some(style), hidden: None };
     Look { fill_color: Some([1.0; 4]), layers: vec![layer], ..Look::default() }
 }
@@ -69,8 +72,16 @@ fn fill_alone() -> Look {
     Look { fill_color: Some([1.0; 4]), ..Look::default() }
 }
 
+/// The pen that ships: its alpha is the coverage.
+fn pen() -> Brush {
+    let image = edgemesh_brushes::image("brushes", "pen").unwrap();
+    let image = image::load_from_memory(image.png).unwrap().to_luma_alpha8();
+    let coverage = image.pixels().map(|texel| texel.0[1]).collect();
+    Brush::new(image.width(), image.height(), coverage).unwrap()
+}
+
 fn style(kind: LineKind, is_textured: bool) -> StrokeStyle {
-    let brush = is_textured.then(|| Brush::named("pen").unwrap().unwrap());
+    let brush = is_textured.then(pen);
     StrokeStyle { kind, brush, width: Width::Pixels(2.0), ..StrokeStyle::default() }
 }
 
@@ -162,7 +173,7 @@ impl Bench {
     }
 
     fn kinds(&self, name: &str, mesh: &EdgeMesh, samples: u32) {
-        let all = EdgeClass::ALL;
+        let all = LineClass::ALL;
         let centred =
             StrokeStyle { placement: Placement::Centred, ..style(LineKind::QuadAndCaps, false) };
         let contenders = [
@@ -175,7 +186,7 @@ impl Bench {
             ("fins", look(&all, style(LineKind::Fin, false))),
             (
                 "quads with caps, contours only",
-                look(&[EdgeClass::Contour], style(LineKind::QuadAndCaps, false)),
+                look(&[LineClass::Contour], style(LineKind::QuadAndCaps, false)),
             ),
         ]
         .map(|(name, look)| Contender::new(name, look));
@@ -184,7 +195,7 @@ impl Bench {
 
     /// Linked strokes beside edges drawn one by one.
     fn linked(&self, name: &str, mesh: &EdgeMesh, samples: u32) {
-        let all = EdgeClass::ALL;
+        let all = LineClass::ALL;
         let linked = |is_textured| {
             let path = Some(PathStyle::default());
             StrokeStyle { path, ..style(LineKind::QuadAndCaps, is_textured) }
@@ -216,14 +227,14 @@ impl Bench {
                 [("compute", DetectionPath::Compute), ("vertex shader", DetectionPath::Vertex)]
             {
                 let name = format!("{layout_name}, detected in {path_name}");
-                let look = look(&EdgeClass::ALL, style(LineKind::QuadAndCaps, true));
+                let look = look(&LineClass::ALL, style(LineKind::QuadAndCaps, true));
                 contenders.push(Contender { name, look, layout, path });
             }
         }
         let name = name.to_owned();
         contenders.push(Contender {
             name: "Card and Mitchell's face normals".into(),
-            look: look(&[EdgeClass::Contour, EdgeClass::Boundary], style(LineKind::Fin, false)),
+            look: look(&[LineClass::Contour, LineClass::Boundary], style(LineKind::Fin, false)),
             layout: Layout::FaceNormals,
             path: DetectionPath::Vertex,
         });
@@ -234,7 +245,7 @@ impl Bench {
     /// 250 frames a second without lines, 36 with thin ones (7 times), 5 with quads
     /// (50 times); and 163,000 polygons with thin lines and 4 samples at 25.
     fn section_5(&self, balls: [&EdgeMesh; 2]) {
-        let contours = |kind| look(&[EdgeClass::Contour], style(kind, false));
+        let contours = |kind| look(&[LineClass::Contour], style(kind, false));
         let ways = [
             ("the paper's way", Layout::Replicated, DetectionPath::Vertex),
             ("the paper's way, 16 bits", Layout::Replicated16, DetectionPath::Vertex),
@@ -300,7 +311,7 @@ fn main() {
     let is_test = !std::env::args().any(|word| word == "--bench");
     let mut words = std::env::args().skip(1).filter(|word| !word.starts_with("--"));
     let wanted = words.next_back().unwrap_or_default();
-    let gpu = pollster::block_on(gpu::open(None)).unwrap();
+    let gpu = pollster::block_on(device::open(None)).unwrap();
     println!("{} ({}), {SIZE_PX}x{SIZE_PX}", gpu.info.name, gpu.info.backend);
     let bench = Bench { gpu, frames: if is_test { 1 } else { FRAMES }, wanted };
     let balls = if is_test { &BALLS[..1] } else { &BALLS };

@@ -15,26 +15,28 @@ use std::path::Path;
 use std::sync::Arc;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::camera::Camera;
-use edgemesh::oracle::feature::EdgeClass;
-use edgemesh::read::read_model;
+use edgemesh::format::read::read_model;
+use edgemesh::line::class::LineClass;
+use edgemesh::view::camera::Camera;
 use glam::Vec2;
 use image::{Rgb, RgbImage};
-use strokes::look::{Layer, Look, PathStyle, StrokeStyle};
-use strokes::mesh_buffers::{Layout, MeshBuffers};
-use strokes::object::GraphReadback;
+use strokes::draw::targets::Targets;
+use strokes::gpu::target_formats::TargetFormats;
+use strokes::mesh::buffers::MeshBuffers;
+use strokes::mesh::layout::Layout;
+use strokes::renderer::object::GraphReadback;
 use strokes::renderer::{DetectionPath, Renderer, RendererOptions};
-use strokes::targets::{TargetFormats, Targets};
+use strokes::style::drawing_style::{Layer, Look, PathStyle, StrokeStyle};
 
 /// Pixels of the view, and of the map.
 const SIZE: u16 = 1024;
 
 fn graph_of(path: &Path) -> GraphReadback {
-    let gpu = pollster::block_on(strokes::gpu::open(None)).unwrap();
+    let gpu = pollster::block_on(strokes::gpu::device::open(None)).unwrap();
     let (model, mut report) = read_model(path).unwrap();
     let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut report);
     let style = StrokeStyle { path: Some(PathStyle::default()), ..StrokeStyle::default() };
-    let layers = vec![Layer { classes: EdgeClass::ALL.into(), visible: Some(style), hidden: None }];
+    let layers = vec![Layer { classes: LineClass::ALL.into(), visible: Some(style), hidden: None }];
     let look = Look { fill_color: Some([1.0; 4]), layers, ..Look::default() };
     let formats = TargetFormats::new(4);
     let options =

@@ -23,27 +23,10 @@
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
-pub mod brush;
-mod chunk;
-pub mod detect;
-mod expand;
-pub mod fill;
-pub mod frame;
-mod frame_encoder;
+pub mod draw;
 pub mod gpu;
-pub mod gpu_time;
 pub mod graph;
-pub mod look;
-pub mod mesh_buffers;
-pub mod object;
-pub mod picture_part;
-pub mod readback;
-pub mod recent;
+pub mod mesh;
 pub mod renderer;
-pub mod shader;
-pub mod silhouette;
-pub mod stroke;
-mod stroke_indices;
-mod stroke_layouts;
-pub mod targets;
-pub mod view_buffers;
+pub mod style;
+pub mod view;

@@ -17,17 +17,19 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::camera::Camera;
 use edgemesh::command::input::Loaded;
+use edgemesh::format::read::read_model;
 use edgemesh::oracle::detector::Image;
 use edgemesh::oracle::detector::chiang::{ChiangOptions, chiang};
-use edgemesh::read::read_model;
+use edgemesh::view::camera::Camera;
 use glam::Vec2;
-use strokes::frame::{FrameUniform, Surroundings};
-use strokes::gpu::{self, Gpu};
-use strokes::picture_part::PicturePart;
-use strokes::readback::read_texels;
-use viewer::render::{PictureOptions, PictureRenderer, Scene};
+use strokes::gpu::device;
+use strokes::gpu::device::Gpu;
+use strokes::gpu::readback::read_texels;
+use strokes::view::frame::{FrameUniform, Surroundings};
+use strokes::view::tile::PicturePart;
+use viewer::picture::renderer::{PictureOptions, PictureRenderer};
+use viewer::scene::models::Scene;
 use viewer::technique::Technique;
 use viewer::technique::library::Library;
 
@@ -131,7 +133,7 @@ fn main() {
     // `cargo test --benches` only asks whether it runs.
     let is_test = !std::env::args().any(|argument| argument == "--bench");
     let (side, frames) = if is_test { (64, 1) } else { (512, FRAMES) };
-    let gpu = pollster::block_on(gpu::open(None)).unwrap();
+    let gpu = pollster::block_on(device::open(None)).unwrap();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models");
     let own = ["cube", "bracket", "wave_blob", "torus_knot"];
     let models: Vec<PathBuf> = match std::env::var_os("EDGEMESH_BENCH_MODELS") {

@@ -18,16 +18,11 @@
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
-pub mod animation;
 pub mod command;
 pub mod comparison;
-pub mod lighting;
-pub mod parts;
 pub mod pass_graph;
 pub mod picture;
-pub mod render;
-pub mod scene_file;
+pub mod scene;
 pub mod technique;
-pub mod turntable;
 pub mod watch;
 pub mod window;

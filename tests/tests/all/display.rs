@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use image::RgbaImage;
 use testkit::locate::{left_out, program};
-use viewer::picture::read_png;
+use viewer::picture::png::read_png;
 
 /// A display without a screen, and a window on it.
 pub(crate) struct Display {

@@ -149,7 +149,7 @@ fn check_error(row: &Row, path: &Path, output: &Output, code: &str) -> Result<()
     };
     one_error(output, &[&place])?;
     // The message does not print its code; the library has it.
-    match edgemesh::read::read_model(path) {
+    match edgemesh::format::read::read_model(path) {
         Err(error) if error.kind.as_str() == code => Ok(()),
         Err(error) => {
             Err(format!("error({}) instead of error({code}): {error}", error.kind.as_str()))

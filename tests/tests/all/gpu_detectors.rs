@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::camera::Camera;
 use edgemesh::edge_mesh::EdgeMesh;
+use edgemesh::format::read::read_model;
 use edgemesh::oracle::detector::chiang::{ChiangOptions, chiang};
 use edgemesh::oracle::detector::depth::{self, distance_of};
 use edgemesh::oracle::detector::gradient::{Magnitude, of_intensity, of_largest_channel, sobel};
@@ -12,14 +12,14 @@ use edgemesh::oracle::detector::normals::{self, dot_products, normal_of_rgb};
 use edgemesh::oracle::detector::planes::{ImageView, plane_distance_px};
 use edgemesh::oracle::detector::second_derivative::{laplacian_of_gaussian, zero_crossing};
 use edgemesh::oracle::detector::{Image, Texel, regions};
-use edgemesh::read::read_model;
+use edgemesh::view::camera::Camera;
 use glam::{Mat4, Vec2, Vec3, Vec4};
-use strokes::frame::FrameUniform;
-use strokes::picture_part::PicturePart;
-use strokes::readback::read_texels;
+use strokes::gpu::readback::read_texels;
+use strokes::view::frame::FrameUniform;
+use strokes::view::tile::PicturePart;
 use testkit::locate::{left_out, shared};
-use viewer::lighting::Lighting;
-use viewer::render::{PictureOptions, PictureRenderer};
+use viewer::picture::renderer::{PictureOptions, PictureRenderer};
+use viewer::scene::lighting::Lighting;
 use viewer::technique::library::Library;
 
 use crate::gpu_device::gpu;

@@ -5,15 +5,15 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::camera::Camera;
 use edgemesh::edge_mesh::EdgeMesh;
+use edgemesh::format::read::read_model;
 use edgemesh::oracle::detector::depth::distance_of;
-use edgemesh::read::read_model;
+use edgemesh::view::camera::Camera;
 use glam::DVec3;
-use strokes::frame::{FrameUniform, Surroundings};
-use strokes::picture_part::PicturePart;
-use strokes::readback::read_texels;
-use viewer::render::{PictureOptions, PictureRenderer};
+use strokes::gpu::readback::read_texels;
+use strokes::view::frame::{FrameUniform, Surroundings};
+use strokes::view::tile::PicturePart;
+use viewer::picture::renderer::{PictureOptions, PictureRenderer};
 use viewer::technique::library::Library;
 
 use crate::gpu_device::gpu;

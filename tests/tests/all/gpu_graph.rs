@@ -4,23 +4,27 @@
 use std::sync::Arc;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::camera::Camera;
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::face_edges::FaceEdges;
+use edgemesh::edge_mesh::face_edges::FaceEdges;
+use edgemesh::edge_mesh::static_links::StaticLinks;
+use edgemesh::format::read::read_model;
+use edgemesh::line::class::{LineClass, NO_LAYER};
 use edgemesh::model::Model;
-use edgemesh::oracle::feature::{EdgeClass, Line, LineBits, NO_LAYER};
-use edgemesh::oracle::layer_chain::{LayerChain, LayerLinks, StaticLinks};
-use edgemesh::read::read_model;
+use edgemesh::oracle::layer_chain::{LayerChain, LayerLinks};
 use edgemesh::report::Report;
+use edgemesh::view::camera::Camera;
+use edgemesh::view::feature::{Line, LineBits};
 use glam::{DMat4, DVec3};
-use strokes::gpu::Gpu;
+use strokes::draw::targets::Targets;
+use strokes::gpu::device::Gpu;
+use strokes::gpu::readback::read_texels;
+use strokes::gpu::target_formats::TargetFormats;
 use strokes::graph::buffers::{BACKWARD, CUT_END, CUT_START, NO_NODE, ON_LOOP, UNSEEN};
-use strokes::look::{Layer, Look, PathStyle, StrokeStyle};
-use strokes::mesh_buffers::{Layout, MeshBuffers};
-use strokes::object::{GraphReadback, Object};
-use strokes::readback::read_texels;
+use strokes::mesh::buffers::MeshBuffers;
+use strokes::mesh::layout::Layout;
+use strokes::renderer::object::{GraphReadback, Object};
 use strokes::renderer::{DetectionPath, Renderer, RendererOptions};
-use strokes::targets::{TargetFormats, Targets};
+use strokes::style::drawing_style::{Layer, Look, PathStyle, StrokeStyle};
 use testkit::locate::{left_out, shared};
 
 use crate::gpu_device::{gpu, gpu_with_limits};
@@ -32,10 +36,10 @@ use crate::own_models::own_models;
 fn linked_look() -> Look {
     let style = StrokeStyle { path: Some(PathStyle::default()), ..StrokeStyle::default() };
     let layer = |classes| Layer { classes, visible: Some(style.clone()), hidden: None };
-    let others = EdgeClass::ALL.into_iter().filter(|class| *class != EdgeClass::Contour);
+    let others = LineClass::ALL.into_iter().filter(|class| *class != LineClass::Contour);
     Look {
         fill_color: Some([1.0; 4]),
-        layers: vec![layer(vec![EdgeClass::Contour]), layer(others.collect())],
+        layers: vec![layer(vec![LineClass::Contour]), layer(others.collect())],
         ..Look::default()
     }
 }

@@ -4,22 +4,25 @@
 use std::sync::Arc;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::camera::Camera;
 use edgemesh::edge_mesh::EdgeMesh;
+use edgemesh::line::class::LineClass;
+use edgemesh::line::placement::Placement;
 use edgemesh::model::{Model, Segment};
-use edgemesh::oracle::feature::EdgeClass;
-use edgemesh::oracle::stroke_quad::Placement;
 use edgemesh::report::Report;
+use edgemesh::view::camera::Camera;
+use edgemesh_brushes::BRUSH_NAMES;
 use glam::{DVec3, Vec2};
-use strokes::brush::Brush;
+use strokes::draw::targets::Targets;
+use strokes::gpu::readback::read_texels;
+use strokes::gpu::target_formats::TargetFormats;
 use strokes::graph::buffers::Ribbon;
-use strokes::graph::path_style::{End, Join};
-use strokes::look::{Layer, Look, PathStyle, StrokeStyle, Width};
-use strokes::mesh_buffers::{Layout, MeshBuffers};
-use strokes::object::GraphReadback;
-use strokes::readback::read_texels;
+use strokes::mesh::buffers::MeshBuffers;
+use strokes::mesh::layout::Layout;
+use strokes::renderer::object::GraphReadback;
 use strokes::renderer::{DetectionPath, Renderer, RendererOptions};
-use strokes::targets::{TargetFormats, Targets};
+use strokes::style::drawing_style::{Layer, Look, PathStyle, StrokeStyle, Width};
+use strokes::style::link_style::{End, Join};
+use viewer::technique::brush_file::shipped_brush;
 
 use crate::gpu_device::gpu;
 use crate::random::Random;
@@ -80,7 +83,7 @@ fn stars(random: &mut Random) -> EdgeMesh {
 }
 
 /// What was drawn: red of every pixel, and the ribbons.
-fn draw(mesh: &EdgeMesh, style: StrokeStyle, classes: &[EdgeClass]) -> (Vec<u8>, GraphReadback) {
+fn draw(mesh: &EdgeMesh, style: StrokeStyle, classes: &[LineClass]) -> (Vec<u8>, GraphReadback) {
     let gpu = gpu();
     let formats = TargetFormats::new(1);
     let options =
@@ -175,7 +178,7 @@ fn wandering_lines_have_no_gap_and_no_pixel_is_covered_twice() {
             path: Some(path),
             ..StrokeStyle::default()
         };
-        let (picture, graph) = draw(&mesh, style, &EdgeClass::ALL);
+        let (picture, graph) = draw(&mesh, style, &LineClass::ALL);
         let ribbons = drawn(&graph);
         assert!(ribbons.len() > 20, "case {case}: {} segments", ribbons.len());
         let reach = 0.5 * width;
@@ -217,7 +220,7 @@ fn strokes_outside_of_contours_have_no_gap_either() {
             path: Some(path),
             ..StrokeStyle::default()
         };
-        let (picture, graph) = draw(&mesh, style, &[EdgeClass::Contour]);
+        let (picture, graph) = draw(&mesh, style, &[LineClass::Contour]);
         let ribbons = drawn(&graph);
         assert!(ribbons.len() > 100, "case {case}: {} segments", ribbons.len());
         assert!(picture.iter().all(|red| *red >= ONCE), "case {case}: covered twice");
@@ -243,7 +246,7 @@ fn strokes_outside_of_contours_have_no_gap_either() {
 #[test]
 fn nothing_makes_a_stroke_darker_than_its_ink() {
     let mut random = Random(23);
-    for (case, name) in Brush::NAMES.into_iter().cycle().take(20).enumerate() {
+    for (case, name) in BRUSH_NAMES.into_iter().cycle().take(20).enumerate() {
         let mesh = wandering(&mut random);
         let path = PathStyle {
             end: [End::Round, End::Flat, End::Pointed][case % 3],
@@ -255,11 +258,11 @@ fn nothing_makes_a_stroke_darker_than_its_ink() {
         let style = StrokeStyle {
             width: Width::Pixels(random.between(2.0, 40.0)),
             color: [0.0, 0.0, 0.0, 0.5],
-            brush: Brush::named(name).map(Result::unwrap),
+            brush: shipped_brush(name).map(Result::unwrap),
             path: Some(path),
             ..StrokeStyle::default()
         };
-        let (picture, _) = draw(&mesh, style, &EdgeClass::ALL);
+        let (picture, _) = draw(&mesh, style, &LineClass::ALL);
         assert!(picture.iter().all(|red| *red >= ONCE), "{name}");
         assert!(picture.iter().any(|red| *red < 200), "{name} leaves ink");
     }

@@ -2,19 +2,20 @@
 //! and from a mesh in chunks.
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::camera::Camera;
+use edgemesh::edge_mesh::replicate::{Quantization, replicate_16};
 use edgemesh::edge_mesh::{EdgeMesh, FacePlane};
+use edgemesh::format::read::read_model;
 use edgemesh::model::Model;
-use edgemesh::read::read_model;
-use edgemesh::replicate::{Quantization, replicate_16};
 use edgemesh::report::Report;
+use edgemesh::view::camera::Camera;
 use glam::{DVec3, Vec3};
 use image::RgbaImage;
-use strokes::gpu::Gpu;
-use strokes::mesh_buffers::{Layout, MeshBuffers};
+use strokes::gpu::device::Gpu;
+use strokes::mesh::buffers::MeshBuffers;
+use strokes::mesh::layout::Layout;
 use strokes::renderer::DetectionPath;
 use testkit::locate::{left_out, shared};
-use viewer::render::{PictureOptions, PictureRenderer};
+use viewer::picture::renderer::{PictureOptions, PictureRenderer};
 use viewer::technique::Technique;
 
 use crate::gpu_device::{gpu, gpu_with_limits};

@@ -1,10 +1,10 @@
 //! Pictures in parts are those that are drawn at once.
 
-use edgemesh::camera::Camera;
 use edgemesh::edge_mesh::EdgeMesh;
-use viewer::parts::AnySizeRenderer;
-use viewer::picture::compare;
-use viewer::render::PictureOptions;
+use edgemesh::view::camera::Camera;
+use viewer::picture::png::compare;
+use viewer::picture::renderer::PictureOptions;
+use viewer::picture::tiles::AnySizeRenderer;
 use viewer::technique::Technique;
 
 use crate::gpu_device::gpu;

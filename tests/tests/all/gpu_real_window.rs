@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use image::RgbaImage;
 use testkit::locate::{program, workspace_root};
-use viewer::picture::read_png;
+use viewer::picture::png::read_png;
 
 use crate::display::Display;
 use crate::drop_file::drop_file;

@@ -3,17 +3,18 @@
 use std::sync::LazyLock;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::camera::Camera;
 use edgemesh::command::input::Loaded;
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::model::Model;
 use edgemesh::report::Report;
+use edgemesh::view::camera::Camera;
 use glam::DVec3;
 use image::{GrayImage, Luma, RgbaImage};
-use strokes::look::Look;
+use strokes::style::drawing_style::Look;
 use testkit::compare::Golden;
 use viewer::pass_graph::strokes_of;
-use viewer::render::{PictureOptions, PictureRenderer, Scene};
+use viewer::picture::renderer::{PictureOptions, PictureRenderer};
+use viewer::scene::models::Scene;
 use viewer::technique::Technique;
 use viewer::technique::library::Library;
 
@@ -314,7 +315,7 @@ fn marked_around(picture: &GrayImage, [x, y]: [u32; 2], reach: u32) -> usize {
 }
 
 fn without_creases(mesh: &EdgeMesh) -> EdgeMesh {
-    use edgemesh::record::EdgeFlags;
+    use edgemesh::edge_mesh::record::EdgeFlags;
     let mut mesh = mesh.clone();
     for record in &mut mesh.records {
         record.flags -= EdgeFlags::RIDGE | EdgeFlags::VALLEY | EdgeFlags::MATERIAL;

@@ -4,17 +4,19 @@
 use std::sync::Arc;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::camera::Camera;
 use edgemesh::command::input::Loaded;
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::model::Model;
 use edgemesh::report::Report;
+use edgemesh::view::camera::Camera;
 use glam::{DMat4, DQuat, DVec3};
 use image::RgbaImage;
-use strokes::mesh_buffers::MeshBuffers;
+use strokes::draw::targets::Targets;
+use strokes::gpu::target_formats::TargetFormats;
+use strokes::mesh::buffers::MeshBuffers;
 use strokes::renderer::{Renderer, RendererOptions};
-use strokes::targets::{TargetFormats, Targets};
-use viewer::render::{PictureOptions, PictureRenderer, PlacedObject, Scene};
+use viewer::picture::renderer::{PictureOptions, PictureRenderer};
+use viewer::scene::models::{PlacedObject, Scene};
 use viewer::technique::Technique;
 
 use crate::gpu_device::gpu;
@@ -178,7 +180,7 @@ fn transforms_move_what_is_drawn() {
     let stretched = place * DMat4::from_scale(DVec3::new(1.0, 2.0, 0.6));
     for (name, transform) in [("moved", place), ("mirrored", mirror), ("stretched", stretched)] {
         let mut model = Model::default();
-        let (source, _) = edgemesh::read::read_model(
+        let (source, _) = edgemesh::format::read::read_model(
             &testkit::locate::workspace_root().join("models/bracket.obj"),
         )
         .unwrap();
@@ -315,7 +317,7 @@ fn no_view_draws_what_is_no_number() {
 const HALF_ONE: u16 = 0x3c00;
 
 fn read_halves(targets: &Targets) -> Vec<u16> {
-    strokes::readback::read_texels(gpu(), targets.picture(), 8).unwrap()
+    strokes::gpu::readback::read_texels(gpu(), targets.picture(), 8).unwrap()
 }
 
 fn awkward_meshes() -> Vec<(&'static str, EdgeMesh)> {

@@ -4,15 +4,16 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use edgemesh::camera::Camera;
 use edgemesh::edge_mesh::EdgeMesh;
+use edgemesh::view::camera::Camera;
 use glam::DVec3;
 use image::RgbaImage;
-use strokes::readback::read_texels;
+use strokes::gpu::readback::read_texels;
 use testkit::compare::Golden;
 use testkit::locate::workspace_root;
-use viewer::lighting::Lighting;
-use viewer::render::{PictureOptions, PictureRenderer, Scene};
+use viewer::picture::renderer::{PictureOptions, PictureRenderer};
+use viewer::scene::lighting::Lighting;
+use viewer::scene::models::Scene;
 use viewer::technique::Technique;
 use viewer::technique::library::Library;
 

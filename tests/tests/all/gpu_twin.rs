@@ -4,27 +4,29 @@ use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::camera::{Camera, View};
+use edgemesh::edge_mesh::edge_word::{EdgeWord, edge_words};
+use edgemesh::edge_mesh::normal_cone::{NormalCone, cone_facing};
+use edgemesh::edge_mesh::record::{EdgeFlags, edge_random};
 use edgemesh::edge_mesh::{EdgeMesh, FacePlane};
-use edgemesh::edge_word::{EdgeWord, edge_words};
 use edgemesh::index::NONE;
-use edgemesh::oracle::facing::faces_eye;
-use edgemesh::oracle::feature::{
-    ClassTable, EdgeFaces, Line, LineBits, classify_edge, eye_is_outside,
-};
-use edgemesh::oracle::normal_cone::{NormalCone, cone_facing};
+use edgemesh::line::class::ClassTable;
+use edgemesh::line::kind::LineKind;
+use edgemesh::line::placement::{Parameterization, Placement};
 use edgemesh::oracle::spine::{Spine, lerp, project_spine, screen_normal};
-use edgemesh::oracle::stroke_quad::Placement;
-use edgemesh::oracle::stroke_segment::{ClipEdge, LineKind, Parameterization, StrokeShape};
+use edgemesh::oracle::stroke_segment::{ClipEdge, StrokeShape};
 use edgemesh::oracle::stroke_vertex::stroke_vertex;
-use edgemesh::oracle::{classify_lines, count_features, facing_bits};
-use edgemesh::record::{EdgeFlags, edge_random};
 use edgemesh::report::Report;
+use edgemesh::view::camera::{Camera, View};
+use edgemesh::view::facing::faces_eye;
+use edgemesh::view::feature::{EdgeFaces, Line, LineBits, classify_edge, eye_is_outside};
+use edgemesh::view::feature_counts::{classify_lines, count_features, facing_bits};
 use glam::{DVec3, Vec2, Vec3, Vec4};
-use strokes::mesh_buffers::{Layout, MeshBuffers};
+use strokes::draw::targets::Targets;
+use strokes::gpu::target_formats::TargetFormats;
+use strokes::mesh::buffers::MeshBuffers;
+use strokes::mesh::layout::Layout;
 use strokes::renderer::{DetectionPath, Renderer, RendererOptions};
-use strokes::targets::{TargetFormats, Targets};
-use strokes::view_buffers::Tally;
+use strokes::view::live_lists::Tally;
 use testkit::wgsl_fn::run_wgsl;
 use viewer::technique::Technique;
 

@@ -2,12 +2,12 @@
 //! one has: against rays cast on the CPU, triangle by triangle.
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::camera::{Camera, View};
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::oracle::classify_edges;
-use edgemesh::oracle::feature::LineBits;
+use edgemesh::format::read::read_model;
 use edgemesh::oracle::spine::project_spine;
-use edgemesh::read::read_model;
+use edgemesh::view::camera::{Camera, View};
+use edgemesh::view::feature::LineBits;
+use edgemesh::view::feature_counts::classify_edges;
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use image::RgbaImage;
 use testkit::locate::{left_out, shared};

@@ -2,18 +2,20 @@
 //! twice; chains of contours are open only where the surface is.
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::camera::Camera;
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_word::edge_words;
-use edgemesh::face_edges::FaceEdges;
+use edgemesh::edge_mesh::edge_word::edge_words;
+use edgemesh::edge_mesh::face_edges::FaceEdges;
+use edgemesh::edge_mesh::record::EdgeFlags;
+use edgemesh::edge_mesh::static_links::StaticLinks;
+use edgemesh::format::read::read_model;
 use edgemesh::index::NONE;
-use edgemesh::oracle::classify_lines;
+use edgemesh::line::class::{ClassTable, LineClass};
 use edgemesh::oracle::contour_chain::{Successor, successor};
-use edgemesh::oracle::feature::{ClassTable, EdgeClass, LineBits};
-use edgemesh::oracle::layer_chain::{Element, LayerChain, LayerLinks, StaticLinks};
-use edgemesh::read::read_model;
-use edgemesh::record::EdgeFlags;
+use edgemesh::oracle::layer_chain::{Element, LayerChain, LayerLinks};
 use edgemesh::report::Report;
+use edgemesh::view::camera::Camera;
+use edgemesh::view::feature::LineBits;
+use edgemesh::view::feature_counts::classify_lines;
 use glam::DVec3;
 use testkit::locate::{left_out, shared};
 
@@ -39,7 +41,7 @@ fn check(name: &str, mesh: &EdgeMesh) -> u32 {
     let (faces, links) = (FaceEdges::of(mesh), StaticLinks::of(mesh));
     let words = edge_words(mesh);
     // Contours apart, and then all classes in one layer.
-    let apart = ClassTable::new(|class| Some(u32::from(class != EdgeClass::Contour)));
+    let apart = ClassTable::new(|class| Some(u32::from(class != LineClass::Contour)));
     let mut linked = 0;
     for view in 0..VIEWS {
         let camera = Camera { eye: eye(mesh, view), ..Camera::default_view(&mesh.bounds) };

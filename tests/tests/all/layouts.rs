@@ -4,35 +4,34 @@ use std::collections::BTreeMap;
 use std::mem::offset_of;
 
 use edgemesh::edge_mesh::FacePlane;
-use edgemesh::edge_word::{CONCAVE, CREASE_SHIFT, CREASE_STEPS};
-use edgemesh::oracle::feature::{
-    ClassTable, EdgeClass, LEAST_GROOVE_STEPS, LineBits, MOST_GROOVE_STEPS, NO_LAYER,
-};
-use edgemesh::oracle::normal_cone::{CONE_MARGIN, ConeFacing, NormalCone};
+use edgemesh::edge_mesh::edge_word::{CONCAVE, CREASE_SHIFT, CREASE_STEPS};
+use edgemesh::edge_mesh::normal_cone::{CONE_MARGIN, ConeFacing, NormalCone};
+use edgemesh::edge_mesh::record::{EdgeFlags, EdgeRecord, EdgeVertex, EdgeVertex16};
+use edgemesh::line::class::{ClassTable, LineClass, NO_LAYER};
+use edgemesh::line::kind::{CAP_VERTICES, DISK_STEPS, DISK_VERTICES, LineKind};
+use edgemesh::line::placement::{Parameterization, Placement};
 use edgemesh::oracle::spine::MIN_LENGTH_PX;
-use edgemesh::oracle::stroke_cap::DISK_STEPS;
-use edgemesh::oracle::stroke_quad::Placement;
-use edgemesh::oracle::stroke_segment::{EDGE_ON_FACING, LIFTED_FACING, LineKind, Parameterization};
-use edgemesh::oracle::stroke_vertex::{CAP_VERTICES, DISK_VERTICES, FOOT_PX};
-use edgemesh::record::{EdgeFlags, EdgeRecord, EdgeVertex, EdgeVertex16};
-use strokes::detect::DetectUniform;
-use strokes::fill::FillUniform;
-use strokes::frame::{FrameUniform, MAX_CLIP_PLANES, ObjectUniform};
+use edgemesh::oracle::stroke_segment::{EDGE_ON_FACING, LIFTED_FACING};
+use edgemesh::oracle::stroke_vertex::FOOT_PX;
+use edgemesh::view::feature::{LEAST_GROOVE_STEPS, LineBits, MOST_GROOVE_STEPS};
+use edgemesh_shaders::ShaderSource;
+use strokes::draw::coverage::CompositeUniform;
+use strokes::draw::fill::FillUniform;
+use strokes::draw::silhouette::NO_OBJECT;
+use strokes::draw::stroke::StrokeUniform;
 use strokes::graph::buffers::{
     ARC_PER_PX, BACKWARD, CUT_END, CUT_START, Chain, ChainState, Element, GraphHeader,
     GraphUniform, ITEMS_PER_SUM, Joint, LinkNode, NO_NODE, NOT_DRAWN, ON_LOOP, PathPoint, Ribbon,
     Stroke, UNSEEN,
 };
-use strokes::graph::coverage::CompositeUniform;
-use strokes::graph::link_table::{REVERSED, SURFACE_CUT, SURFACE_END};
 use strokes::graph::path::PathUniform;
-use strokes::graph::path_style::{End, Join, MITRE_LIMIT};
-use strokes::look::{MAX_DRAWS, MAX_LAYERS, Visibility};
-use strokes::mesh_buffers::{ChunkUniform, EDGES_PER_RUN};
-use strokes::shader::ShaderSource;
-use strokes::silhouette::NO_OBJECT;
-use strokes::stroke::StrokeUniform;
-use strokes::view_buffers::{DrawArguments, RunState, Tally};
+use strokes::mesh::layout::{ChunkUniform, EDGES_PER_RUN};
+use strokes::mesh::link_table::{REVERSED, SURFACE_CUT, SURFACE_END};
+use strokes::style::drawing_style::{MAX_DRAWS, MAX_LAYERS, Visibility};
+use strokes::style::link_style::{End, Join, MITRE_LIMIT};
+use strokes::view::detect::DetectUniform;
+use strokes::view::frame::{FrameUniform, MAX_CLIP_PLANES, ObjectUniform};
+use strokes::view::live_lists::{DrawArguments, RunState, Tally};
 use viewer::pass_graph::material::MaterialUniform;
 use viewer::pass_graph::surface::SurfacePart;
 
@@ -487,7 +486,7 @@ fn constants_are_equal_and_found_on_both_sides() {
 #[test]
 fn classes_have_the_bits_that_the_shader_writes_down() {
     let text = &shader_files()["common/feature.wgsl"];
-    for class in EdgeClass::ALL.into_iter().skip(1) {
+    for class in LineClass::ALL.into_iter().skip(1) {
         let bit = 1_u32 << class as u32;
         let line = format!("{} {}", class as u32, class.name());
         assert!(text.contains(&line) && text.contains(&format!("select(0u, {bit}u,")), "{line}");

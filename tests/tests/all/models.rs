@@ -7,9 +7,9 @@ use std::fs;
 use std::path::Path;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::camera::Camera;
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::oracle::count_features;
+use edgemesh::view::camera::Camera;
+use edgemesh::view::feature_counts::count_features;
 use glam::{DVec3, Vec3};
 use serde_json::{Map, Value};
 use testkit::locate::{left_out, shared};
@@ -155,7 +155,7 @@ fn contours_are_right_all_around() {
     let (mut contours_seen, mut doubtful_seen) = (0, 0);
     for (name, expected) in reference(&folder) {
         let path = folder.join(format!("{name}.obj"));
-        let (model, mut report) = edgemesh::read::read_model(&path).unwrap();
+        let (model, mut report) = edgemesh::format::read::read_model(&path).unwrap();
         let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut report);
         let plain = Plain::of(&mesh);
         let target = vector(&expected["center"]);

@@ -2,7 +2,7 @@
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::read::read_model;
+use edgemesh::format::read::read_model;
 use testkit::locate::workspace_root;
 
 /// All of them, by name.

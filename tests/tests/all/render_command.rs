@@ -102,10 +102,11 @@ fn without_an_adapter_the_status_is_3_and_the_message_says_what_to_install() {
 
 #[cfg(feature = "gpu")]
 mod with_adapter {
-    use super::*;
     use serde_json::Value;
     use testkit::locate::{left_out, shared};
-    use viewer::picture::read_png;
+    use viewer::picture::png::read_png;
+
+    use super::*;
 
     fn statistics(arguments: &[&str]) -> Value {
         let folder = tempfile::tempdir().unwrap();

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use strokes::shader::{EMBEDDED, ShaderSource};
+use edgemesh_shaders::ShaderSource;
+use edgemesh_shaders::files::all;
 use testkit::locate::workspace_root;
 
 /// All shader files on disk, path from the shader folder and text.
@@ -29,7 +30,7 @@ pub(crate) fn shader_files() -> BTreeMap<String, String> {
 #[test]
 fn the_embedded_shaders_are_those_on_disk() {
     let embedded: BTreeMap<String, String> =
-        EMBEDDED.iter().map(|(path, text)| ((*path).to_owned(), (*text).to_owned())).collect();
+        all().map(|(path, text)| ((*path).to_owned(), (*text).to_owned())).collect();
     assert_eq!(embedded, shader_files());
 }
 

@@ -8,9 +8,10 @@ use edgemesh::command::input::{DEMO, InputOptions};
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use viewer::lighting::Light;
-use viewer::render::{FrameStatistics, Scene};
-use viewer::scene_file::SceneObject;
+use viewer::picture::renderer::FrameStatistics;
+use viewer::scene::lighting::Light;
+use viewer::scene::models::Scene;
+use viewer::scene::scene_file::SceneObject;
 use viewer::technique::library::Library;
 use viewer::technique::texture_format::PassTexture;
 use viewer::window::hands::{CUT_KEY, Hands, KEYS, LIGHT_KEY};
@@ -120,7 +121,7 @@ fn a_slider_sets_its_variable() {
 #[test]
 fn classes_have_counts_and_go_off() {
     let mut session = session("");
-    let tally = strokes::view_buffers::Tally { contour: 1234, ..Default::default() };
+    let tally = strokes::view::live_lists::Tally { contour: 1234, ..Default::default() };
     session.keep(FrameStatistics { tally: Some(tally), passes: Vec::new(), frame_ms: 1.0 });
     let mut harness = side(Tab::Lines, session);
     assert!(harness.query_by_label("1\u{202f}234").is_some(), "contours are counted");

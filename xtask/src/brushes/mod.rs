@@ -20,8 +20,7 @@ use std::path::PathBuf;
 use image::{GrayAlphaImage, LumaA};
 
 use crate::failure::Failure;
-use crate::images;
-use crate::programs;
+use crate::{images, programs};
 
 /// Black ink.
 const INK: u8 = 0;

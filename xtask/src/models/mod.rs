@@ -14,9 +14,10 @@ mod wave_blob;
 
 use std::path::PathBuf;
 
+use polygon_mesh::PolygonMesh;
+
 use crate::failure::Failure;
 use crate::programs;
-use polygon_mesh::PolygonMesh;
 
 /// The materials of `bracket.obj`.
 const BRACKET_MTL: &str = "\

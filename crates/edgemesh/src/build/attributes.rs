@@ -1,8 +1,8 @@
 //! What the file says of each face: its material, and where it is smooth.
 
 use super::faces::FaceSources;
+use crate::edge_mesh::record::EdgeFlags;
 use crate::model::{Attributes, Model, Smoothing};
-use crate::record::EdgeFlags;
 
 /// Attributes by face.
 #[derive(Debug)]

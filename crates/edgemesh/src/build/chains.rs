@@ -21,9 +21,9 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
+use crate::edge_mesh::record::{EdgeFlags, EdgeRecord};
 use crate::edge_mesh::{Chain, ChainLink, Chains};
 use crate::index::{NONE, to_u32};
-use crate::record::{EdgeFlags, EdgeRecord};
 
 /// The turn at a vertex, between the directions of the line before and behind
 /// it, above which a line ends: 60 degrees. The corners of a hexagon are rounded

@@ -13,10 +13,10 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::planes::corners_of;
+use crate::edge_mesh::face_normal::corners_of;
+use crate::edge_mesh::record::{EdgeFlags, EdgeRecord};
+use crate::edge_mesh::topology::EdgeTable;
 use crate::index::{NONE, to_u32};
-use crate::record::{EdgeFlags, EdgeRecord};
-use crate::topology::EdgeTable;
 
 /// Faces whose volumes one thread sums up in a row.
 const FACES_PER_BLOCK: usize = 1 << 16;

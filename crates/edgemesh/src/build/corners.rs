@@ -18,12 +18,13 @@ use super::FaceAttributes;
 use super::components::Sets;
 use super::faces::FaceSources;
 use super::fans::angle;
-use super::planes::{corners_of, has_area};
+use super::planes::has_area;
 use super::runs::fill_runs;
+use crate::edge_mesh::face_normal::corners_of;
+use crate::edge_mesh::record::{EdgeFlags, EdgeRecord};
 use crate::edge_mesh::{FacePlane, FillMesh, FillVertex};
 use crate::index::{NONE, to_u32};
 use crate::model::{Model, Smoothing};
-use crate::record::{EdgeFlags, EdgeRecord};
 
 /// What the fill is made from; all lists are by triangle.
 #[derive(Debug)]

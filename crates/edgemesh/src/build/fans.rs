@@ -30,8 +30,8 @@ use rayon::prelude::*;
 
 use super::planes::has_area;
 use crate::edge_mesh::FacePlane;
+use crate::edge_mesh::record::EdgeRecord;
 use crate::index::{NONE, to_u32};
-use crate::record::EdgeRecord;
 
 /// The mesh whose vertices are walked around.
 #[derive(Debug)]

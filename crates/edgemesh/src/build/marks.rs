@@ -5,11 +5,11 @@
 use std::collections::BTreeSet;
 
 use super::BuildOptions;
+use crate::edge_mesh::record::{EdgeFlags, EdgeRecord};
+use crate::edge_mesh::topology::EdgeTable;
 use crate::index::{NONE, to_u32};
 use crate::model::Model;
-use crate::record::{EdgeFlags, EdgeRecord};
 use crate::report::{Place, Report, WarningCode};
-use crate::topology::EdgeTable;
 
 /// The marked edges of a mesh.
 #[derive(Debug, Default)]

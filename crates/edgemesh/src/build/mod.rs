@@ -20,7 +20,6 @@ mod corners;
 mod duplicates;
 mod faces;
 mod fans;
-mod frame;
 mod marks;
 mod orient;
 pub(crate) mod planes;
@@ -41,17 +40,17 @@ use self::components::Components;
 use self::corners::{CornerInput, build_fill};
 use self::faces::{FaceSources, keep_items};
 use self::fans::{FanInput, Split, apply_splits, walk_fans};
-pub use self::frame::Frame;
 use self::marks::Marks;
 use self::records::{RecordInput, Surface, build_records};
 pub use self::weld::Welding;
 use self::weld::{Weld, weld};
+use crate::edge_mesh::mesh_frame::MeshFrame;
+use crate::edge_mesh::record::EdgeFlags;
+use crate::edge_mesh::topology::{EdgeCounts, EdgePart, EdgeTable, triangle_side};
 use crate::edge_mesh::{Bounds, EdgeMesh, MeshCounts, SourceCounts};
 use crate::index::{NONE, to_u32};
 use crate::model::Model;
-use crate::record::EdgeFlags;
 use crate::report::{Place, RepairKind, Report, WarningCode};
-use crate::topology::{EdgeCounts, EdgePart, EdgeTable, triangle_side};
 
 /// The angle between face normals above which an edge is a crease: 30 degrees,
 /// that is, an internal angle of 150 degrees in the paper's terms. Enough to
@@ -79,8 +78,8 @@ pub struct BuildOptions {
     pub marks: Vec<[u32; 2]>,
     /// Pairs whose edges are not marked, though the file or another pair marks them.
     pub unmarked: Vec<[u32; 2]>,
-    /// Where the mesh lies in its file. Default: [`Frame::of_box`] decides.
-    pub frame: Option<Frame>,
+    /// Where the mesh lies in its file. Default: [`MeshFrame::of_box`] decides.
+    pub frame: Option<MeshFrame>,
     /// Whether the fill is built, which only shading needs. Default: yes.
     pub with_fill: bool,
 }
@@ -187,11 +186,11 @@ pub fn reclassify(mesh: &mut EdgeMesh, options: &BuildOptions) {
 }
 
 /// Moves the vertices that are used into the mesh's frame and welds them.
-fn weld_model(model: &Model, options: &BuildOptions, report: &mut Report) -> (Frame, Weld) {
+fn weld_model(model: &Model, options: &BuildOptions, report: &mut Report) -> (MeshFrame, Weld) {
     let is_used = used_vertices(model);
     let frame = options.frame.unwrap_or_else(|| {
         let (low, high) = used_box(model, &is_used);
-        Frame::of_box(low, high)
+        MeshFrame::of_box(low, high)
     });
     report.repair(RepairKind::Recentred, usize::from(!frame.is_identity()), None);
     let to_mesh = |&point: &[f64; 3]| frame.to_mesh(point.into()).as_vec3().to_array();
@@ -465,7 +464,7 @@ fn finish(
     EdgeMesh {
         chains: chains::chain(&positions, &records, options.chain_turn_rad),
         bounds: Bounds::of(&positions),
-        frame: Frame::default(),
+        frame: MeshFrame::default(),
         positions,
         split_from,
         vertex_normals,

@@ -10,8 +10,8 @@
 //! Rejected: turning components outwards by their signed volume. An open
 //! surface has none, and a file that is consistent is left as it is.
 
+use crate::edge_mesh::topology::{EdgeTable, triangle_side};
 use crate::index::{NONE, to_u32};
-use crate::topology::{EdgeTable, triangle_side};
 
 /// What was found and done.
 #[derive(Debug, Default)]

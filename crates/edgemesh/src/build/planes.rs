@@ -4,33 +4,12 @@
 //! face across its longest edge, so that it is never on its own side of a
 //! contour.
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::edge_mesh::FacePlane;
-use crate::topology::EdgeTable;
-
-/// A triangle whose doubled area is below this part of its longest side squared
-/// has no area: its height is at the rounding error of 32-bit coordinates.
-const ZERO_AREA: f64 = 1e-9;
-
-/// The corner positions of a triangle in 64 bits.
-pub(crate) fn corners_of(positions: &[[f32; 3]], triangle: [u32; 3]) -> [DVec3; 3] {
-    triangle.map(|vertex| Vec3::from(positions[vertex as usize]).as_dvec3())
-}
-
-/// The unit normal of a triangle; zero where it has no area.
-pub(crate) fn face_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
-    let longest = (b - a).length_squared().max((c - b).length_squared());
-    let longest = longest.max((a - c).length_squared());
-    let area = (b - a).cross(c - a);
-    // Positions are of a size whose fourth power 64 bits hold (`frame`).
-    if area.length_squared() > ZERO_AREA * ZERO_AREA * longest * longest {
-        area.normalize_or_zero()
-    } else {
-        DVec3::ZERO
-    }
-}
+use crate::edge_mesh::face_normal::{corners_of, face_normal};
+use crate::edge_mesh::topology::EdgeTable;
 
 /// The planes of all faces; a face without area has a normal of zero.
 pub(crate) fn face_planes(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<FacePlane> {

@@ -27,12 +27,13 @@ use rayon::prelude::*;
 
 use super::faces::FaceSources;
 use super::marks::Marks;
-use super::planes::{corners_of, face_normal, has_area};
+use super::planes::has_area;
 use super::{BuildOptions, FaceAttributes};
 use crate::edge_mesh::FacePlane;
+use crate::edge_mesh::face_normal::{corners_of, face_normal};
+use crate::edge_mesh::record::{EdgeFlags, EdgeRecord};
+use crate::edge_mesh::topology::{EdgePart, EdgeTable, triangle_side};
 use crate::index::{NONE, to_u32};
-use crate::record::{EdgeFlags, EdgeRecord};
-use crate::topology::{EdgePart, EdgeTable, triangle_side};
 
 /// The cosine of two normals that were rounded to 32 bits errs by less.
 const COSINE_ERROR: f64 = 1e-6;

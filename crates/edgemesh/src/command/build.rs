@@ -9,7 +9,7 @@ use super::input::InputOptions;
 use super::progress::Progress;
 use super::target::{Targets, write_target};
 use super::{Failure, print_warnings};
-use crate::file::{Layout, to_bytes};
+use crate::format::edge_mesh_file::{Layout, to_bytes};
 
 /// Builds the edge mesh of a model and writes it to a file
 #[derive(Debug, Clone, Args)]

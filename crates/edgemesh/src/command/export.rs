@@ -9,7 +9,7 @@ use super::input::InputOptions;
 use super::progress::Progress;
 use super::target::{Targets, write_target};
 use super::{Failure, print_warnings};
-use crate::export::{ExportFormat, to_bytes};
+use crate::format::export::{ExportFormat, to_bytes};
 
 /// Writes the mesh and its feature edges for other programs
 ///

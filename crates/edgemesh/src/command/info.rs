@@ -11,8 +11,8 @@ use super::input::{InputOptions, Loaded};
 use super::options::CameraOptions;
 use super::{Failure, print_to_stdout, print_warnings, to_json};
 use crate::edge_mesh::{EdgeMesh, LayoutBytes};
-use crate::oracle::{FeatureCounts, count_features};
 use crate::report::{RepairKind, Report, place_in};
+use crate::view::feature_counts::{FeatureCounts, count_features};
 
 /// Prints counts of a model: vertices, edges, what is broken, feature edges
 #[derive(Debug, Clone, Args)]

@@ -13,11 +13,11 @@ use super::marks::{SideMarks, read_marks, side_file};
 use super::options::CreaseOptions;
 use super::progress::Listener;
 use super::{Failure, strict_failure};
-use crate::build::{BuildOptions, Frame, Welding, box_of, build_with_file_vertices, reclassify};
-use crate::edge_mesh::EdgeMesh;
-use crate::file::{FileError, HEADER_BYTES, is_edge_mesh, parse, stated_length};
+use crate::build::{BuildOptions, Welding, box_of, build_with_file_vertices, reclassify};
+use crate::edge_mesh::{EdgeMesh, MeshFrame};
+use crate::format::edge_mesh_file::{FileError, HEADER_BYTES, is_edge_mesh, parse, stated_length};
+use crate::format::read::{Format, read_model_as, read_model_stream};
 use crate::model::Model;
-use crate::read::{Format, read_model_as, read_model_stream};
 use crate::report::Report;
 
 /// What is named instead of a file for the project's own model, a torus knot.
@@ -172,7 +172,7 @@ impl InputOptions {
         let inputs: Vec<Input> =
             paths.iter().map(|path| self.read(path, listener)).collect::<Result<_, _>>()?;
         let frame = match keeps_coordinates {
-            true => Some(Frame::default()),
+            true => Some(MeshFrame::default()),
             false => Some(frame_of(&inputs)).filter(|_| inputs.len() > 1),
         };
         let options = BuildOptions { frame, ..self.build_options(true)? };
@@ -279,7 +279,7 @@ fn read_edge_mesh(mut stream: impl Read) -> io::Result<Vec<u8>> {
 }
 
 /// The frame that all inputs share.
-fn frame_of(inputs: &[Input]) -> Frame {
+fn frame_of(inputs: &[Input]) -> MeshFrame {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for input in inputs {
         let own = match input {
@@ -288,7 +288,7 @@ fn frame_of(inputs: &[Input]) -> Frame {
         };
         (low, high) = (low.min(own.0), high.max(own.1));
     }
-    Frame::of_box(low, high)
+    MeshFrame::of_box(low, high)
 }
 
 /// Whether the file at `path` begins as an edge mesh does. Pipes are not asked,

@@ -20,14 +20,13 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use signal_hook::consts::{SIGINT, SIGTERM};
-use signal_hook::flag::register_conditional_shutdown;
-
 pub use output::{print_to_stdout, write_file};
 pub use progress::{Listener, Progress};
 use serde::Serialize;
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag::register_conditional_shutdown;
 
-use crate::read::{ReadError, ReadErrorKind};
+use crate::format::read::{ReadError, ReadErrorKind};
 use crate::report::{Report, Warning, place_in};
 
 /// What a command's exit status means; scripts rely on the numbers.

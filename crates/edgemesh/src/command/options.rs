@@ -4,9 +4,9 @@ use clap::Args;
 use glam::DVec3;
 
 use super::Failure;
-use crate::build::{BuildOptions, Frame};
-use crate::camera::Camera;
-use crate::edge_mesh::Bounds;
+use crate::build::BuildOptions;
+use crate::edge_mesh::{Bounds, MeshFrame};
+use crate::view::camera::Camera;
 
 /// Where the eye is. Without any of these it looks at the middle of the model
 /// from the direction (1, 0.6, 1.2), at three bounding radii.
@@ -36,7 +36,7 @@ impl CameraOptions {
     ///
     /// # Errors
     /// Where the eye lies on the target, or up points along the line of sight.
-    pub fn camera(&self, bounds: &Bounds, frame: &Frame) -> Result<Camera, Failure> {
+    pub fn camera(&self, bounds: &Bounds, frame: &MeshFrame) -> Result<Camera, Failure> {
         let mut camera = Camera::default_view(bounds);
         if let Some(target) = self.target.map(|target| frame.to_mesh(target)) {
             camera.eye += target - camera.target;
@@ -170,10 +170,10 @@ mod tests {
     fn a_target_alone_carries_the_eye_along() {
         let bounds = Bounds { min: [-1.0; 3], max: [1.0; 3] };
         let options = CameraOptions { target: Some(DVec3::X), ..CameraOptions::default() };
-        let camera = options.camera(&bounds, &Frame::default()).unwrap();
+        let camera = options.camera(&bounds, &MeshFrame::default()).unwrap();
         let default = Camera::default_view(&bounds);
         assert!((camera.eye - default.eye - DVec3::X).length() < 1e-12);
         let same = CameraOptions { eye: Some(DVec3::ZERO), ..CameraOptions::default() };
-        assert!(same.camera(&bounds, &Frame::default()).is_err());
+        assert!(same.camera(&bounds, &MeshFrame::default()).is_err());
     }
 }

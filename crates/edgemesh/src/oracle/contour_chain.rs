@@ -23,11 +23,11 @@
 //! faces. Rejected: joining the edges that meet at a vertex where they are just two;
 //! on rough meshes four and more meet at many vertices.
 
-use super::feature::{Line, LineBits};
 use crate::edge_mesh::EdgeMesh;
-use crate::face_edges::FaceEdges;
+use crate::edge_mesh::face_edges::FaceEdges;
+use crate::edge_mesh::record::EdgeFlags;
 use crate::index::NONE;
-use crate::record::EdgeFlags;
+use crate::view::feature::{Line, LineBits};
 
 /// What follows a contour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

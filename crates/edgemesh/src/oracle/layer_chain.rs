@@ -16,39 +16,11 @@
 //! same view always cuts it at the same place.
 
 use super::contour_chain::{Successor, successor};
-use super::feature::{Line, LineBits};
 use crate::edge_mesh::EdgeMesh;
-use crate::face_edges::FaceEdges;
+use crate::edge_mesh::face_edges::FaceEdges;
+use crate::edge_mesh::static_links::StaticLinks;
 use crate::index::{NONE, to_u32};
-
-/// For each record what the preprocessor's chains say of it.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct StaticLinks {
-    /// The record that follows, or [`NONE`].
-    pub next: Vec<u32>,
-    /// Whether the chain runs from the record's `v1` to its `v0`.
-    pub is_reversed: Vec<bool>,
-}
-
-impl StaticLinks {
-    /// Those of `mesh`.
-    #[must_use]
-    pub fn of(mesh: &EdgeMesh) -> Self {
-        let count = mesh.records.len();
-        let mut links = Self { next: vec![NONE; count], is_reversed: vec![false; count] };
-        for chain in &mesh.chains.chains {
-            let run = &mesh.chains.links[chain.link_range()];
-            let first = if chain.is_loop == 1 { run.first() } else { None };
-            for (link, following) in run.iter().zip(run.iter().skip(1).chain(first)) {
-                links.next[link.record as usize] = following.record;
-            }
-            for link in run {
-                links.is_reversed[link.record as usize] = link.is_reversed == 1;
-            }
-        }
-        links
-    }
-}
+use crate::view::feature::{Line, LineBits};
 
 /// An edge in the direction of its chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -168,19 +140,19 @@ mod tests {
 
     use super::*;
     use crate::build::{BuildOptions, build_edge_mesh};
-    use crate::edge_word::edge_words;
+    use crate::edge_mesh::edge_word::edge_words;
+    use crate::edge_mesh::record::EdgeFlags;
+    use crate::line::class::{ClassTable, LineClass};
     use crate::model::Model;
-    use crate::oracle::classify_lines;
-    use crate::oracle::feature::{ClassTable, EdgeClass};
-    use crate::record::EdgeFlags;
     use crate::report::Report;
+    use crate::view::feature_counts::classify_lines;
 
     /// The chains of each class in a layer of its own.
     fn chains_of(
         positions: &[[f32; 3]],
         polygons: &[&[u32]],
         eye: Vec4,
-    ) -> (EdgeMesh, impl Fn(EdgeClass) -> Vec<LayerChain> + use<>) {
+    ) -> (EdgeMesh, impl Fn(LineClass) -> Vec<LayerChain> + use<>) {
         let model = Model::from_polygons(positions, polygons);
         let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
         let table = ClassTable { keeps_hidden: 1, ..ClassTable::new(|class| Some(class as u32)) };
@@ -188,7 +160,7 @@ mod tests {
         let (faces, links) = (FaceEdges::of(&mesh), StaticLinks::of(&mesh));
         let of = {
             let mesh = mesh.clone();
-            move |class: EdgeClass| {
+            move |class: LineClass| {
                 let (mesh, faces, links, lines) = (&mesh, &faces, &links, &lines);
                 LayerLinks { mesh, faces, links, lines, draws_contours: true }.chains(class as u32)
             }
@@ -207,7 +179,7 @@ mod tests {
     #[test]
     fn a_cube_from_its_corner_is_one_loop_of_six_and_six_ridges() {
         let (mesh, of) = chains_of(&cube(), &CUBE, Vec4::new(5.0, 4.0, 3.0, 1.0));
-        let [contour] = &of(EdgeClass::Contour)[..] else { panic!("one loop") };
+        let [contour] = &of(LineClass::Contour)[..] else { panic!("one loop") };
         assert_eq!((contour.elements.len(), contour.is_closed), (6, true));
         let least = contour.elements.iter().map(|element| element.edge).min();
         assert_eq!(least, Some(contour.elements[0].edge), "a stable seed");
@@ -215,7 +187,7 @@ mod tests {
             assert_eq!(pair[0].ends(&mesh)[1], pair[1].ends(&mesh)[0]);
         }
         // Ridges turn by a right angle at each corner: no two are one line.
-        assert_eq!(of(EdgeClass::Ridge).len(), 6);
+        assert_eq!(of(LineClass::Ridge).len(), 6);
     }
 
     #[test]
@@ -232,13 +204,13 @@ mod tests {
         ];
         let tent: [&[u32]; 2] = [&[1, 0, 2, 3, 4], &[5, 6, 4, 3, 2]];
         let (_, of) = chains_of(&corners, &tent, Vec4::new(2.0, 0.5, 9.0, 1.0));
-        let [contour] = &of(EdgeClass::Contour)[..] else { panic!("one chain") };
+        let [contour] = &of(LineClass::Contour)[..] else { panic!("one chain") };
         assert_eq!((contour.elements.len(), contour.is_closed), (2, false));
-        assert_eq!(of(EdgeClass::Ridge), [], "the ridge is the contour");
+        assert_eq!(of(LineClass::Ridge), [], "the ridge is the contour");
         // From above it is the ridge, of the same two edges.
         let (_, of) = chains_of(&corners, &tent, Vec4::new(2.0, 9.0, 1.0, 1.0));
-        assert_eq!(of(EdgeClass::Contour), []);
-        assert_eq!(of(EdgeClass::Ridge)[0].elements.len(), 2);
+        assert_eq!(of(LineClass::Contour), []);
+        assert_eq!(of(LineClass::Ridge)[0].elements.len(), 2);
     }
 
     #[test]
@@ -250,7 +222,7 @@ mod tests {
         let polygons: Vec<&[u32]> =
             CUBE.iter().copied().chain(second.iter().map(Vec::as_slice)).collect();
         let (mesh, of) = chains_of(&corners, &polygons, Vec4::new(9.0, 5.0, 7.0, 1.0));
-        let chains = of(EdgeClass::Contour);
+        let chains = of(LineClass::Contour);
         let mut all: Vec<u32> =
             chains.iter().flat_map(|chain| chain.elements.iter().map(|e| e.edge)).collect();
         let count = all.len();
@@ -292,7 +264,7 @@ mod tests {
         let (mesh, of) = chains_of(&corners, &polygons, Vec4::new(3.0, 1.0, 2.0, 1.0));
         let is_clash = |edge: u32| mesh.records[edge as usize].flags.contains(EdgeFlags::CLASH);
         assert!((0..to_u32(mesh.records.len())).any(is_clash), "it cannot be oriented");
-        for chain in of(EdgeClass::Contour) {
+        for chain in of(LineClass::Contour) {
             let is_cut = chain.elements.iter().any(|element| is_clash(element.edge));
             assert!(!is_cut || chain.elements.len() == 1, "{chain:?}");
         }

@@ -20,9 +20,7 @@
 
 use glam::{Vec2, Vec4};
 
-/// The sides of the picture are clipped at this many times its half size: far
-/// enough out that no cut end of a stroke can be seen.
-pub const GUARD_BAND: f32 = 4.0;
+use crate::view::projection::{GUARD_BAND, to_pixels};
 
 /// An edge shorter than this on the screen, in pixels, has no direction; it is
 /// seen along its length and not drawn.
@@ -106,12 +104,6 @@ pub fn project_spine(c0: Vec4, c1: Vec4, viewport_px: Vec2) -> Spine {
 #[must_use]
 pub fn lerp(c0: Vec4, c1: Vec4, t: f32) -> Vec4 {
     c0 * (1.0 - t) + c1 * t
-}
-
-/// A clip-space point in front of the eye, in pixels from the middle, y up.
-#[must_use]
-pub fn to_pixels(clip: Vec4, viewport_px: Vec2) -> Vec2 {
-    clip.truncate().truncate() / clip.w * (viewport_px * 0.5)
 }
 
 /// The unit direction m in which a normal points on the screen: `clip` is the

@@ -27,6 +27,7 @@ use std::cmp::Ordering;
 use glam::Vec2;
 
 use super::stroke_quad::sign;
+use crate::line::kind::DISK_STEPS;
 
 /// The paper's corner number j for corner `i` (0 to 2): the triangle is walked
 /// backward where `outside` is -1, so that it always winds the same way.
@@ -56,9 +57,6 @@ pub fn cap_fills_gap(p: Vec2, m: Vec2, outside: f32, forward: f32) -> bool {
     let beyond = Vec2::new(p.y, -p.x) * forward;
     m.dot(beyond) * sign(m.dot(p)) * outside > 0.0
 }
-
-/// Triangles of a half disk. WGSL twin: the constant of this name.
-pub const DISK_STEPS: u32 = 8;
 
 /// Where step `k` (0 to [`DISK_STEPS`]) of the half disk lies, from the end of
 /// the spine: from the left rim (the side of p) around the end to the right one.

@@ -16,20 +16,7 @@
 
 use glam::Vec2;
 
-/// Where a stroke lies on its spine. WGSL twins: the constants of these names.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[repr(u32)]
-pub enum Placement {
-    /// Half of the width to each side (Equation 2).
-    Centred = 0,
-    /// All of the width outside (Equation 3).
-    Outside = 1,
-    /// All of the width inside.
-    Inside = 2,
-    /// Contours outside, everything else centred.
-    #[default]
-    Automatic = 3,
-}
+use crate::line::placement::Placement;
 
 /// How far the near side (the paper's corners 0 and 1) and the far side (2 and
 /// 3) of a stroke `width_px` wide lie from the spine along p, on the side

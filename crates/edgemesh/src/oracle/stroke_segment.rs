@@ -33,10 +33,13 @@
 
 use glam::{Vec2, Vec4};
 
-use super::feature::LineBits;
-use super::spine::{MIN_LENGTH_PX, Spine, lerp, project_spine, screen_normal, to_pixels};
+use super::spine::{MIN_LENGTH_PX, Spine, lerp, project_spine, screen_normal};
 use super::stroke_cap::{cap_fills_gap, stroke_cap};
-use super::stroke_quad::{Placement, quad_offsets, sign};
+use super::stroke_quad::{quad_offsets, sign};
+use crate::line::kind::LineKind;
+use crate::line::placement::{Parameterization, Placement};
+use crate::view::feature::LineBits;
+use crate::view::projection::to_pixels;
 
 /// A narrow face that looks at the eye by no more than this cosine, 87 degrees
 /// off, is seen edge on and lifts no stroke.
@@ -45,37 +48,6 @@ pub const EDGE_ON_FACING: f32 = 0.05;
 /// A face that looks at the eye by this cosine or more, 78 degrees off, lifts the
 /// strokes along it in full.
 pub const LIFTED_FACING: f32 = 0.2;
-
-/// Kinds of lines and of their ends. WGSL twins: the constants of these names.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
-#[repr(u32)]
-pub enum LineKind {
-    /// A line of one pixel (section 3.2).
-    Thin = 0,
-    /// A quad that ends where its edge does.
-    Quad = 1,
-    /// A quad with the paper's caps (Equations 4 and 5).
-    #[default]
-    QuadAndCaps = 2,
-    /// A quad with half disks (section 6).
-    QuadAndDisks = 3,
-    /// A quad that stands on the edge along the vertex normals (Card and
-    /// Mitchell, Listing 1).
-    Fin = 4,
-}
-
-/// How a brush lies along strokes (section 4). WGSL twins: `OBJECT_SPACE` and
-/// `SCREEN_SPACE`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[repr(u32)]
-pub enum Parameterization {
-    /// From a random start along the edge: coherent in animation, broken at
-    /// every vertex.
-    #[default]
-    ObjectSpace = 0,
-    /// By the place on the screen: whole in a still picture, whatever the mesh.
-    ScreenSpace = 1,
-}
 
 /// An edge in clip space.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -15,20 +15,21 @@
 //!
 //! Rejected: their test of face normals against the line of sight to each vertex;
 //! two ends of one edge can then disagree. Fins stand on the edges that
-//! [`super::feature`] finds; boundaries are always among them, which is what the
+//! [`crate::view::feature`] finds; boundaries are always among them, which is what the
 //! negated second normal is for there.
 //!
 //! WGSL twin: `shaders/common/stroke_vertex.wgsl`.
 
 use glam::{Vec2, Vec3, Vec4};
 
-use super::feature::LineBits;
 use super::spine::{MIN_LENGTH_PX, lerp, project_spine, screen_normal};
-use super::stroke_cap::{DISK_STEPS, cap_corner, cap_fills_gap, half_disk, stroke_cap};
+use super::stroke_cap::{cap_corner, cap_fills_gap, half_disk, stroke_cap};
 use super::stroke_quad::sign;
 use super::stroke_segment::{
-    ClipEdge, LineKind, Segment, StrokeShape, opacity_at, stroke_segment, stroke_u, width_at,
+    ClipEdge, Segment, StrokeShape, opacity_at, stroke_segment, stroke_u, width_at,
 };
+use crate::line::kind::{CAP_VERTICES, DISK_STEPS, DISK_VERTICES, LineKind};
+use crate::view::feature::LineBits;
 
 /// Where vertices go that must not be seen: behind the near plane, as in the
 /// paper's section 3.2.
@@ -38,12 +39,6 @@ pub const BEHIND: Vec3 = Vec3::new(0.0, 0.0, -1.0);
 /// of the pixel is asked; and one pixel more, by which the fill is pushed back, so
 /// that an edge does not escape what hides it closely.
 pub const FOOT_PX: f32 = 2.5;
-
-/// Vertices that a cap has besides those of the quad.
-pub const CAP_VERTICES: u32 = 3;
-
-/// Vertices that a half disk has.
-pub const DISK_VERTICES: u32 = DISK_STEPS + 2;
 
 /// A vertex for the rasterizer.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,40 +62,6 @@ pub struct StrokeVertex {
 
 const HIDDEN: StrokeVertex =
     StrokeVertex { position: BEHIND, u: 0.0, v: 0.0, opacity: 0.0, foot: Vec3::ZERO, over_px: 0.0 };
-
-impl LineKind {
-    /// Vertices an edge.
-    #[must_use]
-    pub const fn vertex_count(self) -> u32 {
-        match self {
-            Self::Thin => 2,
-            Self::Quad | Self::Fin => 4,
-            Self::QuadAndCaps => 4 + 2 * CAP_VERTICES,
-            Self::QuadAndDisks => 4 + 2 * DISK_VERTICES,
-        }
-    }
-
-    /// The vertices of an edge as triangles, or as one line.
-    #[must_use]
-    pub fn indices(self) -> Vec<u32> {
-        let mut indices = match self {
-            Self::Thin => return vec![0, 1],
-            _ => vec![0, 1, 2, 0, 2, 3],
-        };
-        match self {
-            Self::QuadAndCaps => indices.extend(4..10),
-            Self::QuadAndDisks => {
-                for middle in [4, 4 + DISK_VERTICES] {
-                    indices.extend(
-                        (1..=DISK_STEPS).flat_map(|k| [middle, middle + k, middle + k + 1]),
-                    );
-                }
-            }
-            _ => {}
-        }
-        indices
-    }
-}
 
 /// Vertex `corner` of the stroke along `edge`.
 #[must_use]
@@ -252,8 +213,7 @@ fn fin_height(clip: Vec4, shape: &StrokeShape) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oracle::stroke_quad::Placement;
-    use crate::oracle::stroke_segment::Parameterization;
+    use crate::line::placement::{Parameterization, Placement};
 
     const SHAPE: StrokeShape = StrokeShape {
         viewport_px: Vec2::new(200.0, 100.0),

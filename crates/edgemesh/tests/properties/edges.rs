@@ -4,12 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use edgemesh::build::BuildOptions;
 use edgemesh::edge_mesh::EdgeMesh;
+use edgemesh::edge_mesh::record::{EdgeFlags, EdgeRecord};
+use edgemesh::edge_mesh::replicate::replicate;
+use edgemesh::edge_mesh::topology::EdgeCounts;
 use edgemesh::index::NONE;
-use edgemesh::oracle;
-use edgemesh::record::{EdgeFlags, EdgeRecord};
-use edgemesh::replicate::replicate;
 use edgemesh::report::{RepairKind, WarningCode};
-use edgemesh::topology::EdgeCounts;
+use edgemesh::view::{feature, feature_counts};
 use proptest::prelude::*;
 
 use crate::config;
@@ -228,7 +228,7 @@ proptest! {
             ])), "{:?}", vertex);
             prop_assert!((0.0..1.0).contains(&vertex.r), "{:?}", vertex);
         }
-        let bits = oracle::classify_edges(&built, eye.into());
+        let bits = feature_counts::classify_edges(&built, eye.into());
         prop_assert_eq!(bits.len(), built.records.len());
     }
 
@@ -266,9 +266,8 @@ fn reordered(mesh: &Mesh, seed: u64) -> Mesh {
 
 /// The flags of each edge and whether it is a contour, by its ends.
 fn classes(mesh: &EdgeMesh, eye: [f32; 4]) -> BTreeMap<(Place, Place), (EdgeFlags, bool)> {
-    let bits = oracle::classify_edges(mesh, eye.into());
-    let is_contour =
-        |bits: oracle::feature::LineBits| bits.contains(oracle::feature::LineBits::CONTOUR);
+    let bits = feature_counts::classify_edges(mesh, eye.into());
+    let is_contour = |bits: feature::LineBits| bits.contains(feature::LineBits::CONTOUR);
     mesh.records
         .iter()
         .zip(bits)

@@ -1,7 +1,7 @@
 //! Edge mesh files of any mesh that can be built.
 
 use edgemesh::build::BuildOptions;
-use edgemesh::file::{FileErrorKind, Layout, parse, to_bytes};
+use edgemesh::format::edge_mesh_file::{FileErrorKind, Layout, parse, to_bytes};
 use proptest::collection::vec;
 use proptest::prelude::*;
 

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use edgemesh::build::{BuildOptions, Welding, class_of};
 use edgemesh::edge_mesh::EdgeMesh;
+use edgemesh::edge_mesh::record::{EdgeFlags, EdgeRecord};
+use edgemesh::edge_mesh::replicate::{Quantization, replicate_16};
 use edgemesh::index::NONE;
-use edgemesh::record::{EdgeFlags, EdgeRecord};
-use edgemesh::replicate::{Quantization, replicate_16};
 use edgemesh::report::{RepairKind, Report};
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
@@ -201,7 +201,7 @@ proptest! {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap();
             pool.install(|| {
                 let (mesh, report) = mesh.build_with(&BuildOptions::default());
-                edgemesh::file::to_bytes(&mesh, "mesh", &report, &[]).unwrap()
+                edgemesh::format::edge_mesh_file::to_bytes(&mesh, "mesh", &report, &[]).unwrap()
             })
         };
         let one = with_threads(1);
@@ -222,7 +222,7 @@ fn the_number_of_threads_changes_no_byte_of_a_large_mesh() {
         pool.install(|| {
             let (mesh, report) = mesh.build_with(&BuildOptions::default());
             assert_eq!(mesh.records.len(), 120_000);
-            edgemesh::file::to_bytes(&mesh, "mesh", &report, &[]).unwrap()
+            edgemesh::format::edge_mesh_file::to_bytes(&mesh, "mesh", &report, &[]).unwrap()
         })
     };
     let one = with_threads(1);

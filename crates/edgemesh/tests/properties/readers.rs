@@ -4,8 +4,8 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
+use edgemesh::format::read::read_model;
 use edgemesh::model::Model;
-use edgemesh::read::read_model;
 use obj::raw::object::Polygon;
 
 /// The polygons of a file, each as the positions of its corners.

@@ -4,8 +4,8 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
+use edgemesh::format::read::{Format, ReadError, ReadErrorKind, read_model, read_model_bytes};
 use edgemesh::model::Model;
-use edgemesh::read::{Format, ReadError, ReadErrorKind, read_model, read_model_bytes};
 use edgemesh::report::{Report, WarningCode};
 
 /// Sound files that do not load, and why not.

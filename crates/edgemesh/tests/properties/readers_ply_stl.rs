@@ -5,8 +5,8 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
+use edgemesh::format::read::{Format, ReadError, ReadErrorKind, read_model, read_model_bytes};
 use edgemesh::model::Model;
-use edgemesh::read::{Format, ReadError, ReadErrorKind, read_model, read_model_bytes};
 use edgemesh::report::{Report, WarningCode};
 use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{

@@ -4,13 +4,14 @@
 use std::collections::BTreeMap;
 
 use edgemesh::build::BuildOptions;
-use edgemesh::camera::Camera;
+use edgemesh::edge_mesh::record::{EdgeFlags, EdgeRecord};
+use edgemesh::edge_mesh::replicate::replicate;
 use edgemesh::edge_mesh::{Bounds, EdgeMesh};
 use edgemesh::index::NONE;
-use edgemesh::oracle::classify_edges;
-use edgemesh::oracle::feature::{LineBits, equation_1};
-use edgemesh::record::{EdgeFlags, EdgeRecord};
-use edgemesh::replicate::replicate;
+use edgemesh::oracle::equation_1::equation_1;
+use edgemesh::view::camera::Camera;
+use edgemesh::view::feature::LineBits;
+use edgemesh::view::feature_counts::classify_edges;
 use glam::{DVec3, Vec3, Vec4};
 use proptest::prelude::*;
 

@@ -13,8 +13,8 @@ use bytemuck::{Pod, Zeroable};
 use wgpu::BufferUsages;
 use wgpu::util::DeviceExt as _;
 
-use crate::look::{MAX_DRAWS, MAX_LAYERS};
-use crate::mesh_buffers::ChunkUniform;
+use crate::mesh::layout::ChunkUniform;
+use crate::style::drawing_style::{MAX_DRAWS, MAX_LAYERS};
 
 /// Items that one invocation sums up before a scan. WGSL twin: the constant of this
 /// name.

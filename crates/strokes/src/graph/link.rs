@@ -5,13 +5,17 @@
 //! the first of them writes; rounds are as many as the longest chain could need, and
 //! cost next to nothing once nothing changes.
 
-use crate::detect::compute_pipeline;
-use crate::frame::{bind_buffers, bind_layout, storage_entry, uniform_buffer, uniform_entry};
-use crate::graph::buffers::{CHUNK_GROUPS, GraphBuffers, Groups};
-use crate::mesh_buffers::{ChunkBuffers, EdgeSource, Layout};
-use crate::shader::{ShaderError, ShaderSource};
-use crate::view_buffers::{ObjectBuffers, ViewBuffers};
+use edgemesh_shaders::ShaderError;
 use wgpu::ShaderStages;
+
+use crate::gpu::bind::{
+    bind_buffers, bind_layout, compute_pipeline, storage_entry, uniform_buffer, uniform_entry,
+};
+use crate::gpu::shader::embedded_module;
+use crate::graph::buffers::{CHUNK_GROUPS, GraphBuffers, Groups};
+use crate::mesh::buffers::{ChunkBuffers, EdgeSource};
+use crate::mesh::layout::Layout;
+use crate::view::live_lists::{ObjectBuffers, ViewBuffers};
 
 /// More rounds than any mesh needs: 4 to this power is the number of all indices.
 const MAX_ROUNDS: u32 = 16;
@@ -64,15 +68,14 @@ impl LinkPipeline {
         let pipeline = |module: &wgpu::ShaderModule, entry: &str, groups: [_; 4]| {
             compute_pipeline(device, module, entry, &groups, &[])
         };
-        let module = ShaderSource::embedded("graph/link_bases.wgsl")?.module(device, "link bases");
+        let module = embedded_module(device, "graph/link_bases.wgsl")?;
         let groups = [Some(frame), Some(&layouts.graph), None, Some(&layouts.bases)];
         let bases = pipeline(&module, "link_bases", groups);
-        let source = ShaderSource::embedded_for("graph/link_elements.wgsl", layout)?;
-        let module = source.module(device, "link elements");
+        let module = layout.shader_module(device, "graph/link_elements.wgsl")?;
         let edges = Some(&layouts.edges);
         let groups = [Some(frame), Some(&layouts.graph), edges, Some(&layouts.elements)];
         let elements = pipeline(&module, "link_elements", groups);
-        let module = ShaderSource::embedded("graph/link_chains.wgsl")?.module(device, "chains");
+        let module = embedded_module(device, "graph/link_chains.wgsl")?;
         let groups = [Some(frame), Some(&layouts.graph), None, Some(&layouts.chains)];
         let chain = |entry: &str| pipeline(&module, entry, groups);
         let (nodes, sums) = (Groups::By(NODE_GROUPS), Groups::By(NODE_SUM_GROUPS));

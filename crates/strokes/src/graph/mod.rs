@@ -16,39 +16,5 @@
 //! ```
 
 pub mod buffers;
-pub mod coverage;
 pub(crate) mod link;
-pub mod link_table;
 pub mod path;
-pub mod path_style;
-
-use crate::graph::coverage::CoveragePipeline;
-use crate::graph::link::LinkPipeline;
-use crate::graph::path::PathPipeline;
-use crate::mesh_buffers::Layout;
-use crate::shader::ShaderError;
-use crate::stroke_layouts::StrokeLayouts;
-use crate::targets::TargetFormats;
-
-/// All pipelines of the stroke graph.
-#[derive(Debug)]
-pub(crate) struct GraphPipelines {
-    pub(crate) link: LinkPipeline,
-    pub(crate) path: PathPipeline,
-    pub(crate) coverage: CoveragePipeline,
-}
-
-impl GraphPipelines {
-    pub(crate) fn new(
-        device: &wgpu::Device,
-        layouts: &StrokeLayouts,
-        layout: Layout,
-        formats: &TargetFormats,
-    ) -> Result<Self, ShaderError> {
-        Ok(Self {
-            link: LinkPipeline::new(device, &layouts.frame, layout)?,
-            path: PathPipeline::new(device, &layouts.frame_fill, formats)?,
-            coverage: CoveragePipeline::new(device, layouts, formats)?,
-        })
-    }
-}

@@ -5,16 +5,17 @@
 //! visible.
 
 use bytemuck::{Pod, Zeroable};
+use edgemesh_shaders::ShaderError;
 use wgpu::ShaderStages;
 
-use crate::brush::Brush;
-use crate::detect::compute_pipeline;
-use crate::frame::{bind_buffers, bind_layout, storage_entry, uniform_buffer, uniform_entry};
+use crate::gpu::bind::{
+    bind_buffers, bind_layout, compute_pipeline, storage_entry, uniform_buffer, uniform_entry,
+};
+use crate::gpu::target_formats::TargetFormats;
 use crate::graph::buffers::{GraphBuffers, Groups};
-use crate::graph::path_style::{BrushFit, CURVE_LENGTH, PathStyle};
-use crate::look::{Look, MAX_DRAWS, StyledDraw, Width};
-use crate::shader::{ShaderError, ShaderSource};
-use crate::targets::TargetFormats;
+use crate::style::brush::Brush;
+use crate::style::drawing_style::{Look, MAX_DRAWS, StyledDraw, Width};
+use crate::style::link_style::{BrushFit, CURVE_LENGTH, PathStyle};
 
 /// How the strokes of a linked draw look. WGSL twin: `shaders/common/path_style.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
@@ -22,9 +23,9 @@ use crate::targets::TargetFormats;
 pub struct PathUniform {
     /// The layer.
     pub layer: u32,
-    /// A [`crate::look::Visibility`].
+    /// A [`crate::style::drawing_style::Visibility`].
     pub visibility: u32,
-    /// A [`edgemesh::oracle::stroke_quad::Placement`].
+    /// A [`edgemesh::line::placement::Placement`].
     pub placement: u32,
     /// 1 where the width is in units of the world.
     pub is_world_width: u32,
@@ -36,9 +37,9 @@ pub struct PathUniform {
     pub corner_cosine: f32,
     /// 1 where strokes are cut where they are hidden.
     pub is_cut_where_hidden: u32,
-    /// A [`crate::graph::path_style::Join`].
+    /// A [`crate::style::link_style::Join`].
     pub join: u32,
-    /// A [`crate::graph::path_style::End`].
+    /// A [`crate::style::link_style::End`].
     pub end: u32,
     /// Shorter strokes fade; negative for those shorter than wide.
     pub min_length_px: f32,
@@ -199,7 +200,7 @@ impl PathPipeline {
         let sums = make("path sums", &[0, 3, 4, 8].map(write));
         let mut steps = Vec::new();
         for (file, entries) in STEPS {
-            let module = ShaderSource::embedded_over(file, formats)?.module(device, file);
+            let module = formats.shader_module(device, file)?;
             for &(entry, groups) in *entries {
                 let buffers = match groups {
                     Groups::One => &sums,

@@ -3,9 +3,9 @@
 use clap::Args;
 use edgemesh::command::{Failure, print_to_stdout};
 use serde::Serialize;
-use strokes::gpu::{GpuError, instance, lacking};
+use strokes::gpu::device::{GpuError, instance, lacking};
 
-use crate::render::adapter_failure;
+use crate::picture::renderer::adapter_failure;
 
 /// Lists the graphics adapters and what each lacks
 ///

@@ -4,28 +4,32 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use edgemesh::camera::Camera;
 use edgemesh::command::input::{InputOptions, Loaded};
 use edgemesh::command::{Failure, Listener, print_warnings, write_file};
-use edgemesh::oracle::feature::EdgeClass;
-use edgemesh::oracle::stroke_segment::Parameterization;
+use edgemesh::line::class::LineClass;
+use edgemesh::line::placement::Parameterization;
+use edgemesh::view::camera::Camera;
+use edgemesh_brushes::BRUSH_NAMES;
 use glam::Vec2;
 use image::{Rgba, RgbaImage, imageops};
-use strokes::brush::Brush;
-use strokes::gpu::{self, Gpu};
-use strokes::object::GraphReadback;
+use strokes::gpu::device::{self, Gpu};
+use strokes::renderer::object::GraphReadback;
+use strokes::style::brush::Brush;
 
+use super::options::set;
+use super::render::{parse_size, show_progress};
 use crate::comparison::measure::Sums;
 use crate::comparison::page::{Row, Sheet, csv, html};
 use crate::comparison::samples::{FrameLines, FrameSource};
 use crate::comparison::{CameraPath, Way};
-use crate::picture::encode_png;
-use crate::render::{PictureOptions, PictureRenderer, Scene, adapter_failure, technique_failure};
-use crate::scene_file::SceneObject;
+use crate::picture::png::encode_png;
+use crate::picture::renderer::{
+    PictureOptions, PictureRenderer, adapter_failure, technique_failure,
+};
+use crate::scene::models::Scene;
+use crate::scene::scene_file::SceneObject;
+use crate::technique::brush_file::shipped_brush;
 use crate::technique::library::Library;
-
-use super::options::set;
-use super::render::{parse_size, show_progress};
 
 const EXAMPLES: &str = "Examples:\n  \
     viewer compare-strokes bunny.obj -o comparison\n  \
@@ -49,7 +53,7 @@ pub(super) struct CompareStrokesCommand {
     #[arg(long, value_name = "PATH", value_parser = parse_path)]
     path: Vec<CameraPath>,
     /// Only this brush; repeatable [default: all]
-    #[arg(long, value_name = "BRUSH", value_parser = Brush::NAMES)]
+    #[arg(long, value_name = "BRUSH", value_parser = BRUSH_NAMES)]
     brush: Vec<String>,
     /// Frames of each camera path
     #[arg(long, value_name = "N", default_value = "12", value_parser = clap::value_parser!(u32).range(2..=3600))]
@@ -92,7 +96,7 @@ impl CompareStrokesCommand {
     pub(super) fn run(&self, is_quiet: bool) -> Result<(), Failure> {
         let objects: Vec<SceneObject> =
             self.models.iter().map(|path| SceneObject::plain(path)).collect();
-        let gpu = pollster::block_on(gpu::open(self.adapter.as_deref()));
+        let gpu = pollster::block_on(device::open(self.adapter.as_deref()));
         let mut scenes = Vec::new();
         for object in &objects {
             let listener = Listener::terminal(is_quiet);
@@ -106,7 +110,7 @@ impl CompareStrokesCommand {
         let mut done = 0;
         let is_wanted =
             |brush: &&str| self.brush.is_empty() || self.brush.iter().any(|b| b == brush);
-        let brushes: Vec<&str> = Brush::NAMES.into_iter().filter(is_wanted).collect();
+        let brushes: Vec<&str> = BRUSH_NAMES.into_iter().filter(is_wanted).collect();
         let paths = if self.path.is_empty() { &CameraPath::ALL[..] } else { &self.path };
         let all = brushes.len() * paths.len() * scenes.len();
         for scene in &scenes {
@@ -151,7 +155,7 @@ impl CompareStrokesCommand {
             if way == Way::Chained {
                 // Each class in a layer of its own, in their order: another seed is
                 // another look.
-                for (seed, class) in EdgeClass::ALL.into_iter().enumerate() {
+                for (seed, class) in LineClass::ALL.into_iter().enumerate() {
                     set(&mut technique, &format!("{}.seed={seed}", class.name()), true)?;
                 }
             }
@@ -159,7 +163,7 @@ impl CompareStrokesCommand {
             PictureRenderer::new(gpu, scene, &technique, &[], &options)
         };
         let [object_space, screen_space, chained] = Way::ALL.map(renderer);
-        let texture = Brush::named(brush).transpose().ok().flatten();
+        let texture = shipped_brush(brush).transpose().ok().flatten();
         Ok(Comparison {
             command: self,
             model: &scene.models[0],
@@ -198,7 +202,7 @@ impl Comparison<'_> {
     /// The frames of one camera path.
     fn measure(&mut self, scene: &Scene, path: CameraPath) -> Result<Vec<Row>, Failure> {
         let texture_px = self.command.width * self.brush_aspect;
-        let mut sums = [[Sums::default(); 3]; EdgeClass::ALL.len()];
+        let mut sums = [[Sums::default(); 3]; LineClass::ALL.len()];
         let mut times = [Vec::new(), Vec::new(), Vec::new()];
         let mut before: Option<[FrameLines; 3]> = None;
         for frame in 0..self.command.frames {
@@ -218,7 +222,7 @@ impl Comparison<'_> {
             }
             before = Some(lines);
         }
-        let row = |class: EdgeClass, way: usize, sums: Sums| Row {
+        let row = |class: LineClass, way: usize, sums: Sums| Row {
             model: self.model.name.clone(),
             path: path.name(),
             class: class.name(),
@@ -227,7 +231,7 @@ impl Comparison<'_> {
             sums,
             frame_ms: median(&times[way]),
         };
-        let rows = EdgeClass::ALL.into_iter().zip(sums).flat_map(|(class, sums)| {
+        let rows = LineClass::ALL.into_iter().zip(sums).flat_map(|(class, sums)| {
             sums.into_iter().enumerate().map(move |(way, sums)| (class, way, sums))
         });
         Ok(rows

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use edgemesh::command::Failure;
 
-use crate::lighting::{Light, Lighting, parse_clip_plane, parse_light};
-use crate::render::technique_failure;
+use crate::picture::renderer::technique_failure;
+use crate::scene::lighting::{Light, Lighting, parse_clip_plane, parse_light};
 use crate::technique::Technique;
 use crate::technique::library::Library;
 use crate::technique::mistake::Mistakes;
@@ -91,7 +91,7 @@ pub(crate) struct ClipPlane([f64; 4]);
 
 impl LightingOptions {
     pub(crate) fn lighting(&self) -> Result<Lighting, Failure> {
-        let most = strokes::frame::MAX_CLIP_PLANES;
+        let most = strokes::view::frame::MAX_CLIP_PLANES;
         if self.clip.len() > most {
             return Err(Failure::usage(format!("--clip: there are at most {most} planes")));
         }

@@ -6,13 +6,13 @@ use clap::{Args, ValueEnum};
 use edgemesh::command::Failure;
 use edgemesh::command::input::InputOptions;
 use edgemesh::command::options::CameraOptions;
-use strokes::brush::Brush;
-use strokes::mesh_buffers::Layout;
+use edgemesh_brushes::BRUSH_NAMES;
+use strokes::mesh::layout::Layout;
 use strokes::renderer::DetectionPath;
 
 use super::options::{LibraryOptions, LightingOptions, set};
-use crate::render::PictureOptions;
-use crate::scene_file::{SceneObject, is_scene_file, read_scene_file};
+use crate::picture::renderer::PictureOptions;
+use crate::scene::scene_file::{SceneObject, is_scene_file, read_scene_file};
 use crate::technique::Technique;
 use crate::technique::library::Library;
 
@@ -110,12 +110,12 @@ impl PictureArguments {
     pub(crate) fn change(&self, technique: &mut Technique, is_quiet: bool) -> Result<(), Failure> {
         match self.brush.as_deref() {
             None => {}
-            Some(name) if name == "none" || Brush::NAMES.contains(&name) => {
+            Some(name) if name == "none" || BRUSH_NAMES.contains(&name) => {
                 set(technique, &format!("strokes.brush={name}"), is_quiet)?;
             }
             Some(path) => {
                 if !Path::new(path).is_file() {
-                    let names = Brush::NAMES.join(", ");
+                    let names = BRUSH_NAMES.join(", ");
                     return Err(Failure::fault(format!(
                         "--brush {path}: there is no such file; a brush is a PNG file, or one of \
                          none, {names}"

@@ -7,26 +7,26 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use edgemesh::camera::Camera;
 use edgemesh::command::{
     ExitStatus, Failure, Listener, print_to_stdout, print_warnings, write_file,
 };
-use edgemesh::oracle::FeatureCounts;
+use edgemesh::view::camera::Camera;
+use edgemesh::view::feature_counts::FeatureCounts;
 use image::RgbaImage;
 use serde::Serialize;
-use strokes::gpu::{self, Gpu};
-
-use crate::animation::AnimationKind;
-use crate::parts::AnySizeRenderer;
-use crate::picture::{DEFAULT_REFERENCE_THRESHOLD, as_stored, compare, encode_png, read_png};
-use crate::render::{FrameStatistics, Scene, adapter_failure};
-use crate::scene_file::SceneObject;
-use crate::technique::Technique;
-use crate::technique::library::Library;
-use crate::turntable;
-use crate::watch::Watcher;
+use strokes::gpu::device::{self, Gpu};
 
 use super::picture_arguments::{PictureArguments, objects_of};
+use crate::picture::animation::AnimationKind;
+use crate::picture::png::{DEFAULT_REFERENCE_THRESHOLD, as_stored, compare, encode_png, read_png};
+use crate::picture::renderer::{FrameStatistics, adapter_failure};
+use crate::picture::tiles::AnySizeRenderer;
+use crate::picture::turntable;
+use crate::scene::models::Scene;
+use crate::scene::scene_file::SceneObject;
+use crate::technique::Technique;
+use crate::technique::library::Library;
+use crate::watch::Watcher;
 
 /// Renders models to a PNG, without a window
 #[derive(Debug, Clone, Args)]
@@ -189,7 +189,7 @@ impl RenderCommand {
     ) -> Result<(Gpu, Scene), Failure> {
         thread::scope(|scope| {
             let opening =
-                scope.spawn(|| pollster::block_on(gpu::open(self.picture.adapter.as_deref())));
+                scope.spawn(|| pollster::block_on(device::open(self.picture.adapter.as_deref())));
             let scene = Scene::load(objects, &self.picture.input, Listener::terminal(is_quiet));
             let gpu = opening.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
             // What is wrong with the model is told first; it is likelier and nearer.

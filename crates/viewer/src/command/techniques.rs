@@ -6,7 +6,7 @@ use clap::{Args, Subcommand};
 use edgemesh::command::{ExitStatus, Failure, print_to_stdout};
 
 use super::options::{LibraryOptions, print_mistakes};
-use crate::render::technique_failure;
+use crate::picture::renderer::technique_failure;
 use crate::technique::library::Library;
 use crate::technique::mistake::Mistakes;
 use crate::technique::plan::Plan;

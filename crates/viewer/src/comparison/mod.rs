@@ -17,8 +17,8 @@ pub mod samples;
 
 use std::f64::consts::TAU;
 
-use edgemesh::camera::Camera;
 use edgemesh::edge_mesh::Bounds;
+use edgemesh::view::camera::Camera;
 use glam::DQuat;
 
 /// How a brush lies along strokes.

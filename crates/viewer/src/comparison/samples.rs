@@ -5,17 +5,16 @@
 //! paper's two, u comes from the CPU twin of the stroke shader; along linked strokes from
 //! the ribbons that the GPU made.
 
-use edgemesh::camera::View;
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::oracle::feature::LineBits;
-use edgemesh::oracle::stroke_quad::Placement;
-use edgemesh::oracle::stroke_segment::{
-    ClipEdge, LineKind, Parameterization, StrokeShape, stroke_segment,
-};
-use edgemesh::record::edge_random;
+use edgemesh::edge_mesh::record::edge_random;
+use edgemesh::line::kind::LineKind;
+use edgemesh::line::placement::{Parameterization, Placement};
+use edgemesh::oracle::stroke_segment::{ClipEdge, StrokeShape, stroke_segment};
+use edgemesh::view::camera::View;
+use edgemesh::view::feature::LineBits;
 use glam::{Vec2, Vec3, Vec4};
 use strokes::graph::buffers::{BACKWARD, NO_NODE, Ribbon};
-use strokes::object::GraphReadback;
+use strokes::renderer::object::GraphReadback;
 
 /// A stretch of a line, between two places where u is known.
 #[derive(Debug, Clone, Copy)]
@@ -164,7 +163,7 @@ impl FrameSource<'_> {
 
     fn shape(&self, parameterization: Parameterization) -> StrokeShape {
         let origin = self.view.clip_from_world * Vec4::W;
-        let origin_px = edgemesh::oracle::spine::to_pixels(origin, self.viewport_px);
+        let origin_px = edgemesh::view::projection::to_pixels(origin, self.viewport_px);
         StrokeShape {
             viewport_px: self.viewport_px,
             origin_px: if origin.w > f32::EPSILON { origin_px } else { Vec2::ZERO },

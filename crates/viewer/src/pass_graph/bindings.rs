@@ -1,7 +1,8 @@
 //! Bind groups of passes: parameters, textures and samplers, by the names that
 //! reflection found.
 
-use strokes::gpu::Gpu;
+use edgemesh::command::Failure;
+use strokes::gpu::device::Gpu;
 use wgpu::util::DeviceExt as _;
 
 use super::params::{Iteration, bytes_of};
@@ -9,7 +10,6 @@ use super::textures::{GeneratedTexture, Images};
 use crate::technique::pass::Pass;
 use crate::technique::plan::{Read, ReadSource};
 use crate::technique::program::{Interface, Params, Program, TextureKind};
-use edgemesh::command::Failure;
 
 /// The group of a pass's parameters and textures.
 pub(crate) const PASS_GROUP: u32 = 1;

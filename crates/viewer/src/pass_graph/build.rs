@@ -4,9 +4,10 @@
 use std::cell::RefCell;
 
 use edgemesh::command::Failure;
-use strokes::frame::{Frame, frame_layout};
-use strokes::gpu::Gpu;
-use strokes::targets::{TargetFormats, Targets};
+use strokes::draw::targets::Targets;
+use strokes::gpu::device::Gpu;
+use strokes::gpu::target_formats::TargetFormats;
+use strokes::view::frame::{Frame, frame_layout};
 
 use super::bindings::{Samplers, Sources};
 use super::copy_pass::CopyPass;
@@ -19,7 +20,7 @@ use super::stroke_pass::{self, StrokePasses, StrokeStore};
 use super::surface::Surfaces;
 use super::textures::{GeneratedTexture, Images};
 use super::{GraphOptions, PassGraph, Run, Step, StepKind, blend};
-use crate::render::Scene;
+use crate::scene::models::Scene;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
 use crate::technique::pass::Pass;

@@ -5,9 +5,10 @@
 //! sample, since an average of depths is that of nothing.
 
 use edgemesh::command::Failure;
-use strokes::gpu::Gpu;
-use strokes::gpu_time::TimedPasses;
-use strokes::targets::TargetFormats;
+use strokes::gpu::device::Gpu;
+use strokes::gpu::shader::shader_module;
+use strokes::gpu::target_formats::TargetFormats;
+use strokes::gpu::timer::TimedPasses;
 
 use super::Encoding;
 use super::bindings::Sources;
@@ -98,8 +99,9 @@ fn depth_pipeline(
     let is_sampled = formats.samples > 1;
     let name = if is_sampled { "copy_depth_of_samples" } else { "copy_depth" };
     let vertex = screen_vertex()?;
-    let source = strokes::shader::ShaderSource::embedded(&format!("programs/{name}.wgsl"));
-    let fragment = source.map_err(|error| Failure::fault(error.to_string()))?.module(device, name);
+    let source = edgemesh_shaders::ShaderSource::embedded(&format!("programs/{name}.wgsl"));
+    let source = source.map_err(|error| Failure::fault(error.to_string()))?;
+    let fragment = shader_module(device, &source, name);
     let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some(name),
         entries: &[wgpu::BindGroupLayoutEntry {
@@ -122,7 +124,7 @@ fn depth_pipeline(
         label: Some(name),
         layout: Some(&pipeline_layout),
         vertex: wgpu::VertexState {
-            module: &vertex.source.module(device, "screen"),
+            module: &shader_module(device, &vertex.source, "screen"),
             entry_point: Some(&vertex.function),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: &[],

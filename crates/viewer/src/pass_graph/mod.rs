@@ -32,17 +32,17 @@ mod stroke_style;
 pub mod surface;
 pub(crate) mod textures;
 
-use edgemesh::camera::View;
 use edgemesh::command::Failure;
-use strokes::frame::{Frame, FrameUniform, ObjectUniform, Surroundings};
-use strokes::gpu::Gpu;
-use strokes::gpu_time::TimedPasses;
-use strokes::look::Look;
-use strokes::mesh_buffers::Layout;
-use strokes::picture_part::PicturePart;
+use edgemesh::view::camera::View;
+use strokes::draw::targets::Targets;
+use strokes::gpu::device::Gpu;
+use strokes::gpu::timer::TimedPasses;
+use strokes::mesh::layout::Layout;
 use strokes::renderer::{DetectionPath, PASS_NAMES};
-use strokes::targets::Targets;
-use strokes::view_buffers::Tally;
+use strokes::style::drawing_style::Look;
+use strokes::view::frame::{Frame, FrameUniform, ObjectUniform, Surroundings};
+use strokes::view::live_lists::Tally;
+use strokes::view::tile::PicturePart;
 
 use self::bindings::Sources;
 use self::copy_pass::CopyPass;
@@ -202,7 +202,7 @@ impl PassGraph {
     ///
     /// # Errors
     /// Where the device is lost.
-    pub fn tally(&self, gpu: &Gpu) -> Result<Option<Tally>, strokes::readback::ReadbackError> {
+    pub fn tally(&self, gpu: &Gpu) -> Result<Option<Tally>, strokes::gpu::readback::ReadbackError> {
         let objects = self.counted_objects();
         if objects.is_empty() {
             return Ok(None);
@@ -212,7 +212,7 @@ impl PassGraph {
     }
 
     /// The objects whose strokes are counted.
-    pub(crate) fn counted_objects(&self) -> &[strokes::object::Object] {
+    pub(crate) fn counted_objects(&self) -> &[strokes::renderer::object::Object] {
         let counts_nothing = self.strokes.as_ref().is_some_and(StrokePasses::counts_nothing);
         let group = self.stroke_groups().next().filter(|_| !counts_nothing);
         group.map_or(&[], |group| &group.objects)
@@ -335,7 +335,7 @@ fn place(gpu: &Gpu, surfaces: &mut Surfaces, view: &View, part: &PicturePart) {
 /// Where a brush cannot be read or a curve is wrong.
 pub fn strokes_of(
     technique: &Technique,
-    frame: &edgemesh::build::Frame,
+    frame: &edgemesh::edge_mesh::MeshFrame,
     built: [f64; 2],
 ) -> Result<Look, Failure> {
     let is_drawn =

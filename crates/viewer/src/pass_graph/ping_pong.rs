@@ -6,7 +6,7 @@
 //! ```
 
 use edgemesh::command::Failure;
-use strokes::gpu_time::TimedPasses;
+use strokes::gpu::timer::TimedPasses;
 
 use super::Encoding;
 use super::bindings::Sources;

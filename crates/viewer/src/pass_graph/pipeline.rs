@@ -1,13 +1,17 @@
 //! The pipeline of a pass: its programs, what they are given, and what is drawn into.
 
+use std::borrow::Cow;
+
 use edgemesh::command::{ExitStatus, Failure};
-use strokes::fill::push_away;
-use strokes::gpu::Gpu;
-use strokes::targets::TargetFormats;
+use strokes::draw::fill::push_away;
+use strokes::gpu::device::Gpu;
+use strokes::gpu::shader::shader_module;
+use strokes::gpu::target_formats::TargetFormats;
 
 use super::bindings::{GroupPlan, PASS_GROUP, Sources, VERTEX_GROUP};
 use super::params::Iteration;
 use super::surface::VERTEX_ATTRIBUTES;
+use crate::technique::loop_bound::bound_loops;
 use crate::technique::pass::Pass;
 use crate::technique::plan::Read;
 use crate::technique::program::Program;
@@ -159,7 +163,7 @@ fn render_pipeline(
     let device = &gpu.device;
     // Two programs that do not fit each other are found only here.
     let faults = device.push_error_scope(wgpu::ErrorFilter::Validation);
-    let modules = [vertex, fragment].map(|program| program.module(device, label));
+    let modules = [vertex, fragment].map(|program| program_module(program, device, label));
     let buffers = [Some(wgpu::VertexBufferLayout {
         array_stride: 32,
         step_mode: wgpu::VertexStepMode::Vertex,
@@ -242,4 +246,18 @@ fn depth_state(
             wgpu::DepthBiasState::default()
         },
     }
+}
+
+/// Makes the module of a program on a device; loops of a program that does not ship are
+/// bounded.
+fn program_module(program: &Program, device: &wgpu::Device, label: &str) -> wgpu::ShaderModule {
+    let parsed = if program.is_bounded { program.source.reflect().ok() } else { None };
+    let Some((mut module, _)) = parsed else {
+        return shader_module(device, &program.source, label);
+    };
+    bound_loops(&mut module);
+    device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(label),
+        source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
+    })
 }

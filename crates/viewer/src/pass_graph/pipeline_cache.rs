@@ -4,9 +4,9 @@
 use std::sync::Arc;
 
 use edgemesh::command::Failure;
-use strokes::gpu::Gpu;
-use strokes::recent::Recent;
-use strokes::shader::ShaderSource;
+use edgemesh_shaders::ShaderSource;
+use strokes::gpu::device::Gpu;
+use strokes::gpu::recent::Recent;
 
 use super::pipeline::{Geometry, PassPipeline, PipelineTarget, Programs};
 use crate::technique::plan::Read;

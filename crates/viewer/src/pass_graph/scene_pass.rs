@@ -1,8 +1,8 @@
 //! `simple_render`: the surfaces of the scene with a vertex and a fragment program.
 
 use edgemesh::command::Failure;
-use strokes::gpu_time::TimedPasses;
-use strokes::targets::Targets;
+use strokes::draw::targets::Targets;
+use strokes::gpu::timer::TimedPasses;
 
 use super::Encoding;
 use super::bindings::Sources;

@@ -1,8 +1,8 @@
 //! `process_texture`, `generate_texture`, `composite`: a program over a whole target.
 
 use edgemesh::command::{ExitStatus, Failure};
-use strokes::gpu::Gpu;
-use strokes::gpu_time::TimedPasses;
+use strokes::gpu::device::Gpu;
+use strokes::gpu::timer::TimedPasses;
 
 use super::Encoding;
 use super::bindings::Sources;

@@ -8,19 +8,19 @@
 use std::sync::Arc;
 
 use edgemesh::command::{ExitStatus, Failure};
-use strokes::gpu::Gpu;
-use strokes::gpu_time::TimedPasses;
-use strokes::mesh_buffers::MeshBuffers;
-use strokes::object::Object;
+use edgemesh_shaders::ShaderError;
+use strokes::gpu::device::Gpu;
+use strokes::gpu::target_formats::TargetFormats;
+use strokes::gpu::timer::TimedPasses;
+use strokes::mesh::buffers::MeshBuffers;
+use strokes::renderer::object::Object;
 use strokes::renderer::{
     DetectionPath, Fill, FrameRequest, PreparedLook, Renderer, RendererOptions,
 };
-use strokes::shader::ShaderError;
-use strokes::targets::TargetFormats;
 
 use super::stroke_style::look_of;
 use super::{Encoding, GraphOptions};
-use crate::render::Scene;
+use crate::scene::models::Scene;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
 use crate::technique::pass::Pass;

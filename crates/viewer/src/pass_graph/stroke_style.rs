@@ -3,15 +3,16 @@
 
 use std::path::PathBuf;
 
-use edgemesh::build::Frame;
 use edgemesh::command::Failure;
-use edgemesh::oracle::feature::EdgeClass;
-use edgemesh::oracle::stroke_quad::Placement;
-use edgemesh::oracle::stroke_segment::{LineKind, Parameterization};
-use strokes::brush::Brush;
-use strokes::graph::path_style::{BrushFit, CURVE_LENGTH, End, Join, PathStyle};
-use strokes::look::{Layer, Look, StrokeStyle, Width};
+use edgemesh::edge_mesh::MeshFrame;
+use edgemesh::line::class::LineClass;
+use edgemesh::line::kind::LineKind;
+use edgemesh::line::placement::{Parameterization, Placement};
+use strokes::style::brush::Brush;
+use strokes::style::drawing_style::{Layer, Look, StrokeStyle, Width};
+use strokes::style::link_style::{BrushFit, CURVE_LENGTH, End, Join, PathStyle};
 
+use crate::technique::brush_file::brush_from_png;
 use crate::technique::class_pass::classes_of;
 use crate::technique::curve::parse_curve;
 use crate::technique::image_file;
@@ -31,26 +32,26 @@ const MIN_WIDTH_PX: f32 = 0.1;
 pub(crate) fn look_of(
     passes: &[&Pass],
     folders: &[PathBuf],
-    frame: &Frame,
+    frame: &MeshFrame,
     built: [f64; 2],
 ) -> Result<Look, Failure> {
     let styles = passes
         .iter()
         .map(|pass| Ok((*pass, style_of(pass, folders, frame)?)))
         .collect::<Result<Vec<(&Pass, StrokeStyle)>, Failure>>()?;
-    let style = |visibility: &str, class: EdgeClass| {
+    let style = |visibility: &str, class: LineClass| {
         let draws = |(pass, _): &&(&Pass, StrokeStyle)| {
             let classes = classes_of(pass.string("classes")).unwrap_or_default();
             pass.string("visibility") == visibility && classes.contains(&class)
         };
         styles.iter().find(draws).map(|(_, style)| style.clone())
     };
-    let silhouette = style("silhouette", EdgeClass::Contour);
+    let silhouette = style("silhouette", LineClass::Contour);
     let mut layers: Vec<Layer> = Vec::new();
-    for class in EdgeClass::ALL {
+    for class in LineClass::ALL {
         let (visible, hidden) = (style("visible", class), style("hidden", class));
         // Contours that are not drawn themselves are still needed for a silhouette.
-        let is_needed = class == EdgeClass::Contour && silhouette.is_some();
+        let is_needed = class == LineClass::Contour && silhouette.is_some();
         if visible.is_none() && hidden.is_none() && !is_needed {
             continue;
         }
@@ -76,7 +77,7 @@ fn thresholds_of(passes: &[&Pass], built: [f64; 2]) -> Option<[f64; 2]> {
     }
 }
 
-fn style_of(pass: &Pass, folders: &[PathBuf], frame: &Frame) -> Result<StrokeStyle, Failure> {
+fn style_of(pass: &Pass, folders: &[PathBuf], frame: &MeshFrame) -> Result<StrokeStyle, Failure> {
     #[expect(clippy::cast_possible_truncation, reason = "a width or a distance")]
     let scaled = |value: f32| (f64::from(value) * frame.scale) as f32;
     let [r, g, b, a] = pass.numbers("color");
@@ -161,7 +162,7 @@ fn brush_of(pass: &Pass, folders: &[PathBuf]) -> Result<Option<Brush>, Failure> 
     let failed =
         |error: &dyn std::fmt::Display| Failure::fault(format!("{}: {error}", file.name()));
     let bytes = file.bytes().map_err(|error| failed(&error))?;
-    Brush::from_png(&file.name(), &bytes)
+    brush_from_png(&file.name(), &bytes)
         .map(Some)
         .map_err(|error| Failure::fault(error.to_string()))
 }
@@ -181,7 +182,7 @@ mod tests {
 
     const BUILT: [f64; 2] = [0.5, 0.6];
 
-    fn look(settings: &[&str], frame: &Frame) -> Look {
+    fn look(settings: &[&str], frame: &MeshFrame) -> Look {
         let mut technique = Library::shipped().technique("ink").unwrap().0;
         for setting in settings {
             technique.set(setting).unwrap();
@@ -190,7 +191,7 @@ mod tests {
     }
 
     fn layers(settings: &[&str]) -> Vec<Layer> {
-        look(settings, &Frame::default()).layers
+        look(settings, &MeshFrame::default()).layers
     }
 
     #[test]
@@ -198,19 +199,19 @@ mod tests {
         assert_eq!(layers(&[]).len(), 1);
         let two = layers(&["ridge.width=4"]);
         assert_eq!(two.len(), 2);
-        assert_eq!(two[1].classes, [EdgeClass::Ridge]);
+        assert_eq!(two[1].classes, [LineClass::Ridge]);
         let ridge_again = layers(&["ridge.width=4", "strokes.width=4"]);
         assert_eq!(ridge_again.len(), 1, "all are 4 wide now");
         assert_eq!(layers(&["strokes.render=false"]).len(), 0);
         let silhouette = layers(&["strokes.render=false", "silhouette.render=true"]);
-        assert_eq!(silhouette[0].classes, [EdgeClass::Contour], "found, and not drawn");
+        assert_eq!(silhouette[0].classes, [LineClass::Contour], "found, and not drawn");
         assert_eq!(layers(&["hidden.render=true"]).len(), 1);
         assert_eq!(layers(&["hidden-ridge.render=true"]).len(), 2);
     }
 
     #[test]
     fn units_of_the_model_go_by_its_frame() {
-        let frame = Frame { scale: 0.5, ..Frame::default() };
+        let frame = MeshFrame { scale: 0.5, ..MeshFrame::default() };
         let look =
             look(&["strokes.width=3", "strokes.width_unit=model", "strokes.fade=2,4"], &frame);
         let style = look.layers[0].visible.as_ref().unwrap();
@@ -219,7 +220,7 @@ mod tests {
 
     #[test]
     fn thresholds_that_are_not_set_are_those_of_the_mesh() {
-        let frame = Frame::default();
+        let frame = MeshFrame::default();
         assert_eq!(look(&[], &frame).thresholds, None);
         let set = look(&["strokes.ridge_angle=90"], &frame).thresholds.unwrap();
         assert!((set[0] - std::f64::consts::FRAC_PI_2).abs() < 1e-6, "{set:?}");
@@ -228,7 +229,7 @@ mod tests {
 
     #[test]
     fn values_outside_mean_what_they_say() {
-        let frame = Frame::default();
+        let frame = MeshFrame::default();
         let plain = look(&["strokes.linked=true"], &frame);
         let path = plain.layers[0].visible.as_ref().unwrap().path.clone().unwrap();
         assert_eq!((path.clone(), path.dash_px), (PathStyle::default(), None));

@@ -9,17 +9,17 @@ use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh::command::Failure;
+use edgemesh::edge_mesh::replicate::Quantization;
 use edgemesh::edge_mesh::{EdgeMesh, FillVertex};
 use edgemesh::index::{NONE, to_u32};
-use edgemesh::replicate::Quantization;
 use glam::DMat4;
-use strokes::gpu::Gpu;
-use strokes::mesh_buffers::Layout;
+use strokes::gpu::device::Gpu;
+use strokes::mesh::layout::Layout;
 use wgpu::util::DeviceExt as _;
 
 use super::material::MaterialUniform;
 use super::textures::{Images, averaged_levels, decode_image, upload};
-use crate::render::Scene;
+use crate::scene::models::Scene;
 
 /// The vertices of surfaces: position, normal, texture coordinate.
 pub(crate) const VERTEX_ATTRIBUTES: [wgpu::VertexAttribute; 3] =
@@ -326,7 +326,7 @@ impl SurfaceObject {
         });
         let uniform = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("surface object"),
-            size: size_of::<strokes::frame::ObjectUniform>() as u64,
+            size: size_of::<strokes::view::frame::ObjectUniform>() as u64,
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });

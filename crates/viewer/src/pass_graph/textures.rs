@@ -6,7 +6,7 @@ use std::time::SystemTime;
 
 use edgemesh::command::Failure;
 use image::RgbaImage;
-use strokes::gpu::Gpu;
+use strokes::gpu::device::Gpu;
 
 use crate::technique::image_file::ImageFile;
 use crate::technique::plan::TexturePlan;

@@ -4,7 +4,7 @@
 //! look different gives them a pass of their own; command lines do it by the name of
 //! the class, as in `--set ridge.width=4`.
 
-use edgemesh::oracle::feature::EdgeClass;
+use edgemesh::line::class::LineClass;
 
 use super::core::CoreComponent;
 use super::mistake::Mistakes;
@@ -18,14 +18,14 @@ pub(crate) const ALL_CLASSES: &str = "all";
 ///
 /// # Errors
 /// The first word that is no class.
-pub(crate) fn classes_of(text: &str) -> Result<Vec<EdgeClass>, String> {
+pub(crate) fn classes_of(text: &str) -> Result<Vec<LineClass>, String> {
     if text.trim() == ALL_CLASSES {
-        return Ok(EdgeClass::ALL.to_vec());
+        return Ok(LineClass::ALL.to_vec());
     }
     let words = text.split([',', ' ']).filter(|word| !word.is_empty());
     words
         .map(|word| {
-            let found = EdgeClass::ALL.into_iter().find(|class| class.name() == word);
+            let found = LineClass::ALL.into_iter().find(|class| class.name() == word);
             found.ok_or_else(|| word.to_owned())
         })
         .collect()
@@ -34,11 +34,11 @@ pub(crate) fn classes_of(text: &str) -> Result<Vec<EdgeClass>, String> {
 /// Whether a name of a pass is that of a class, visible or hidden.
 pub(crate) fn is_class(name: &str) -> bool {
     let class = name.strip_prefix("hidden_").unwrap_or(name);
-    EdgeClass::ALL.iter().any(|known| known.name() == class)
+    LineClass::ALL.iter().any(|known| known.name() == class)
 }
 
 /// The text of a list of classes.
-fn text_of(classes: &[EdgeClass]) -> String {
+fn text_of(classes: &[LineClass]) -> String {
     let names: Vec<&str> = classes.iter().map(|class| class.name()).collect();
     names.join(", ")
 }
@@ -51,7 +51,7 @@ pub(crate) fn split(passes: &mut Vec<Pass>, name: &str) -> Option<Vec<usize>> {
         Some(class) => ("hidden", class),
         None => ("visible", name),
     };
-    let class = EdgeClass::ALL.into_iter().find(|class| class.name() == class_name)?;
+    let class = LineClass::ALL.into_iter().find(|class| class.name() == class_name)?;
     let draws = |pass: &Pass| {
         pass.component.core == CoreComponent::Strokes
             && pass.string("visibility") == visibility
@@ -60,13 +60,13 @@ pub(crate) fn split(passes: &mut Vec<Pass>, name: &str) -> Option<Vec<usize>> {
     let at = passes.iter().position(draws)?;
     let (index, _) = passes[at].component.variable("classes")?;
     let mut own = passes[at].clone();
-    let rest: Vec<EdgeClass> = classes_of(own.string("classes"))
+    let rest: Vec<LineClass> = classes_of(own.string("classes"))
         .unwrap_or_default()
         .into_iter()
         .filter(|other| *other != class)
         .collect();
     let mut mistakes = Mistakes::default();
-    let mut set = |pass: &mut Pass, classes: &[EdgeClass]| {
+    let mut set = |pass: &mut Pass, classes: &[LineClass]| {
         pass.set_value(index, Value::String(text_of(classes)), None, &mut mistakes);
     };
     set(&mut own, &[class]);
@@ -121,6 +121,6 @@ mod tests {
         assert!(error.contains("no pass of fur draws 'marked'"), "{error}");
         assert!(fur.set("contour.width=3").is_ok(), "that is a pass");
         assert_eq!(classes_of("ridge, edge"), Err("edge".to_owned()));
-        assert_eq!(classes_of("all").unwrap().len(), EdgeClass::ALL.len());
+        assert_eq!(classes_of("all").unwrap().len(), LineClass::ALL.len());
     }
 }

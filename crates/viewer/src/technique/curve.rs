@@ -1,6 +1,6 @@
 //! Curves along strokes, as text: `0.3,1,0.3`.
 
-use strokes::graph::path_style::CURVE_LENGTH;
+use strokes::style::link_style::CURVE_LENGTH;
 
 /// Two to eight numbers, spread evenly over the values of a curve.
 pub(crate) fn parse_curve(value: &str, most: f32) -> Result<[f32; CURVE_LENGTH], String> {

@@ -3,35 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use edgemesh_brushes::IMAGES;
+
 use super::mistake::{Mistake, Place};
 use super::texture_name::{TextureName, TextureSource};
-
-macro_rules! shipped {
-    ($($directory:literal $image:literal $path:literal;)+) => {
-        &[$(($directory, $image, include_bytes!(concat!("../../../../brushes/", $path)))),+]
-    };
-}
-
-/// The images that are shipped: directory, name, and the PNG.
-const SHIPPED: &[(&str, &str, &[u8])] = shipped! {
-    "brushes" "charcoal" "charcoal.png";
-    "brushes" "dash" "dash.png";
-    "brushes" "fur" "fur.png";
-    "brushes" "pen" "pen.png";
-    "brushes" "watercolor" "watercolor.png";
-    "papers" "canvas" "papers/canvas.png";
-    "papers" "laid" "papers/laid.png";
-    "papers" "rough" "papers/rough.png";
-    "tonal_art_maps" "charcoal_123" "tonal_art_maps/charcoal_123.png";
-    "tonal_art_maps" "charcoal_456" "tonal_art_maps/charcoal_456.png";
-    "tonal_art_maps" "pen_123" "tonal_art_maps/pen_123.png";
-    "tonal_art_maps" "pen_456" "tonal_art_maps/pen_456.png";
-    "toon_maps" "gradient" "toon_maps/gradient.png";
-    "toon_maps" "metallic" "toon_maps/metallic.png";
-    "toon_maps" "spectrum" "toon_maps/spectrum.png";
-    "toon_maps" "three_steps" "toon_maps/three_steps.png";
-    "toon_maps" "two_steps" "toon_maps/two_steps.png";
-};
 
 /// An image that is there.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -49,7 +24,7 @@ impl ImageFile {
     /// Where the file cannot be read.
     pub fn bytes(&self) -> std::io::Result<std::borrow::Cow<'static, [u8]>> {
         match self {
-            Self::Shipped(at) => Ok(SHIPPED[*at].2.into()),
+            Self::Shipped(at) => Ok(IMAGES[*at].png.into()),
             Self::File(path) => std::fs::read(path).map(Into::into),
         }
     }
@@ -67,7 +42,7 @@ impl ImageFile {
     #[must_use]
     pub fn directory(&self) -> Option<&str> {
         match self {
-            Self::Shipped(at) => Some(SHIPPED[*at].0),
+            Self::Shipped(at) => Some(IMAGES[*at].directory),
             Self::File(path) => path.parent()?.file_name()?.to_str(),
         }
     }
@@ -76,7 +51,7 @@ impl ImageFile {
     #[must_use]
     pub fn name(&self) -> String {
         match self {
-            Self::Shipped(at) => format!("{}:{}", SHIPPED[*at].0, SHIPPED[*at].1),
+            Self::Shipped(at) => format!("{}:{}", IMAGES[*at].directory, IMAGES[*at].name),
             Self::File(path) => path.display().to_string(),
         }
     }
@@ -113,7 +88,7 @@ pub(crate) fn find(
     let images = images_of(directory, folders);
     if images.is_empty() {
         let mistake = error(format!("there is no image directory '{directory}'"));
-        let mut names: Vec<&str> = SHIPPED.iter().map(|(directory, ..)| *directory).collect();
+        let mut names: Vec<&str> = IMAGES.iter().map(|image| image.directory).collect();
         names.dedup();
         return Err(mistake.names(directory, names));
     }
@@ -141,8 +116,8 @@ pub fn images_of(directory: &str, folders: &[PathBuf]) -> Vec<(String, ImageFile
             images.extend(files_of(&path));
         }
     }
-    let shipped = SHIPPED.iter().enumerate().filter(|(_, image)| image.0 == directory);
-    images.extend(shipped.map(|(at, image)| (image.1.to_owned(), ImageFile::Shipped(at))));
+    let shipped = IMAGES.iter().enumerate().filter(|(_, image)| image.directory == directory);
+    images.extend(shipped.map(|(at, image)| (image.name.to_owned(), ImageFile::Shipped(at))));
     images
 }
 

@@ -19,6 +19,7 @@
 //! - [`plan`]: a technique with everything checked.
 //! - [`changes`], [`mod@write`]: a technique that was changed, as settings and as a file.
 
+pub mod brush_file;
 pub mod changes;
 pub(crate) mod class_pass;
 mod component_file;

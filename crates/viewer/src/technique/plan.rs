@@ -13,21 +13,19 @@
 
 use std::path::PathBuf;
 
-use edgemesh::oracle::feature::EdgeClass;
+use edgemesh::line::class::LineClass;
 
-use super::Technique;
 use super::class_pass::{ALL_CLASSES, classes_of};
 use super::core::CoreComponent;
 use super::curve::parse_curve;
-use super::image_file;
 use super::mistake::{Mistake, Mistakes, Place};
 use super::pass::Pass;
-use super::plan_params;
 use super::program::{Output, Program, ProgramKind, ShaderFiles, TextureKind};
 use super::texture_format::{
     DEPTH_FORMAT, FORMATS, TextureSize, format_of, is_blendable, is_filterable, kind_of,
 };
 use super::texture_name::{TextureName, TextureSource};
+use super::{Technique, image_file, plan_params};
 
 /// A technique with everything checked.
 #[derive(Debug, Clone, Default)]
@@ -208,7 +206,7 @@ impl Planner<'_> {
                 let (format, size) = match core {
                     CoreComponent::GenerateTexture => (self.formats(pass, 1)[0], size),
                     _ if is_depth => (DEPTH_FORMAT, TextureSize::PICTURE),
-                    _ => (strokes::targets::COLOR_FORMAT, TextureSize::PICTURE),
+                    _ => (strokes::gpu::target_formats::COLOR_FORMAT, TextureSize::PICTURE),
                 };
                 let texture = self.texture(pass, "texture", name, size, format);
                 match is_depth {
@@ -278,9 +276,9 @@ impl Planner<'_> {
                 let mistake = Mistake::error(place, format!("there is no format '{word}'"));
                 self.mistakes.add(mistake.names(word, FORMATS.map(|(word, _)| word)));
             }
-            formats.push(format.unwrap_or(strokes::targets::COLOR_FORMAT));
+            formats.push(format.unwrap_or(strokes::gpu::target_formats::COLOR_FORMAT));
         }
-        let last = formats.last().copied().unwrap_or(strokes::targets::COLOR_FORMAT);
+        let last = formats.last().copied().unwrap_or(strokes::gpu::target_formats::COLOR_FORMAT);
         formats.resize(count, last);
         formats
     }
@@ -440,7 +438,7 @@ impl Planner<'_> {
         }
         if let Err(word) = classes_of(pass.string("classes")) {
             let message = format!("there is no class '{word}'");
-            let classes = EdgeClass::ALL.map(EdgeClass::name).into_iter().chain([ALL_CLASSES]);
+            let classes = LineClass::ALL.map(LineClass::name).into_iter().chain([ALL_CLASSES]);
             let mistake = Mistake::error(pass.place_of("classes"), message);
             self.mistakes.add(mistake.names(&word, classes));
         }

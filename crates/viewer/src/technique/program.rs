@@ -16,16 +16,15 @@
 //! Rejected: parameters by position, or a struct of fixed slots, which read well
 //! nowhere and break when a line moves.
 
-use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use edgemesh_shaders::files::{PROGRAMS, text as embedded_text};
+use edgemesh_shaders::{ShaderError, ShaderSource};
 use naga::{AddressSpace, ImageClass, ImageDimension, ScalarKind, ShaderStage, TypeInner};
-use strokes::shader::{EMBEDDED, ShaderError, ShaderSource, embedded_text};
 
 use super::library::text_of;
-use super::loop_bound::bound_loops;
 use super::mistake::{Mistake, Mistakes, Place, SourceText};
 
 /// Which program of a pass.
@@ -66,20 +65,6 @@ pub struct Program {
     pub asks_for_clips: bool,
     /// Whether its loops are counted, as it is not one that ships.
     pub is_bounded: bool,
-}
-
-impl Program {
-    /// Makes its module on a device.
-    #[must_use]
-    pub fn module(&self, device: &wgpu::Device, label: &str) -> wgpu::ShaderModule {
-        let parsed = if self.is_bounded { self.source.reflect().ok() } else { None };
-        let Some((mut module, _)) = parsed else { return self.source.module(device, label) };
-        bound_loops(&mut module);
-        device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(label),
-            source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
-        })
-    }
 }
 
 /// What a program wants to be given, and gives.
@@ -316,7 +301,7 @@ impl ShaderFiles {
         }
         let is_clips = |known: &naga::Override| known.name.as_deref() == Some("CLIPS");
         let asks_for_clips = module.overrides.iter().any(|(_, known)| is_clips(known));
-        let shipped = ShaderSource::resolve(path, &embedded_text);
+        let shipped = ShaderSource::embedded(path);
         let is_bounded = shipped.map_or(true, |shipped| shipped.text != source.text);
         let function = function.to_owned();
         let program = Program { function, source, interface, asks_for_clips, is_bounded };
@@ -339,7 +324,7 @@ impl ShaderFiles {
 
 /// The common files that programs import, as those that ship show.
 fn imported_files() -> BTreeSet<&'static str> {
-    let programs = EMBEDDED.iter().filter(|(path, _)| path.starts_with("programs/"));
+    let programs = PROGRAMS.iter().filter(|(path, _)| path.starts_with("programs/"));
     let imports = programs.flat_map(|(_, text)| text.lines()).filter_map(|line| {
         let path = line.trim().strip_prefix("#import")?.trim();
         path.strip_prefix('<')?.strip_suffix('>')

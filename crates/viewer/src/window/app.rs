@@ -12,16 +12,14 @@ use egui::{CentralPanel, Panel, Sense, Ui};
 
 use super::background::{Background, Tell};
 use super::canvas::Canvas;
-use super::desktop;
 use super::hands::Hands;
 use super::loading::{self, Built, LoadedScene, Loading, ToLoad};
 use super::opening::{Kept, Lost, watch_device};
-use super::panels;
 use super::saving::{self, Order};
 use super::session::{Request, Session, Work};
-use super::style;
 use super::thumbnails::{self, Thumbnail};
 use super::watching::{Change, Watching};
+use super::{desktop, panels, style};
 use crate::technique::write::written;
 
 /// The key under which the window remembers.

@@ -8,8 +8,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use edgemesh::command::{ExitStatus, Failure};
-use strokes::gpu::Gpu;
-use strokes::shader::ShaderError;
+use edgemesh_shaders::ShaderError;
+use strokes::gpu::device::Gpu;
 
 use super::inspection::Inspection;
 use super::loading::Built;
@@ -18,7 +18,10 @@ use super::recipe::Appearance;
 use super::session::Session;
 use super::viewpoint::Viewpoint;
 use super::watching::Change;
-use crate::render::{FrameStatistics, PendingStatistics, PictureOptions, PictureRenderer, Scene};
+use crate::picture::renderer::{
+    FrameStatistics, PendingStatistics, PictureOptions, PictureRenderer,
+};
+use crate::scene::models::Scene;
 
 /// The pictures of the window: one, or two to be compared.
 pub(super) struct Canvas {

@@ -5,8 +5,8 @@ use glam::{DQuat, DVec2, DVec3};
 
 use super::navigation::Canvas;
 use super::viewpoint::Viewpoint;
-use crate::lighting::Light;
-use crate::render::Scene;
+use crate::scene::lighting::Light;
+use crate::scene::models::Scene;
 
 /// The direction to the light, in the camera's space: right, up, toward the viewer.
 #[must_use]

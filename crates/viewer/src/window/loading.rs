@@ -8,13 +8,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use edgemesh::command::{ExitStatus, Failure, Listener};
-use strokes::gpu::Gpu;
+use strokes::gpu::device::Gpu;
 
 use super::background::{Background, Tell};
 use super::recipe::Recipe;
 use crate::command::picture_arguments::{PictureArguments, objects_of};
-use crate::render::{PictureOptions, PictureRenderer, Scene};
-use crate::scene_file::SceneObject;
+use crate::picture::renderer::{PictureOptions, PictureRenderer};
+use crate::scene::models::Scene;
+use crate::scene::scene_file::SceneObject;
 use crate::technique::Technique;
 use crate::technique::library::Library;
 

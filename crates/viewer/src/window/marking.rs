@@ -12,13 +12,13 @@ use edgemesh::build::{BuildOptions, set_marks};
 use edgemesh::command::marks::{SideMarks, marks_text, read_marks, side_file};
 use edgemesh::command::{Failure, write_file};
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::record::EdgeFlags;
+use edgemesh::edge_mesh::record::EdgeFlags;
 use glam::{DVec2, DVec3};
 
 use super::navigation::Canvas;
 use super::picking::hit;
 use super::viewpoint::Viewpoint;
-use crate::render::Scene;
+use crate::scene::models::Scene;
 
 /// Edges that are being marked.
 #[derive(Debug, Default)]
@@ -269,7 +269,7 @@ mod tests {
     use edgemesh::command::input::InputOptions;
 
     use super::*;
-    use crate::scene_file::SceneObject;
+    use crate::scene::scene_file::SceneObject;
 
     /// A strip of two squares, seen from before, with a line of the file at its left.
     const STRIP: &str = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\n\

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use edgemesh::command::{ExitStatus, Failure};
-use strokes::gpu;
+use strokes::gpu::device;
 
 use super::app::Window;
 use super::loading::ToLoad;
@@ -161,12 +161,12 @@ fn open(
 /// The adapter and the device, asked for as `viewer render` does.
 fn window_setup(adapter: Option<&str>) -> egui_wgpu::WgpuSetupCreateNew {
     let mut setup = egui_wgpu::WgpuSetupCreateNew::without_display_handle();
-    setup.instance_descriptor.backends = gpu::backends();
+    setup.instance_descriptor.backends = device::backends();
     let wanted = adapter.map(str::to_owned);
     setup.native_adapter_selector = Some(Arc::new(move |adapters, surface| {
-        gpu::choose(adapters, wanted.as_deref(), surface).map_err(|error| error.to_string())
+        device::choose(adapters, wanted.as_deref(), surface).map_err(|error| error.to_string())
     }));
-    setup.device_descriptor = Arc::new(gpu::device_descriptor);
+    setup.device_descriptor = Arc::new(device::device_descriptor);
     setup
 }
 
@@ -174,7 +174,7 @@ fn window_failure(error: &eframe::Error) -> Failure {
     match error {
         eframe::Error::Wgpu(egui_wgpu::WgpuError::CreateSurfaceError(error)) => {
             // Without any adapter there is nothing to make a surface for.
-            let none = gpu::choose(&[], None, None).err();
+            let none = device::choose(&[], None, None).err();
             let message = none.map_or_else(|| error.to_string(), |error| error.to_string());
             Failure { message, status: ExitStatus::NoAdapter }
         }

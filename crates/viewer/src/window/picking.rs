@@ -7,7 +7,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::render::Scene;
+use crate::scene::models::Scene;
 
 /// Where a ray meets the scene first.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,7 +71,7 @@ mod tests {
     use edgemesh::command::input::{DEMO, InputOptions};
 
     use super::*;
-    use crate::scene_file::SceneObject;
+    use crate::scene::scene_file::SceneObject;
 
     #[test]
     fn a_ray_meets_the_nearest_side_of_the_demo() {

@@ -3,8 +3,9 @@
 //! egui could draw them as an image; its shader works out colours pixel by pixel, which
 //! on a software adapter costs more than many pictures do.
 
+use edgemesh_shaders::{ShaderError, ShaderSource};
 use egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState};
-use strokes::shader::{ShaderError, ShaderSource};
+use strokes::gpu::shader::shader_module;
 
 /// What paints pictures on a window.
 #[derive(Debug, Clone)]
@@ -26,7 +27,7 @@ impl PicturePainter {
     /// Where the shader cannot be put together.
     pub(super) fn new(window: &RenderState) -> Result<Self, ShaderError> {
         let device = &window.device;
-        let module = ShaderSource::embedded("window.wgsl")?.module(device, "window");
+        let module = shader_module(device, &ShaderSource::embedded("window.wgsl")?, "window");
         let is_linear = f64::from(u8::from(window.target_format.is_srgb()));
         let constants = [("IS_LINEAR", is_linear)];
         let compilation_options =

@@ -13,14 +13,14 @@
 use std::path::{Path, PathBuf};
 
 use clap::Parser as _;
-use edgemesh::build::Frame;
 use edgemesh::command::Failure;
 use edgemesh::command::input::DEMO;
+use edgemesh::edge_mesh::MeshFrame;
 
 use super::viewpoint::Viewpoint;
 use crate::command::picture_arguments::PictureArguments;
-use crate::lighting::{Light, Lighting};
-use crate::render::{PictureOptions, technique_failure};
+use crate::picture::renderer::{PictureOptions, technique_failure};
+use crate::scene::lighting::{Light, Lighting};
 use crate::technique::Technique;
 use crate::technique::changes::changes;
 use crate::technique::library::Library;
@@ -104,7 +104,7 @@ impl Recipe {
     pub fn take_viewpoint(
         &mut self,
         bounds: &edgemesh::edge_mesh::Bounds,
-        frame: &Frame,
+        frame: &MeshFrame,
     ) -> Result<(), Failure> {
         let options = &self.arguments.camera;
         let camera = options.camera(bounds, frame)?;
@@ -271,7 +271,7 @@ mod tests {
                     --crease 25";
         let mut recipe = Recipe::of_words(&words(line), &library).unwrap();
         let bounds = Bounds { min: [-1.0; 3], max: [1.0; 3] };
-        let frame = Frame { origin: DVec3::new(0.3, 7.0, 0.0), scale: 0.5 };
+        let frame = MeshFrame { origin: DVec3::new(0.3, 7.0, 0.0), scale: 0.5 };
         recipe.take_viewpoint(&bounds, &frame).unwrap();
         let said = recipe.words().unwrap();
         let sorted = |mut words: Vec<String>| {

@@ -7,15 +7,15 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use edgemesh::command::{Failure, write_file};
-use strokes::gpu::Gpu;
+use strokes::gpu::device::Gpu;
 
 use super::background::Tell;
 use super::recipe::Recipe;
-use crate::parts::AnySizeRenderer;
-use crate::picture::{encode_png, encode_png_with_text, read_png_text};
-use crate::render::Scene;
+use crate::picture::png::{encode_png, encode_png_with_text, read_png_text};
+use crate::picture::tiles::AnySizeRenderer;
+use crate::picture::turntable;
+use crate::scene::models::Scene;
 use crate::technique::Technique;
-use crate::turntable;
 
 /// The keyword of the text chunk with the recipe.
 const KEYWORD: &str = "Edgemesh";
@@ -57,7 +57,7 @@ pub fn save(order: &Order, tell: Tell) -> Result<String, Failure> {
     let mut renderer = AnySizeRenderer::new(gpu, scene, technique, looks, &options)?;
     if let &Some(steps) = turntable {
         let is_transparent = options.is_transparent;
-        crate::turntable::write(path, steps, *size, is_transparent, |step| {
+        crate::picture::turntable::write(path, steps, *size, is_transparent, |step| {
             let stage = format!("drawing picture {} of {steps}", step + 1);
             tell(&stage)?;
             let camera = turntable::camera_at(&camera, step, steps);

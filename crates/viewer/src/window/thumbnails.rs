@@ -3,16 +3,17 @@
 
 use std::sync::mpsc::Sender;
 
-use edgemesh::camera::Camera;
 use edgemesh::command::input::{DEMO, InputOptions};
 use edgemesh::command::{Failure, Listener};
+use edgemesh::view::camera::Camera;
 use image::RgbaImage;
-use strokes::gpu::Gpu;
+use strokes::gpu::device::Gpu;
 
 use super::background::Tell;
-use crate::picture::as_stored;
-use crate::render::{PictureOptions, PictureRenderer, Scene};
-use crate::scene_file::SceneObject;
+use crate::picture::png::as_stored;
+use crate::picture::renderer::{PictureOptions, PictureRenderer};
+use crate::scene::models::Scene;
+use crate::scene::scene_file::SceneObject;
 use crate::technique::library::Library;
 
 /// Width and height in pixels: twice the points that they are shown with.

@@ -2,10 +2,11 @@
 //! very numbers that the window draws with.
 
 use clap::Parser as _;
-use edgemesh::build::Frame;
-use edgemesh::camera::{Camera, DEFAULT_DIRECTION, DEFAULT_DISTANCE_RADII, DEFAULT_FOV_Y_DEG};
 use edgemesh::command::options::CameraOptions;
-use edgemesh::edge_mesh::Bounds;
+use edgemesh::edge_mesh::{Bounds, MeshFrame};
+use edgemesh::view::camera::{
+    Camera, DEFAULT_DIRECTION, DEFAULT_DISTANCE_RADII, DEFAULT_FOV_Y_DEG,
+};
 use glam::DVec3;
 
 /// Where the eye is and where it looks, in the units of the files.
@@ -115,7 +116,7 @@ impl NamedView {
 impl Viewpoint {
     /// The view that every command has where none is given.
     #[must_use]
-    pub fn default_view(bounds: &Bounds, frame: &Frame, up: UpAxis) -> Self {
+    pub fn default_view(bounds: &Bounds, frame: &MeshFrame, up: UpAxis) -> Self {
         let first = Self {
             eye: up.turned(DEFAULT_DIRECTION),
             target: DVec3::ZERO,
@@ -128,7 +129,7 @@ impl Viewpoint {
 
     /// The camera that sees the same of a scene in `frame`.
     #[must_use]
-    pub fn camera(&self, frame: &Frame) -> Camera {
+    pub fn camera(&self, frame: &MeshFrame) -> Camera {
         Camera {
             eye: frame.to_mesh(self.eye),
             target: frame.to_mesh(self.target),
@@ -140,7 +141,7 @@ impl Viewpoint {
 
     /// The same of a camera of a scene in `frame`, as options of a command line gave it.
     #[must_use]
-    pub fn of_camera(camera: &Camera, frame: &Frame, fov_y_deg: Option<f64>) -> Self {
+    pub fn of_camera(camera: &Camera, frame: &MeshFrame, fov_y_deg: Option<f64>) -> Self {
         Self {
             eye: frame.to_file(camera.eye),
             target: frame.to_file(camera.target),
@@ -173,7 +174,7 @@ impl Viewpoint {
 
     /// The same direction of sight, from where the whole of a scene is seen.
     #[must_use]
-    pub fn fitted(&self, bounds: &Bounds, frame: &Frame) -> Self {
+    pub fn fitted(&self, bounds: &Bounds, frame: &MeshFrame) -> Self {
         let radius = bounds.radius() / frame.scale;
         let radius = if radius > 0.0 { radius } else { 1.0 / frame.scale };
         // As far as the default view is with its field of view.
@@ -272,7 +273,7 @@ mod tests {
 
     #[test]
     fn the_default_view_is_that_of_the_commands() {
-        let frame = Frame { origin: DVec3::new(1000.0, 5.0, -7.0), scale: 0.25 };
+        let frame = MeshFrame { origin: DVec3::new(1000.0, 5.0, -7.0), scale: 0.25 };
         let view = Viewpoint::default_view(&BOUNDS, &frame, UpAxis::Y);
         let (ours, theirs) = (view.camera(&frame), Camera::default_view(&BOUNDS));
         assert!(ours.eye.distance(theirs.eye) < 1e-9 && ours.target.distance(theirs.target) < 1e-9);
@@ -281,7 +282,7 @@ mod tests {
 
     #[test]
     fn what_is_copied_is_pasted_to_the_last_digit() {
-        let first = Viewpoint::default_view(&BOUNDS, &Frame::default(), UpAxis::Y);
+        let first = Viewpoint::default_view(&BOUNDS, &MeshFrame::default(), UpAxis::Y);
         let copied = Viewpoint {
             eye: DVec3::new(0.1 + 0.2, -1.0 / 3.0, 1e-17),
             fov_y_deg: 33.3,
@@ -298,7 +299,7 @@ mod tests {
 
     #[test]
     fn named_views_look_along_the_axes_whichever_is_up() {
-        let view = Viewpoint::default_view(&BOUNDS, &Frame::default(), UpAxis::Y);
+        let view = Viewpoint::default_view(&BOUNDS, &MeshFrame::default(), UpAxis::Y);
         for up in [UpAxis::Y, UpAxis::Z] {
             for named in NamedView::ALL {
                 let seen = view.from_side(named, up);

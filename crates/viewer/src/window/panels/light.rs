@@ -2,10 +2,10 @@
 
 use egui::{Color32, DragValue, Grid, Sense, Slider, Ui, Vec2};
 use glam::DVec3;
-use strokes::frame::MAX_CLIP_PLANES;
+use strokes::view::frame::MAX_CLIP_PLANES;
 
-use crate::lighting::{Light, Lighting};
-use crate::render::Scene;
+use crate::scene::lighting::{Light, Lighting};
+use crate::scene::models::Scene;
 use crate::window::hands::{CUT_KEY, LIGHT_KEY, drag_with};
 use crate::window::light_hand::{in_camera, in_world, point_at, rounded, shone_from};
 use crate::window::session::Session;

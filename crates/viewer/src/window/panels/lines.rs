@@ -1,6 +1,6 @@
 //! The classes of lines: on and off, with their counts, and what they look like.
 
-use edgemesh::oracle::feature::EdgeClass;
+use edgemesh::line::class::LineClass;
 use egui::{Grid, Ui};
 
 use super::bar::grouped;
@@ -23,7 +23,7 @@ pub(super) fn lines_panel(ui: &mut Ui, session: &mut Session) {
     }
     ui.heading("Visible");
     Grid::new("classes").num_columns(3).spacing([12.0, 4.0]).show(ui, |ui| {
-        for class in EdgeClass::ALL {
+        for class in LineClass::ALL {
             let mut is_drawn = draws(&technique.passes, class, "visible");
             let name = capitalized(class.name());
             if ui.checkbox(&mut is_drawn, name).changed() {
@@ -102,18 +102,18 @@ fn is_strokes(pass: &Pass) -> bool {
 }
 
 /// The passes that draw a class.
-fn has_class(pass: &Pass, class: EdgeClass, visibility: &str) -> bool {
+fn has_class(pass: &Pass, class: LineClass, visibility: &str) -> bool {
     is_strokes(pass)
         && pass.string("visibility") == visibility
         && classes_of(pass.string("classes")).is_ok_and(|classes| classes.contains(&class))
 }
 
-fn draws(passes: &[Pass], class: EdgeClass, visibility: &str) -> bool {
+fn draws(passes: &[Pass], class: LineClass, visibility: &str) -> bool {
     passes.iter().any(|pass| pass.is_rendered() && has_class(pass, class, visibility))
 }
 
 /// Has a class drawn by the first pass of visible strokes, or by none.
-fn set_drawn(passes: &mut [Pass], class: EdgeClass, is_drawn: bool) {
+fn set_drawn(passes: &mut [Pass], class: LineClass, is_drawn: bool) {
     for pass in passes.iter_mut().filter(|pass| pass.string("visibility") == "visible") {
         if !is_strokes(pass) {
             continue;
@@ -124,11 +124,11 @@ fn set_drawn(passes: &mut [Pass], class: EdgeClass, is_drawn: bool) {
                 classes.push(class);
             }
             // In the order that all files have.
-            classes = EdgeClass::ALL.into_iter().filter(|known| classes.contains(known)).collect();
+            classes = LineClass::ALL.into_iter().filter(|known| classes.contains(known)).collect();
         } else {
             classes.retain(|known| *known != class);
         }
-        let text = match classes.len() == EdgeClass::ALL.len() {
+        let text = match classes.len() == LineClass::ALL.len() {
             true => "all".to_owned(),
             false => {
                 let names: Vec<&str> = classes.iter().map(|class| class.name()).collect();
@@ -165,10 +165,10 @@ mod tests {
     fn classes_go_off_and_come_back() {
         let before = Library::shipped().technique("ink").unwrap().0;
         let mut passes = before.passes.clone();
-        set_drawn(&mut passes, EdgeClass::Ridge, false);
-        assert!(!draws(&passes, EdgeClass::Ridge, "visible"));
-        assert!(draws(&passes, EdgeClass::Contour, "visible"));
-        set_drawn(&mut passes, EdgeClass::Ridge, true);
+        set_drawn(&mut passes, LineClass::Ridge, false);
+        assert!(!draws(&passes, LineClass::Ridge, "visible"));
+        assert!(draws(&passes, LineClass::Contour, "visible"));
+        set_drawn(&mut passes, LineClass::Ridge, true);
         assert_eq!(passes, before.passes);
     }
 }

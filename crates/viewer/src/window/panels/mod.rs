@@ -24,11 +24,10 @@ mod view;
 
 pub use bar::{status_bar, top_bar};
 pub use comparison::comparison_line;
+use egui::{ScrollArea, Ui};
 pub use keys::keys_sheet;
 pub use no_picture::no_picture;
 pub use notes::notes;
-
-use egui::{ScrollArea, Ui};
 
 use super::remembered::Tab;
 use super::session::Session;

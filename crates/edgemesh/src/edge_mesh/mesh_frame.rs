@@ -1,0 +1,113 @@
+//! Where the mesh lies in its file: an origin and a scale.
+//!
+//! Idea: 32 bits are enough for a mesh that lies around the origin at a usual
+//! size, and most do. One that lies far away loses its detail to the distance,
+//! and one of 1e30 or 1e-40 units overflows or vanishes in a view. Such a mesh
+//! is moved and scaled in 64 bits first; the scale is a power of two, which
+//! loses nothing.
+//!
+//! Rejected: moving every mesh. Then two files of one scene would not share
+//! their coordinates, and positions would no longer be the file's own numbers.
+
+use glam::DVec3;
+
+/// A mesh that lies further from the origin than this many times its own size
+/// would lose more than a thousandth of its size to rounding in 32 bits.
+const FAR_FROM_ORIGIN: f64 = 8192.0;
+
+/// Sizes from here up are scaled: an eye some radii away, and squares of
+/// distances, stay finite in 32 bits below.
+const HUGE: f64 = 1e15;
+
+/// Sizes from here down are scaled: squares of distances stay normal above.
+const TINY: f64 = 1e-15;
+
+/// Takes positions of a file to those of its mesh:
+/// `in_mesh = (in_file - origin) * scale`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshFrame {
+    /// The point of the file that is the mesh's origin.
+    pub origin: DVec3,
+    /// Units of the mesh in one of the file: a power of two.
+    pub scale: f64,
+}
+
+impl Default for MeshFrame {
+    /// The frame that changes nothing.
+    fn default() -> Self {
+        Self { origin: DVec3::ZERO, scale: 1.0 }
+    }
+}
+
+impl MeshFrame {
+    /// The frame for vertices between `low` and `high`: the one that changes
+    /// nothing, unless 32 bits would lose detail.
+    #[must_use]
+    pub fn of_box(low: DVec3, high: DVec3) -> Self {
+        let size = (high - low).max_element();
+        let reach = low.abs().max(high.abs()).max_element();
+        if !(size > 0.0 && size.is_finite()) {
+            return Self::default();
+        }
+        // Half each first: the sum of two large numbers may overflow.
+        let origin =
+            if reach > FAR_FROM_ORIGIN * size { low / 2.0 + high / 2.0 } else { DVec3::ZERO };
+        let scale = if (TINY..HUGE).contains(&size) { 1.0 } else { power_of_two_near(1.0 / size) };
+        Self { origin, scale }
+    }
+
+    /// Whether positions stay as the file has them.
+    #[must_use]
+    pub fn is_identity(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// A point of the file in the mesh.
+    #[must_use]
+    pub fn to_mesh(&self, in_file: DVec3) -> DVec3 {
+        (in_file - self.origin) * self.scale
+    }
+
+    /// A point of the mesh in the file.
+    #[must_use]
+    pub fn to_file(&self, in_mesh: DVec3) -> DVec3 {
+        in_mesh / self.scale + self.origin
+    }
+}
+
+/// The power of two at or below `value`, which is positive; between the
+/// smallest and largest that have an exact inverse.
+fn power_of_two_near(value: f64) -> f64 {
+    value.log2().floor().clamp(-1000.0, 1000.0).exp2()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(low: f64, high: f64) -> MeshFrame {
+        MeshFrame::of_box(DVec3::splat(low), DVec3::splat(high))
+    }
+
+    #[test]
+    fn usual_meshes_stay_where_they_are() {
+        for (low, high) in [(-1.0, 1.0), (0.0, 1e-6), (1000.0, 1001.0), (-1e9, 1e9), (5.0, 5.0)] {
+            assert!(frame(low, high).is_identity(), "{low} to {high}");
+        }
+    }
+
+    #[test]
+    fn far_huge_and_tiny_ones_come_to_the_origin() {
+        for (low, high) in
+            [(4.5e6, 4.5e6 + 2.0), (0.0, 1e30), (-1e300, 1e300), (0.0, 1e-40), (1e20, 1.01e20)]
+        {
+            let frame = frame(low, high);
+            assert!(!frame.is_identity(), "{low} to {high}");
+            let [a, b] = [low, high].map(|x| frame.to_mesh(DVec3::splat(x)).x);
+            assert!(b - a > 0.4 && b.abs() <= 128.0, "{low} to {high}: {a} to {b}");
+            let back = frame.to_file(DVec3::splat(b)).x;
+            assert!((back - high).abs() <= 1e-12 * high.abs(), "{back}");
+            assert_eq!(frame.scale.to_bits() << 12, 0, "a power of two");
+        }
+    }
+}

@@ -1,0 +1,286 @@
+//! The layouts of an edge mesh's records.
+//!
+//! 1. The **indexed edge record**, 20 bytes an edge: indices into positions and
+//!    faces that the fill shares. This is what the paper's section 6 says will
+//!    be possible once vertex programs can read memory.
+//! 2. The **replicated edge vertex**, the paper's own (section 3): four
+//!    successive copies of `<v0, v1, v2, v3, n0, n1, r, i>`, 80 bytes each in
+//!    32-bit floats ([`crate::edge_mesh::replicate`] makes them).
+//! 3. The same at 16 bits: 37 bytes, padded to 40 with the classes.
+//!
+//! ```text
+//!            v1              face A = <v0, v1, v2>, left of v0 -> v1
+//!           /|\              face B = <v3, v1, v0>, right of it
+//!         /  |  \
+//!      v2  A | B  v3         boundary edges: v3 = v0
+//!         \  |  /
+//!           \|/
+//!            v0
+//! ```
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+
+use crate::edge_mesh::edge_word::EdgeWord;
+
+bitflags::bitflags! {
+    /// What is known of an edge before there is a view.
+    ///
+    /// The paper's record cannot tell a marked edge from a boundary, since both
+    /// set `v3 = v0`; these bits can. Several may hold at once. WGSL twin: the
+    /// constants of `shaders/common/feature.wgsl`.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
+    #[repr(transparent)]
+    pub struct EdgeFlags: u32 {
+        /// Exactly one face.
+        const BOUNDARY = 1 << 0;
+        /// Convex, and the face normals differ by more than the ridge threshold.
+        const RIDGE = 1 << 1;
+        /// Concave, and the face normals differ by more than the valley threshold.
+        const VALLEY = 1 << 2;
+        /// Chosen by the artist.
+        const MARKED = 1 << 3;
+        /// The two faces differ in material.
+        const MATERIAL = 1 << 4;
+        /// One pair of faces of an edge that more than two share.
+        const NON_MANIFOLD = 1 << 5;
+        /// The diagonal of a polygon: it can be a contour and nothing else.
+        const DIAGONAL = 1 << 6;
+        /// Both faces traverse the edge in the same direction, on a surface
+        /// that cannot be oriented; the facing of face B counts reversed.
+        const CLASH = 1 << 7;
+        /// On a closed component whose faces look outwards: where both faces
+        /// look away from an eye outside of it, the component hides the edge.
+        /// (A surface that passes through itself can enclose a part inside out;
+        /// edges there count as hidden as well.)
+        const SOLID = 1 << 8;
+        /// The two faces are of different smoothing groups.
+        const SMOOTHING = 1 << 9;
+    }
+}
+
+impl EdgeFlags {
+    /// The classes that are drawn in every view.
+    pub const ALWAYS_DRAWN: Self = Self::BOUNDARY
+        .union(Self::RIDGE)
+        .union(Self::VALLEY)
+        .union(Self::MARKED)
+        .union(Self::MATERIAL)
+        .union(Self::NON_MANIFOLD)
+        .union(Self::SMOOTHING);
+}
+
+/// The classes by the words that files and messages have for them.
+const CLASS_NAMES: [(EdgeFlags, &str); 10] = [
+    (EdgeFlags::BOUNDARY, "boundary"),
+    (EdgeFlags::RIDGE, "ridge"),
+    (EdgeFlags::VALLEY, "valley"),
+    (EdgeFlags::MARKED, "marked"),
+    (EdgeFlags::MATERIAL, "material"),
+    (EdgeFlags::NON_MANIFOLD, "non_manifold"),
+    (EdgeFlags::DIAGONAL, "diagonal"),
+    (EdgeFlags::CLASH, "clash"),
+    (EdgeFlags::SOLID, "solid"),
+    (EdgeFlags::SMOOTHING, "smoothing"),
+];
+
+/// The words for all that `flags` have, in the order of their bits.
+pub fn class_names(flags: EdgeFlags) -> impl Iterator<Item = &'static str> {
+    let is_set = move |(flag, _): &&(EdgeFlags, &str)| flags.contains(*flag);
+    CLASS_NAMES.iter().filter(is_set).map(|(_, name)| *name)
+}
+
+/// The indexed edge record: 20 bytes. WGSL twin: `EdgeRecord` in
+/// `shaders/common/mesh.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct EdgeRecord {
+    /// Start vertex.
+    pub v0: u32,
+    /// End vertex.
+    pub v1: u32,
+    /// The face that traverses the edge from `v0` to `v1`; [`crate::index::NONE`] for a line
+    /// that is no edge of a face.
+    pub face_a: u32,
+    /// The face across, or [`crate::index::NONE`].
+    pub face_b: u32,
+    /// Static classes.
+    pub flags: EdgeFlags,
+}
+
+/// The paper's edge vertex at 16 bits: 37 bytes (section 3.1), and the class
+/// bits in the three bytes that pad it to 40.
+///
+/// Positions are whole steps from the middle of the mesh's box, normals are in
+/// units of 1 / 32767; [`crate::edge_mesh::replicate::Quantization`] has the steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct EdgeVertex16 {
+    /// Start of the edge.
+    pub v0: [i16; 3],
+    /// End of the edge.
+    pub v1: [i16; 3],
+    /// Third vertex of face A.
+    pub v2: [i16; 3],
+    /// Third vertex of face B; equal to `v0` for boundary edges.
+    pub v3: [i16; 3],
+    /// Welded vertex normal at `v0`.
+    pub n0: [i16; 3],
+    /// Welded vertex normal at `v1`.
+    pub n1: [i16; 3],
+    /// The corner index i, 0 to 3, in the low two bits; the edge's random
+    /// scalar in the six above, in steps of 1 / 64.
+    pub corner_and_random: u8,
+    /// The edge's [`EdgeWord`], the lowest byte first.
+    pub flags: [u8; 3],
+}
+
+impl EdgeVertex16 {
+    /// The corner index i.
+    #[must_use]
+    pub const fn corner(&self) -> u32 {
+        (self.corner_and_random & 3) as u32
+    }
+
+    /// The edge's random scalar, rounded down to steps of 1 / 64.
+    #[must_use]
+    pub fn random(&self) -> f32 {
+        f32::from(self.corner_and_random >> 2) / 64.0
+    }
+
+    /// The classes and the angle of the crease.
+    #[must_use]
+    pub const fn word(&self) -> EdgeWord {
+        let [low, middle, high] = self.flags;
+        EdgeWord(u32::from_le_bytes([low, middle, high, 0]))
+    }
+
+    /// The class bits.
+    #[must_use]
+    pub const fn flags(&self) -> EdgeFlags {
+        self.word().flags()
+    }
+}
+
+/// The paper's edge vertex in 32-bit floats: 80 bytes, four in a row an edge.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct EdgeVertex {
+    /// Start of the edge.
+    pub v0: [f32; 3],
+    /// End of the edge.
+    pub v1: [f32; 3],
+    /// Third vertex of face A.
+    pub v2: [f32; 3],
+    /// Third vertex of face B; equal to `v0` for boundary edges.
+    pub v3: [f32; 3],
+    /// Welded vertex normal at `v0`.
+    pub n0: [f32; 3],
+    /// Welded vertex normal at `v1`.
+    pub n1: [f32; 3],
+    /// The edge's random scalar, 0 to 1.
+    pub r: f32,
+    /// The corner index i, 0 to 3, in the low two bits; the edge's [`EdgeWord`] from bit
+    /// [`Self::FLAGS_SHIFT`] on.
+    pub corner_and_flags: u32,
+}
+
+impl EdgeVertex {
+    /// Where the class bits begin in [`Self::corner_and_flags`].
+    pub const FLAGS_SHIFT: u32 = 8;
+
+    /// The corner index i.
+    #[must_use]
+    pub const fn corner(&self) -> u32 {
+        self.corner_and_flags & 3
+    }
+
+    /// The classes and the angle of the crease.
+    #[must_use]
+    pub const fn word(&self) -> EdgeWord {
+        EdgeWord(self.corner_and_flags >> Self::FLAGS_SHIFT)
+    }
+
+    /// The class bits.
+    #[must_use]
+    pub const fn flags(&self) -> EdgeFlags {
+        self.word().flags()
+    }
+}
+
+/// Card and Mitchell's vertex of a fin (*Rendering Outlines*, their Figure 2): 48
+/// bytes, four in a row an edge. It is here to be compared with: it cannot be
+/// posed, as its face normals stay what they are, and it knows no creases.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct FinVertex {
+    /// One end of the edge.
+    pub position: [f32; 3],
+    /// The vertex normal there, along which the fin stands out; zero for the two
+    /// vertices that stay on the edge.
+    pub normal: [f32; 3],
+    /// Normal of face A.
+    pub face_a: [f32; 3],
+    /// Normal of face B; at boundaries the opposite of that of face A, so that
+    /// exactly one of both always looks at the eye.
+    pub face_b: [f32; 3],
+}
+
+/// The edge's random scalar r in [0, 1): a hash of its two end positions, the
+/// same whichever end comes first, so it needs no room in the indexed record
+/// and survives any renumbering of the mesh.
+///
+/// The mixing is PCG's output function (O'Neill 2014). WGSL twin: `edge_random`
+/// in `shaders/common/mesh.wgsl`.
+#[must_use]
+pub fn edge_random(p0: Vec3, p1: Vec3) -> f32 {
+    let bits = pcg(point_hash(p0).wrapping_add(point_hash(p1)));
+    // 24 bits, so that every value is exact and 1 is never reached.
+    #[expect(clippy::cast_precision_loss, reason = "24 bits fit a float")]
+    let scaled = (bits >> 8) as f32;
+    scaled / 16_777_216.0
+}
+
+fn point_hash(point: Vec3) -> u32 {
+    // Adding 0 makes -0 and 0 the same number.
+    point.to_array().iter().fold(0, |hash, coordinate| pcg(hash ^ (coordinate + 0.0).to_bits()))
+}
+
+const fn pcg(value: u32) -> u32 {
+    let state = value.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+    let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+    (word >> 22) ^ word
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_the_papers() {
+        assert_eq!(size_of::<EdgeRecord>(), 20);
+        assert_eq!(size_of::<EdgeVertex>(), 80);
+        assert_eq!(size_of::<EdgeVertex16>(), 40);
+        assert_eq!(size_of::<FinVertex>(), 48);
+        assert_eq!(std::mem::offset_of!(EdgeVertex16, flags), 37, "the payload");
+    }
+
+    #[test]
+    fn every_class_has_its_word() {
+        let words: Vec<&str> = class_names(EdgeFlags::all()).collect();
+        let names = EdgeFlags::all().iter_names();
+        assert!(names.map(|(name, _)| name.to_lowercase()).eq(words), "in order");
+        let some = EdgeFlags::SMOOTHING | EdgeFlags::RIDGE;
+        assert!(class_names(some).eq(["ridge", "smoothing"]));
+        assert_eq!(class_names(EdgeFlags::empty()).count(), 0);
+    }
+
+    #[test]
+    fn the_random_scalar_ignores_direction_and_spreads() {
+        let (a, b) = (Vec3::new(1.0, 2.0, 3.0), Vec3::new(-1.0, 0.5, 0.0));
+        assert!((edge_random(a, b) - edge_random(b, a)).abs() < f32::EPSILON);
+        assert!((edge_random(-a * 0.0, b) - edge_random(Vec3::ZERO, b)).abs() < f32::EPSILON);
+        let mean = (0..1000_u16).map(|k| edge_random(a * f32::from(k), b)).sum::<f32>() / 1000.0;
+        assert!((0.45..0.55).contains(&mean), "{mean}");
+    }
+}

@@ -1,0 +1,96 @@
+//! MeshFrame and counts as the plain numbers that sections hold.
+
+use glam::DVec3;
+
+use crate::edge_mesh::topology::EdgeCounts;
+use crate::edge_mesh::{MeshCounts, MeshFrame, SourceCounts};
+
+/// Origin and scale.
+pub(super) fn of_frame(frame: &MeshFrame) -> [f64; 4] {
+    let [x, y, z] = frame.origin.to_array();
+    [x, y, z, frame.scale]
+}
+
+pub(super) const fn to_frame([x, y, z, scale]: [f64; 4]) -> MeshFrame {
+    MeshFrame { origin: DVec3::new(x, y, z), scale }
+}
+
+/// The counts in the order of the file.
+pub(super) const fn of_counts(counts: &MeshCounts) -> [u64; 18] {
+    let MeshCounts { edges, source, .. } = counts;
+    [
+        counts.vertices as u64,
+        counts.welded_vertices as u64,
+        counts.triangles as u64,
+        counts.degenerate_triangles as u64,
+        counts.duplicate_triangles as u64,
+        edges.edges as u64,
+        edges.boundary as u64,
+        edges.non_manifold as u64,
+        edges.inconsistent as u64,
+        counts.diagonal_edges as u64,
+        counts.components as u64,
+        source.vertices as u64,
+        source.polygons as u64,
+        source.triangles as u64,
+        source.edges.edges as u64,
+        source.edges.boundary as u64,
+        source.edges.non_manifold as u64,
+        source.edges.inconsistent as u64,
+    ]
+}
+
+/// The counts of a file; one that this machine cannot count to is the largest
+/// that it can, and the check behind refuses it.
+pub(super) fn to_counts(numbers: [u64; 18]) -> MeshCounts {
+    let numbers = numbers.map(|number| usize::try_from(number).unwrap_or(usize::MAX));
+    let edges = |[edges, boundary, non_manifold, inconsistent]: [usize; 4]| EdgeCounts {
+        edges,
+        boundary,
+        non_manifold,
+        inconsistent,
+    };
+    #[rustfmt::skip]
+    let [
+        vertices, welded_vertices, triangles, degenerate_triangles, duplicate_triangles,
+        all, boundary, non_manifold, inconsistent, diagonal_edges, components,
+        listed, polygons, fans, of_polygons @ ..,
+    ] = numbers;
+    MeshCounts {
+        vertices,
+        welded_vertices,
+        triangles,
+        degenerate_triangles,
+        duplicate_triangles,
+        edges: edges([all, boundary, non_manifold, inconsistent]),
+        diagonal_edges,
+        components,
+        source: SourceCounts {
+            vertices: listed,
+            polygons,
+            triangles: fans,
+            edges: edges(of_polygons),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_count_has_a_place_of_its_own() {
+        let numbers: [u64; 18] = std::array::from_fn(|index| index as u64 + 1);
+        let counts = to_counts(numbers);
+        assert_eq!(of_counts(&counts), numbers);
+        assert_eq!((counts.vertices, counts.edges.boundary, counts.components), (1, 7, 11));
+        assert_eq!((counts.source.vertices, counts.source.edges.inconsistent), (12, 18));
+    }
+
+    #[test]
+    fn a_frame_is_an_origin_and_a_scale() {
+        let frame = to_frame([1.0, 2.0, 3.0, 0.5]);
+        assert_eq!(frame.to_mesh(DVec3::new(3.0, 2.0, 3.0)).x, 1.0);
+        assert_eq!(of_frame(&frame), [1.0, 2.0, 3.0, 0.5]);
+    }
+}

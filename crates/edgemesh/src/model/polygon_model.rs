@@ -1,0 +1,309 @@
+//! What a file says, before anything is made of it.
+//!
+//! Polygons stay polygons here: the diagonal that cuts a quad is no edge of
+//! the model, and only who still knows the polygon can tell.
+//!
+//! Lists are kept apart and left empty where a file has nothing to put in
+//! them, since a model of triangles alone is the large case: 12 bytes of
+//! corners and 4 of line a triangle.
+
+use crate::index::{NONE, to_u32};
+use crate::model::material::Material;
+use crate::model::rig::Rig;
+use crate::report::Place;
+
+/// A polygonal model as its file describes it.
+#[derive(Debug, Clone, Default)]
+pub struct Model {
+    /// How the model is called in messages: the path it was read from.
+    pub name: String,
+    /// Every vertex that the file lists, used or not, in the file's own units.
+    pub positions: Vec<[f64; 3]>,
+    /// Red, green and blue, 0 to 1 as the file has them, of each of
+    /// `positions`; empty where the file has no vertex colours.
+    pub colors: Vec<[f32; 3]>,
+    /// Texture coordinates that corners name; (0, 0) is the lower left corner
+    /// of a picture, (1, 1) the upper right one.
+    pub texcoords: Vec<[f32; 2]>,
+    /// Normals that corners name, of any length.
+    pub normals: Vec<[f32; 3]>,
+    /// Index into `positions` of each corner, polygon by polygon.
+    pub corner_positions: Vec<u32>,
+    /// Index into `texcoords` of each corner, or [`NONE`]; empty where no
+    /// corner has any.
+    pub corner_texcoords: Vec<u32>,
+    /// Index into `normals` of each corner, or [`NONE`]; empty where no corner
+    /// has any.
+    pub corner_normals: Vec<u32>,
+    /// The corner behind the last one of each polygon; empty where all
+    /// polygons are triangles.
+    pub polygon_ends: Vec<u32>,
+    /// The line of each polygon, counted from 1; empty where the format has no
+    /// lines.
+    pub polygon_lines: Vec<u32>,
+    /// What polygons share, in runs, ascending by first polygon; empty where no
+    /// polygon has any attributes.
+    pub runs: Vec<PolygonRun>,
+    /// Lines that the artist drew, edge by edge.
+    pub segments: Vec<Segment>,
+    /// Edges that are never drawn as creases, by the indices of their ends in
+    /// `positions`, each once, the smaller index first; a segment on the same
+    /// edge wins. Empty where the file hides none.
+    pub hidden_edges: Vec<[u32; 2]>,
+    /// Whether the file holds parts that it hides itself: with nothing else in
+    /// it, it is an empty model and no mistake.
+    pub has_invisible_parts: bool,
+    /// Materials in the order of their first use.
+    pub materials: Vec<Material>,
+    /// Names of groups, objects or nodes in the order of their first use.
+    pub groups: Vec<String>,
+    /// What bends the model; `None` where it has neither skins nor morph
+    /// targets. `positions` are those of its rest pose.
+    pub rig: Option<Box<Rig>>,
+}
+
+/// One corner of a polygon.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Corner {
+    /// Index into [`Model::positions`].
+    pub position: u32,
+    /// Index into [`Model::texcoords`], or [`NONE`].
+    pub texcoord: u32,
+    /// Index into [`Model::normals`], or [`NONE`].
+    pub normal: u32,
+}
+
+impl Corner {
+    /// A corner with nothing but a position.
+    #[must_use]
+    pub const fn at(position: u32) -> Self {
+        Self { position, texcoord: NONE, normal: NONE }
+    }
+}
+
+/// Attributes of polygons in a row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PolygonRun {
+    /// The first polygon that has them; the next run ends this one.
+    pub first_polygon: u32,
+    /// The attributes.
+    pub attributes: Attributes,
+}
+
+/// What polygons share.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Attributes {
+    /// Index into [`Model::materials`], or [`NONE`].
+    pub material: u32,
+    /// Index into [`Model::groups`], or [`NONE`].
+    pub group: u32,
+    /// Where shading is smooth.
+    pub smoothing: Smoothing,
+}
+
+impl Default for Attributes {
+    fn default() -> Self {
+        Self { material: NONE, group: NONE, smoothing: Smoothing::Unstated }
+    }
+}
+
+/// Which edges of a polygon the file shades smoothly.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub enum Smoothing {
+    /// The file does not say.
+    #[default]
+    Unstated,
+    /// To polygons of the same group; group 0 is off (OBJ `s`).
+    Group(u32),
+    /// To polygons whose normals differ by at most this angle in radians
+    /// (VRML `creaseAngle`).
+    Angle(f32),
+}
+
+/// A line from one vertex to another that the artist drew.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Segment {
+    /// Its ends, as indices into [`Model::positions`].
+    pub ends: [u32; 2],
+    /// The line of the file; 0 where the format has none.
+    pub line: u32,
+}
+
+impl Model {
+    /// How many polygons there are.
+    #[must_use]
+    pub const fn polygon_count(&self) -> usize {
+        if self.polygon_ends.is_empty() {
+            self.corner_positions.len() / 3
+        } else {
+            self.polygon_ends.len()
+        }
+    }
+
+    /// Whether every polygon is a triangle.
+    #[must_use]
+    pub const fn is_triangles(&self) -> bool {
+        self.polygon_ends.is_empty()
+    }
+
+    /// The corners of a polygon, as a range of the corner lists.
+    #[must_use]
+    pub fn corner_range(&self, polygon: usize) -> std::ops::Range<usize> {
+        match (self.polygon_ends.is_empty(), polygon) {
+            (true, _) => 3 * polygon..3 * polygon + 3,
+            (false, 0) => 0..self.polygon_ends[0] as usize,
+            (false, _) => {
+                self.polygon_ends[polygon - 1] as usize..self.polygon_ends[polygon] as usize
+            }
+        }
+    }
+
+    /// The polygon that a corner is of.
+    #[must_use]
+    pub fn polygon_of(&self, corner: usize) -> usize {
+        if self.polygon_ends.is_empty() {
+            corner / 3
+        } else {
+            self.polygon_ends.partition_point(|&end| end as usize <= corner)
+        }
+    }
+
+    /// One corner with all its indices.
+    #[must_use]
+    pub fn corner(&self, corner: usize) -> Corner {
+        Corner {
+            position: self.corner_positions[corner],
+            texcoord: self.corner_texcoords.get(corner).copied().unwrap_or(NONE),
+            normal: self.corner_normals.get(corner).copied().unwrap_or(NONE),
+        }
+    }
+
+    /// Where in the file a polygon stands.
+    #[must_use]
+    pub fn polygon_place(&self, polygon: usize) -> Place {
+        match self.polygon_lines.get(polygon) {
+            Some(&line) if line > 0 => Place::Line(line),
+            _ => Place::Face(polygon as u64 + 1),
+        }
+    }
+
+    /// Adds a polygon of at least three corners; `line` is 0 where the format
+    /// has no lines.
+    ///
+    /// The indices are checked behind the reader, not here.
+    pub fn push_polygon(&mut self, corners: &[Corner], line: u32) {
+        let before = self.corner_positions.len();
+        if corners.len() != 3 && self.polygon_ends.is_empty() {
+            self.polygon_ends = (1..=to_u32(before / 3)).map(|polygon| 3 * polygon).collect();
+        }
+        if line > 0 || !self.polygon_lines.is_empty() {
+            self.polygon_lines.resize(self.polygon_count(), 0);
+            self.polygon_lines.push(line);
+        }
+        let has_texcoord = |corner: &Corner| corner.texcoord != NONE;
+        if !self.corner_texcoords.is_empty() || corners.iter().any(has_texcoord) {
+            self.corner_texcoords.resize(before, NONE);
+            self.corner_texcoords.extend(corners.iter().map(|corner| corner.texcoord));
+        }
+        if !self.corner_normals.is_empty() || corners.iter().any(|corner| corner.normal != NONE) {
+            self.corner_normals.resize(before, NONE);
+            self.corner_normals.extend(corners.iter().map(|corner| corner.normal));
+        }
+        let is_mixed = corners.len() != 3 || !self.polygon_ends.is_empty();
+        self.corner_positions.extend(corners.iter().map(|corner| corner.position));
+        if is_mixed {
+            self.polygon_ends.push(to_u32(self.corner_positions.len()));
+        }
+    }
+
+    /// Gives the polygons that are pushed from now on `attributes`.
+    pub fn set_attributes(&mut self, attributes: Attributes) {
+        self.set_attributes_from(to_u32(self.polygon_count()), attributes);
+    }
+
+    /// Gives the polygons from `first_polygon` on, which is at or behind the
+    /// start of the last run, `attributes`.
+    pub(crate) fn set_attributes_from(&mut self, first_polygon: u32, attributes: Attributes) {
+        if self.runs.last().is_some_and(|run| run.first_polygon == first_polygon) {
+            self.runs.pop();
+        }
+        let before = self.runs.last().map_or_else(Attributes::default, |run| run.attributes);
+        if before != attributes {
+            self.runs.push(PolygonRun { first_polygon, attributes });
+        }
+    }
+
+    /// One value for each polygon, made from its attributes.
+    #[must_use]
+    pub fn per_polygon<T: Clone>(&self, value: impl Fn(Attributes) -> T) -> Vec<T> {
+        let mut values = Vec::with_capacity(self.polygon_count());
+        let first =
+            self.runs.first().map_or(self.polygon_count(), |run| run.first_polygon as usize);
+        values.resize(first, value(Attributes::default()));
+        for (at, run) in self.runs.iter().enumerate() {
+            let end = self
+                .runs
+                .get(at + 1)
+                .map_or(self.polygon_count(), |next| next.first_polygon as usize);
+            values.resize(end, value(run.attributes));
+        }
+        values
+    }
+
+    /// A model of bare polygons; for tests, benches and generators.
+    #[must_use]
+    pub fn from_polygons(positions: &[[f32; 3]], polygons: &[&[u32]]) -> Self {
+        let positions = positions.iter().map(|point| point.map(f64::from)).collect();
+        let mut model = Self { positions, ..Self::default() };
+        for polygon in polygons {
+            let corners: Vec<Corner> = polygon.iter().copied().map(Corner::at).collect();
+            model.push_polygon(&corners, 0);
+        }
+        model
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn triangles_need_no_ends_until_a_quad_comes() {
+        let mut model = Model::from_polygons(&[[0.0; 3]; 4], &[&[0, 1, 2], &[1, 2, 3]]);
+        assert!(model.is_triangles());
+        assert_eq!((model.polygon_count(), model.corner_range(1)), (2, 3..6));
+        model.push_polygon(&[0, 1, 2, 3].map(Corner::at), 0);
+        model.push_polygon(&[0, 1, 2].map(Corner::at), 7);
+        assert_eq!(model.polygon_ends, [3, 6, 10, 13]);
+        assert_eq!(model.polygon_lines, [0, 0, 0, 7]);
+        assert_eq!((model.polygon_count(), model.corner_range(3)), (4, 10..13));
+        assert_eq!(model.polygon_place(3), Place::Line(7));
+        assert_eq!(model.polygon_place(0), Place::Face(1));
+    }
+
+    #[test]
+    fn attributes_of_corners_begin_where_the_first_one_has_any() {
+        let mut model = Model::from_polygons(&[[0.0; 3]; 3], &[&[0, 1, 2]]);
+        assert_eq!(model.corner(2), Corner::at(2));
+        model
+            .push_polygon(&[0, 1, 2].map(|k| Corner { position: k, texcoord: k, normal: NONE }), 0);
+        assert_eq!(model.corner_texcoords, [NONE, NONE, NONE, 0, 1, 2]);
+        assert!(model.corner_normals.is_empty());
+        assert_eq!(model.corner(4).texcoord, 1);
+    }
+
+    #[test]
+    fn runs_cover_the_polygons_behind_them() {
+        let mut model = Model::from_polygons(&[[0.0; 3]; 3], &[&[0, 1, 2]]);
+        let attributes = Attributes { material: 4, ..Attributes::default() };
+        model.set_attributes(Attributes::default());
+        assert!(model.runs.is_empty(), "nothing new");
+        model.set_attributes(Attributes { material: 9, ..attributes });
+        model.set_attributes(attributes);
+        for _ in 0..2 {
+            model.push_polygon(&[0, 1, 2].map(Corner::at), 0);
+        }
+        assert_eq!(model.runs, [PolygonRun { first_polygon: 1, attributes }]);
+        assert_eq!(model.per_polygon(|run| run.material), [NONE, 4, 4]);
+    }
+}

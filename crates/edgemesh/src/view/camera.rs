@@ -1,0 +1,163 @@
+//! The camera: where the eye is, and the matrix that takes the world to the clip
+//! volume.
+//!
+//! Depth is reversed (1 at the near plane, 0 at the far one): with a 32-bit
+//! float buffer that spreads the precision evenly over the distance. Everything
+//! is worked out in 64 bits and rounded once.
+
+use glam::dcamera::rh::proj::directx;
+use glam::dcamera::rh::view::look_to_mat4;
+use glam::{DVec3, Mat4, Vec4};
+
+use crate::edge_mesh::Bounds;
+
+/// The direction from the model to the eye where none is given.
+pub const DEFAULT_DIRECTION: DVec3 = DVec3::new(1.0, 0.6, 1.2);
+
+/// The distance of the default eye in bounding radii: the whole bounding sphere
+/// is then in the picture.
+pub const DEFAULT_DISTANCE_RADII: f64 = 3.0;
+
+/// The default vertical field of view: 40 degrees.
+pub const DEFAULT_FOV_Y_DEG: f64 = 40.0;
+
+/// The near plane is never closer than this many bounding radii.
+const MIN_NEAR_RADII: f64 = 1e-4;
+
+/// A camera in the units of the model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// The eye; in orthographic views only its direction from the target and
+    /// its distance count.
+    pub eye: DVec3,
+    /// The point looked at.
+    pub target: DVec3,
+    /// The direction that points up in the picture.
+    pub up: DVec3,
+    /// Vertical field of view in radians; in orthographic views it gives the
+    /// height of the picture, 2 d tan(fov / 2) at distance d.
+    pub fov_y_rad: f64,
+    /// Whether lines of sight are parallel.
+    pub is_orthographic: bool,
+}
+
+/// What one view needs on the GPU and in the oracle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct View {
+    /// Takes world positions to clip space; depth 1 near, 0 far.
+    pub clip_from_world: Mat4,
+    /// The eye with w = 1, or the direction to the viewer with w = 0.
+    pub eye: Vec4,
+    /// The distance of a point (with w = 1) from the eye along the direction of
+    /// sight is its product with this.
+    pub distance: Vec4,
+}
+
+impl Camera {
+    /// The view that every command uses where none is given: from the direction
+    /// (1, 0.6, 1.2), at 3 bounding radii, up +Y, 40 degrees.
+    #[must_use]
+    pub fn default_view(bounds: &Bounds) -> Self {
+        let target = bounds.center();
+        let distance = DEFAULT_DISTANCE_RADII * usable_radius(bounds);
+        Self {
+            eye: target + DEFAULT_DIRECTION.normalize_or_zero() * distance,
+            target,
+            up: DVec3::Y,
+            fov_y_rad: DEFAULT_FOV_Y_DEG.to_radians(),
+            is_orthographic: false,
+        }
+    }
+
+    /// The view of a picture `aspect` times as wide as high, with near and far
+    /// planes around the bounding sphere of `bounds`.
+    #[must_use]
+    pub fn view(&self, bounds: &Bounds, aspect: f64) -> View {
+        let radius = usable_radius(bounds);
+        let forward = (self.target - self.eye).try_normalize().unwrap_or(DVec3::NEG_Z);
+        // Looking straight up or down leaves no direction for up; any will do.
+        let up = match forward.cross(self.up).try_normalize() {
+            Some(_) => self.up,
+            None => forward.any_orthonormal_vector(),
+        };
+        let view_from_world = look_to_mat4(self.eye, forward, up);
+        let middle = (bounds.center() - self.eye).dot(forward);
+        // A little air, so that rounding cuts nothing off at the sphere itself.
+        let (near, far) = (middle - 1.01 * radius, middle + 1.01 * radius);
+        let clip_from_view = if self.is_orthographic {
+            let half_height = (self.target - self.eye).length() * (self.fov_y_rad / 2.0).tan();
+            let half_width = half_height * aspect;
+            // Near and far change places: that reverses the depth.
+            directx::orthographic(-half_width, half_width, -half_height, half_height, far, near)
+        } else {
+            let near = near.max(MIN_NEAR_RADII * radius);
+            directx::perspective(self.fov_y_rad, aspect, far.max(2.0 * near), near)
+        };
+        View {
+            clip_from_world: (clip_from_view * view_from_world).as_mat4(),
+            eye: self.eye_for_facing(forward),
+            distance: forward.extend(-forward.dot(self.eye)).as_vec4(),
+        }
+    }
+
+    fn eye_for_facing(&self, forward: DVec3) -> Vec4 {
+        if self.is_orthographic {
+            (-forward).as_vec3().extend(0.0)
+        } else {
+            self.eye.as_vec3().extend(1.0)
+        }
+    }
+}
+
+/// The bounding radius, or 1 for a model that is a single point.
+fn usable_radius(bounds: &Bounds) -> f64 {
+    let radius = bounds.radius();
+    if radius > 0.0 { radius } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOUNDS: Bounds = Bounds { min: [-1.0, -2.0, -3.0], max: [3.0, 2.0, 1.0] };
+
+    fn depth_and_x(view: &View, point: DVec3) -> (f32, f32) {
+        let clip = view.clip_from_world * point.as_vec3().extend(1.0);
+        (clip.z / clip.w, clip.x / clip.w)
+    }
+
+    #[test]
+    fn depth_falls_from_near_to_far_and_the_sphere_fits() {
+        let mut camera = Camera::default_view(&BOUNDS);
+        for is_orthographic in [false, true] {
+            camera.is_orthographic = is_orthographic;
+            let view = camera.view(&BOUNDS, 1.0);
+            let toward_eye = (camera.eye - camera.target).normalize_or_zero() * BOUNDS.radius();
+            let (front, x) = depth_and_x(&view, camera.target + toward_eye);
+            let (back, _) = depth_and_x(&view, camera.target - toward_eye);
+            assert!(front < 1.0 && front > back && back > 0.0, "{front} {back}");
+            assert!(x.abs() < 1e-5, "the target is in the middle");
+        }
+    }
+
+    #[test]
+    fn the_orthographic_height_is_the_perspective_one_at_the_target() {
+        let mut camera = Camera::default_view(&BOUNDS);
+        let right = (camera.target - camera.eye).cross(camera.up).normalize_or_zero();
+        let (_, perspective) = depth_and_x(&camera.view(&BOUNDS, 1.0), camera.target + right);
+        camera.is_orthographic = true;
+        let (_, orthographic) = depth_and_x(&camera.view(&BOUNDS, 1.0), camera.target + right);
+        assert!((perspective - orthographic).abs() < 1e-5);
+        assert!(perspective > 0.0, "right is right");
+    }
+
+    #[test]
+    fn looking_straight_down_is_a_view_too() {
+        let mut camera = Camera::default_view(&BOUNDS);
+        camera.eye = camera.target + DVec3::Y * 9.0;
+        let view = camera.view(&BOUNDS, 1.5);
+        assert!(view.clip_from_world.is_finite());
+        camera.eye = camera.target;
+        assert!(camera.view(&BOUNDS, 1.5).clip_from_world.is_finite());
+    }
+}

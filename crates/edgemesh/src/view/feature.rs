@@ -1,0 +1,229 @@
+//! Which edges are features of a view (paper, section 3.2, Equation 1).
+//!
+//! The indexed layout decides from facing bits and static flags
+//! ([`classify_edge`]); the paper's replicated layout decides from the edge
+//! vertex alone ([`equation_1`]). A property test holds them to each other.
+//! Which of the classes of an edge counts, and in which layer it is drawn, says a
+//! [`ClassTable`].
+//!
+//! WGSL twin of [`classify_edge`]: `shaders/common/feature.wgsl`.
+
+use glam::{Vec3, Vec4};
+
+use crate::edge_mesh::edge_word::{EdgeWord, STEPS_PER_DEGREE};
+use crate::edge_mesh::record::EdgeFlags;
+use crate::line::class::{ClassTable, LineClass, NO_LAYER};
+
+bitflags::bitflags! {
+    /// What a view says of an edge. The first three bits sit where the live list
+    /// of the GPU carries them, above the edge's index.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub struct LineBits: u32 {
+        /// Exactly one of the two faces looks at the eye.
+        const CONTOUR = 1 << 31;
+        /// Face A looks at the eye. For a contour this says which side is the
+        /// outside: a front face lies left of its own direction of traversal.
+        const A_FACES = 1 << 30;
+        /// The solid that the edge is on hides it from an eye outside.
+        const BEHIND_SOLID = 1 << 29;
+        /// The edge is drawn: a contour, or of a class that always is.
+        const DRAWN = 1 << 28;
+    }
+}
+
+/// From this many steps on, one degree, an edge is a groove: flatter ones could be
+/// concave by rounding alone, most of all at 16 bits.
+pub const LEAST_GROOVE_STEPS: u32 = STEPS_PER_DEGREE;
+
+/// Up to this many steps, 150 degrees, an edge is a groove. Beyond it is a fold; in
+/// many meshes that is a face turned over, behind which nothing hides it.
+pub const MOST_GROOVE_STEPS: u32 = 150 * STEPS_PER_DEGREE;
+
+/// The faces of an edge as a view sees them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct EdgeFaces {
+    /// Whether there is a second face; else `b_faces` is unused.
+    pub has_b: bool,
+    /// Whether face A looks at the eye.
+    pub a_faces: bool,
+    /// Whether face B does.
+    pub b_faces: bool,
+}
+
+/// What a view makes of an edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Line {
+    /// Contour, facing, and whether it is drawn.
+    pub bits: LineBits,
+    /// The layer it belongs to, or [`NO_LAYER`].
+    pub layer: u32,
+}
+
+/// One bit for each class, but that of contours, that the edge is of.
+#[must_use]
+pub fn static_classes(word: EdgeWord, table: &ClassTable) -> u32 {
+    let flags = word.flags();
+    let is_crease = |flag: EdgeFlags, steps: u32, is_concave: bool| {
+        if steps == 0 {
+            flags.contains(flag)
+        } else {
+            word.is_concave() == is_concave && word.crease_steps() >= steps
+        }
+    };
+    let bit = |class: LineClass, is_set: bool| u32::from(is_set) << class as u32;
+    bit(LineClass::Marked, flags.contains(EdgeFlags::MARKED))
+        | bit(LineClass::Boundary, flags.intersects(EdgeFlags::BOUNDARY | EdgeFlags::NON_MANIFOLD))
+        | bit(LineClass::Material, flags.contains(EdgeFlags::MATERIAL))
+        | bit(LineClass::Smoothing, flags.contains(EdgeFlags::SMOOTHING))
+        | bit(LineClass::Ridge, is_crease(EdgeFlags::RIDGE, table.ridge_steps, false))
+        | bit(LineClass::Valley, is_crease(EdgeFlags::VALLEY, table.valley_steps, true))
+}
+
+/// Decides what a view makes of one edge.
+///
+/// Pairs of a non-manifold edge are drawn in every view and are no contours.
+///
+/// An edge of a solid with both faces turned away from an eye outside of it is
+/// hidden by the solid itself, and is not drawn unless the table keeps it. So is a
+/// contour in a groove: a line of sight beside it would meet the back face first, and
+/// be inside of the solid already. Left to the depth test such edges would show at
+/// their ends, where their width reaches past the faces in front; and on rough
+/// meshes every other contour is one.
+#[must_use]
+pub fn classify_edge(
+    word: EdgeWord,
+    faces: EdgeFaces,
+    table: &ClassTable,
+    eye_is_outside: bool,
+) -> Line {
+    let flags = word.flags();
+    let b_faces = faces.b_faces != flags.contains(EdgeFlags::CLASH);
+    let is_manifold = faces.has_b && !flags.contains(EdgeFlags::NON_MANIFOLD);
+    // Contour where exactly one of the two faces looks at the eye.
+    let is_contour = is_manifold && faces.a_faces != b_faces;
+    let classes = (static_classes(word, table) | u32::from(is_contour)) & table.drawn;
+    let is_turned_away = !faces.a_faces && !b_faces;
+    let is_behind_solid = eye_is_outside
+        && flags.contains(EdgeFlags::SOLID)
+        && (is_turned_away || is_contour && is_groove(word));
+    let is_drawn = classes != 0 && (!is_behind_solid || table.keeps_hidden != 0);
+    let mut bits = LineBits::empty();
+    bits.set(LineBits::CONTOUR, is_contour);
+    bits.set(LineBits::A_FACES, faces.a_faces);
+    bits.set(LineBits::BEHIND_SOLID, is_behind_solid);
+    bits.set(LineBits::DRAWN, is_drawn);
+    let class = classes.trailing_zeros();
+    let layer = if is_drawn { table.layers >> (4 * class) & NO_LAYER } else { NO_LAYER };
+    Line { bits, layer }
+}
+
+fn is_groove(word: EdgeWord) -> bool {
+    let range = LEAST_GROOVE_STEPS..=MOST_GROOVE_STEPS;
+    word.is_concave() && range.contains(&word.crease_steps())
+}
+
+/// Whether the eye lies outside of the box from `min` to `max`, and so outside of
+/// every solid in it; a viewer at infinity (w = 0) does.
+#[must_use]
+pub fn eye_is_outside(eye: Vec4, min: Vec3, max: Vec3) -> bool {
+    let eye_point = eye.truncate();
+    eye.w == 0.0 || eye_point.cmplt(min).any() || eye_point.cmpgt(max).any()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn classify(flags: EdgeFlags, a_faces: bool, b_faces: bool, outside: bool) -> LineBits {
+        let faces = EdgeFaces { has_b: true, a_faces, b_faces };
+        classify_edge(flags.into(), faces, &ClassTable::all_in_one(), outside).bits
+    }
+
+    #[test]
+    fn a_contour_has_one_face_of_each_kind() {
+        let is_contour = |flags, a, b| classify(flags, a, b, true).contains(LineBits::CONTOUR);
+        for (a, b) in [(false, false), (true, true)] {
+            assert!(!is_contour(EdgeFlags::empty(), a, b));
+            assert!(is_contour(EdgeFlags::CLASH, a, b), "a clash turns face B around");
+        }
+        for (a, b) in [(false, true), (true, false)] {
+            assert!(is_contour(EdgeFlags::empty(), a, b));
+            assert!(is_contour(EdgeFlags::DIAGONAL, a, b), "a diagonal can be a contour");
+            assert!(!is_contour(EdgeFlags::NON_MANIFOLD, a, b));
+        }
+    }
+
+    #[test]
+    fn what_is_drawn_without_a_contour() {
+        let is_drawn = |flags| classify(flags, true, true, true).contains(LineBits::DRAWN);
+        assert!(!is_drawn(EdgeFlags::empty()));
+        assert!(!is_drawn(EdgeFlags::DIAGONAL));
+        for flags in EdgeFlags::ALWAYS_DRAWN.iter() {
+            assert!(is_drawn(flags), "{flags:?}");
+        }
+    }
+
+    #[test]
+    fn a_solid_hides_its_own_back_from_an_eye_outside() {
+        let ridge = EdgeFlags::RIDGE | EdgeFlags::SOLID;
+        let is_drawn =
+            |flags, a, b, outside| classify(flags, a, b, outside).contains(LineBits::DRAWN);
+        assert!(!is_drawn(ridge, false, false, true));
+        assert!(is_drawn(ridge, false, false, false), "from inside it is seen");
+        assert!(is_drawn(EdgeFlags::RIDGE, false, false, true), "an open surface hides nothing");
+        for (a, b) in [(true, true), (true, false), (false, true)] {
+            assert!(is_drawn(ridge, a, b, true));
+        }
+        // A contour in a groove is behind what rises before it.
+        let contour = |degrees: f64, is_concave, outside| {
+            let word = EdgeWord::new(EdgeFlags::SOLID, degrees.to_radians(), is_concave);
+            let faces = EdgeFaces { has_b: true, a_faces: true, b_faces: false };
+            let bits = classify_edge(word, faces, &ClassTable::all_in_one(), outside).bits;
+            assert!(bits.contains(LineBits::CONTOUR));
+            bits.contains(LineBits::DRAWN)
+        };
+        assert!(!contour(1.0, true, true));
+        assert!(contour(0.9, true, true), "within rounding");
+        assert!(!contour(150.0, true, true));
+        assert!(contour(151.0, true, true), "a face turned over");
+        assert!(contour(20.0, false, true), "on a ridge");
+        assert!(contour(20.0, true, false), "from inside");
+        let keeping = ClassTable { keeps_hidden: 1, ..ClassTable::all_in_one() };
+        let faces = EdgeFaces { has_b: true, a_faces: false, b_faces: false };
+        let kept = classify_edge(ridge.into(), faces, &keeping, true).bits;
+        assert_eq!(kept, LineBits::BEHIND_SOLID | LineBits::DRAWN);
+        let outside = |eye: [f32; 4]| eye_is_outside(eye.into(), Vec3::ZERO, Vec3::ONE);
+        assert!(outside([0.5, 0.5, 1.1, 1.0]) && !outside([0.5, 0.5, 1.0, 1.0]));
+        assert!(outside([0.5, 0.5, 0.5, 0.0]), "a direction");
+    }
+
+    #[test]
+    fn an_edge_of_several_classes_is_of_the_strongest_that_is_drawn() {
+        let faces = EdgeFaces { has_b: true, a_faces: true, b_faces: false };
+        let word = EdgeWord::from(EdgeFlags::MARKED | EdgeFlags::RIDGE);
+        let layer = |undrawn: &[LineClass]| {
+            let table =
+                ClassTable::new(|class| (!undrawn.contains(&class)).then_some(2 * class as u32));
+            classify_edge(word, faces, &table, true).layer
+        };
+        assert_eq!(layer(&[]), 0);
+        assert_eq!(layer(&[LineClass::Contour]), 2);
+        assert_eq!(layer(&[LineClass::Contour, LineClass::Marked]), 10);
+        assert_eq!(layer(&[LineClass::Contour, LineClass::Marked, LineClass::Ridge]), NO_LAYER);
+    }
+
+    #[test]
+    fn thresholds_can_change_and_are_met_by_their_own_angle() {
+        let word = |degrees: f64, is_concave| {
+            EdgeWord::new(EdgeFlags::RIDGE, degrees.to_radians(), is_concave)
+        };
+        let table = ClassTable { ridge_steps: 1350, valley_steps: 450, ..ClassTable::all_in_one() };
+        let has = |word, class: LineClass| static_classes(word, &table) >> class as u32 & 1 == 1;
+        assert!(has(word(30.0, false), LineClass::Ridge));
+        assert!(!has(word(29.9, false), LineClass::Ridge), "whatever it was built as");
+        assert!(has(word(10.0, true), LineClass::Valley));
+        assert!(!has(word(40.0, true), LineClass::Ridge));
+        let built = ClassTable::all_in_one();
+        assert!(static_classes(word(1.0, false), &built) != 0, "as built");
+    }
+}

@@ -1,0 +1,202 @@
+//! The fill: the surface in one flat colour, and the depth that hides strokes.
+//!
+//! The surface is pushed away from the eye a little (the paper's section 3.5
+//! uses the same offset), in proportion to its slope on the screen, so that a
+//! stroke along an edge is not swallowed by the faces beside it. The push is that
+//! of about one pixel of slope, whatever the width of the strokes; wide strokes
+//! follow their faces by themselves (`stroke_vertex.wgsl`).
+//!
+//! Rejected: pulling the strokes forward by a constant, as no constant is right
+//! for a face seen head on and for one seen edge on; a push that grows with the
+//! strokes, as hidden lines then show through along every silhouette.
+
+use bytemuck::{Pod, Zeroable};
+use edgemesh_shaders::ShaderError;
+use wgpu::{CompareFunction, ShaderStages, StencilFaceState, StencilOperation};
+
+use crate::gpu::bind::{bind_buffers, uniform_buffer, uniform_entry};
+use crate::gpu::shader::embedded_module;
+use crate::gpu::target_formats::TargetFormats;
+use crate::mesh::buffers::MeshBuffers;
+
+/// The constant part of the push, in steps of the depth buffer.
+const PUSH_STEPS: i32 = 8;
+
+/// What every draw of one fill shares. WGSL twin: `shaders/fill.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct FillUniform {
+    /// Premultiplied colour.
+    pub color: [f32; 4],
+}
+
+/// What a fill writes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FillKind {
+    /// Colour, depth and stencil.
+    Whole,
+    /// Depth and stencil: what lies behind shows through.
+    Clear,
+    /// The stencil alone, where the surface is what one sees.
+    Mark,
+}
+
+/// The pipelines of the fill.
+#[derive(Debug)]
+pub(crate) struct FillPipeline {
+    /// Without clip planes, and with some.
+    whole: [wgpu::RenderPipeline; 2],
+    clear: [wgpu::RenderPipeline; 2],
+    mark: [wgpu::RenderPipeline; 2],
+    pass_layout: wgpu::BindGroupLayout,
+    draw_layout: wgpu::BindGroupLayout,
+}
+
+impl FillPipeline {
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        frame_layout: &wgpu::BindGroupLayout,
+        formats: &TargetFormats,
+    ) -> Result<Self, ShaderError> {
+        let layout = |label: &str, visibility| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(label),
+                entries: &[uniform_entry(0, visibility)],
+            })
+        };
+        let pass_layout = layout("fill", ShaderStages::FRAGMENT);
+        let draw_layout = layout("fill object", ShaderStages::VERTEX_FRAGMENT);
+        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("fill"),
+            bind_group_layouts: &[Some(frame_layout), Some(&pass_layout), Some(&draw_layout)],
+            immediate_size: 0,
+        });
+        let module = embedded_module(device, "fill.wgsl")?;
+        let pipeline = |kind| {
+            [false, true]
+                .map(|clips| pipeline(device, &pipeline_layout, &module, formats, (kind, clips)))
+        };
+        Ok(Self {
+            whole: pipeline(FillKind::Whole),
+            clear: pipeline(FillKind::Clear),
+            mark: pipeline(FillKind::Mark),
+            pass_layout,
+            draw_layout,
+        })
+    }
+
+    /// The group of a colour.
+    pub(crate) fn pass(&self, device: &wgpu::Device, color: [f32; 4]) -> wgpu::BindGroup {
+        let uniform = uniform_buffer(device, "fill", &FillUniform { color });
+        bind_buffers(device, "fill", &self.pass_layout, &[(0, &uniform)])
+    }
+
+    /// The group of an object.
+    pub(crate) fn draw(&self, device: &wgpu::Device, object: &wgpu::Buffer) -> wgpu::BindGroup {
+        bind_buffers(device, "fill object", &self.draw_layout, &[(0, object)])
+    }
+
+    pub(crate) fn set(&self, pass: &mut wgpu::RenderPass, kind: FillKind, clips: bool) {
+        let pipelines = match kind {
+            FillKind::Whole => &self.whole,
+            FillKind::Clear => &self.clear,
+            FillKind::Mark => &self.mark,
+        };
+        pass.set_pipeline(&pipelines[usize::from(clips)]);
+    }
+
+    /// Draws one mesh; after [`Self::set`], `@group(0)` must be the frame,
+    /// `@group(1)` the colour, `@group(2)` the object.
+    pub(crate) fn record(pass: &mut wgpu::RenderPass, mesh: &MeshBuffers) {
+        for part in mesh.fill.iter().filter(|part| part.index_count > 0) {
+            pass.set_vertex_buffer(0, part.positions.slice(..));
+            pass.set_index_buffer(part.triangles.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed(0..part.index_count, 0, 0..1);
+        }
+    }
+}
+
+fn pipeline(
+    device: &wgpu::Device,
+    layout: &wgpu::PipelineLayout,
+    module: &wgpu::ShaderModule,
+    formats: &TargetFormats,
+    (kind, clips): (FillKind, bool),
+) -> wgpu::RenderPipeline {
+    let constants = [("CLIPS", f64::from(u8::from(clips)))];
+    let write_mask = match kind {
+        FillKind::Whole => wgpu::ColorWrites::ALL,
+        FillKind::Clear | FillKind::Mark => wgpu::ColorWrites::empty(),
+    };
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("fill"),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some("fill_vertex"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &[Some(wgpu::VertexBufferLayout {
+                array_stride: 12,
+                step_mode: wgpu::VertexStepMode::Vertex,
+                attributes: &wgpu::vertex_attr_array![0 => Float32x3],
+            })],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: Some(depth_stencil(formats, kind)),
+        multisample: wgpu::MultisampleState { count: formats.samples, ..Default::default() },
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some("fill_fragment"),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &constants,
+                ..Default::default()
+            },
+            targets: &[Some(wgpu::ColorTargetState {
+                format: formats.color,
+                blend: None,
+                write_mask,
+            })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn depth_stencil(formats: &TargetFormats, kind: FillKind) -> wgpu::DepthStencilState {
+    // Marking comes after all fills, and finds the depth of its own.
+    let depth_compare = match kind {
+        FillKind::Whole | FillKind::Clear => CompareFunction::Greater,
+        FillKind::Mark => CompareFunction::Equal,
+    };
+    let face = StencilFaceState {
+        compare: CompareFunction::Always,
+        fail_op: StencilOperation::Keep,
+        depth_fail_op: StencilOperation::Keep,
+        pass_op: StencilOperation::Replace,
+    };
+    let stencil = if formats.has_stencil() {
+        wgpu::StencilState { front: face, back: face, read_mask: 0xff, write_mask: 0xff }
+    } else {
+        wgpu::StencilState::default()
+    };
+    wgpu::DepthStencilState {
+        format: formats.depth,
+        depth_write_enabled: Some(kind != FillKind::Mark),
+        depth_compare: Some(depth_compare),
+        stencil,
+        bias: push_away(),
+    }
+}
+
+/// Away from the eye is toward 0 in reversed depth. A sample lies up to a pixel
+/// from where the edge's depth was taken; the driver's slope is the larger of
+/// the two screen directions, so a slope across the diagonal counts as the root
+/// of two of it.
+#[must_use]
+pub const fn push_away() -> wgpu::DepthBiasState {
+    wgpu::DepthBiasState {
+        constant: -PUSH_STEPS,
+        slope_scale: -std::f32::consts::SQRT_2,
+        clamp: 0.0,
+    }
+}

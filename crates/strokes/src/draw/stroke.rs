@@ -1,0 +1,331 @@
+//! Strokes: thin lines, quads with caps, half disks and fins along the edges that
+//! a view draws (paper, sections 3.2 to 3.5).
+//!
+//! Their vertices come from one of four places:
+//!
+//! | source | what the vertex shader does |
+//! |---|---|
+//! | expanded | hands on what the expansion worked out |
+//! | listed | works it out for the edges of the live list that found no room there |
+//! | all | the paper's path: decides for every edge, drawn or not, by its index |
+//! | attributes | the paper's path and layouts: from four vertices an edge, in passes for the quad and its ends |
+//!
+//! All of them call the same functions, so they draw the same picture. What is
+//! hidden is drawn by turning the depth test around (section 3.5); a silhouette
+//! where the stencil is not that of its own object (section 3.4; step 4 of the
+//! printed list keeps what the text means to suppress). Contours over the surface
+//! that they bound decide both in their fragments (`stroke_over_surface.wgsl`).
+//!
+//! ```text
+//!        6                          9
+//!      . |  3 ----------------- 2   | .
+//!    5---4  .                   .   7--8
+//!           0 ----------------- 1
+//! ```
+
+use bytemuck::{Pod, Zeroable};
+use edgemesh::index::to_u32;
+use edgemesh::line::class::ClassTable;
+use edgemesh::line::kind::LineKind;
+use edgemesh_shaders::ShaderError;
+use wgpu::{CompareFunction, StencilFaceState, StencilOperation};
+
+use crate::draw::stroke_layouts::StrokeLayouts;
+use crate::gpu::bind::uniform_buffer;
+use crate::gpu::device::Gpu;
+use crate::gpu::shader::embedded_module;
+use crate::gpu::target_formats::TargetFormats;
+use crate::mesh::layout::Layout;
+use crate::style::brush::{Brush, BrushTextures};
+use crate::style::drawing_style::{StyledDraw, Visibility, Width};
+
+/// What all strokes of a draw share. WGSL twin:
+/// `shaders/common/stroke_style.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct StrokeUniform {
+    /// Premultiplied colour.
+    pub color: [f32; 4],
+    /// Distances where strokes begin to fade and where they are gone; equal for
+    /// never.
+    pub fade: [f32; 2],
+    /// Width in pixels, or in units of the world.
+    pub width: f32,
+    /// Length of the brush over its height.
+    pub brush_aspect: f32,
+    /// A [`LineKind`].
+    pub kind: u32,
+    /// A [`edgemesh::line::placement::Placement`].
+    pub placement: u32,
+    /// A [`edgemesh::line::placement::Parameterization`].
+    pub parameterization: u32,
+    /// 1 where the width is in units of the world.
+    pub is_world_width: u32,
+    /// The layer whose edges are drawn.
+    pub layer: u32,
+    /// The draw's place among all.
+    pub draw_index: u32,
+    /// Indices an edge.
+    pub index_count: u32,
+    /// 1 where edges that their own solid hides are drawn.
+    pub shows_hidden: u32,
+    /// The classes, for vertex shaders that detect.
+    pub classes: ClassTable,
+    /// Unused.
+    pub padding: [u32; 3],
+}
+
+impl StrokeUniform {
+    /// The uniform of the draw with this number.
+    pub(crate) fn new(draw: &StyledDraw, draw_index: usize, table: &ClassTable) -> Self {
+        let style = &draw.style;
+        let (width, is_world_width) = match style.width {
+            Width::Pixels(width) => (width, 0),
+            Width::World(width) => (width, 1),
+        };
+        Self {
+            color: style.color,
+            fade: style.fade.unwrap_or_default(),
+            width,
+            brush_aspect: style.brush.as_ref().map_or(1.0, Brush::aspect),
+            kind: style.kind as u32,
+            placement: style.placement as u32,
+            parameterization: style.parameterization as u32,
+            is_world_width,
+            layer: draw.layer,
+            draw_index: to_u32(draw_index),
+            index_count: to_u32(style.kind.indices().len()),
+            shows_hidden: u32::from(draw.visibility == Visibility::Hidden),
+            classes: *table,
+            padding: [0; 3],
+        }
+    }
+}
+
+/// The bind group of a style.
+pub(crate) fn style_group(
+    gpu: &Gpu,
+    layouts: &StrokeLayouts,
+    brushes: &mut BrushTextures,
+    draw: &StyledDraw,
+    draw_index: usize,
+    table: &ClassTable,
+) -> wgpu::BindGroup {
+    let device = &gpu.device;
+    let solid = Brush::solid();
+    let brush = draw.style.brush.as_ref().unwrap_or(&solid);
+    let texture = brushes.texture(gpu, brush);
+    let sampler = &brushes.sampler;
+    let uniform = StrokeUniform::new(draw, draw_index, table);
+    let uniform = uniform_buffer(device, "stroke style", &uniform);
+    let resources = [
+        uniform.as_entire_binding(),
+        wgpu::BindingResource::TextureView(&texture),
+        wgpu::BindingResource::Sampler(sampler),
+    ];
+    let entries: Vec<wgpu::BindGroupEntry> = (0..)
+        .zip(resources)
+        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
+        .collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("stroke style"),
+        layout: &layouts.pass,
+        entries: &entries,
+    })
+}
+
+/// Where the vertices of strokes come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum VertexSource {
+    Expanded,
+    Listed,
+    All,
+    Attributes,
+}
+
+/// What tells pipelines of strokes apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct StrokeVariant {
+    pub(crate) source: VertexSource,
+    pub(crate) visibility: Visibility,
+    pub(crate) is_thin: bool,
+    pub(crate) is_textured: bool,
+    /// See [`StyledDraw::lies_over_surface`].
+    pub(crate) is_over_surface: bool,
+}
+
+impl StrokeVariant {
+    pub(crate) fn new(source: VertexSource, draw: &StyledDraw) -> Self {
+        Self {
+            source,
+            visibility: draw.visibility,
+            is_thin: draw.style.kind == LineKind::Thin,
+            is_textured: draw.style.brush.is_some(),
+            is_over_surface: draw.lies_over_surface(),
+        }
+    }
+
+    /// The shader of the fragments, and its entry point.
+    const fn fragment(self, vertex_shader: &'static str, samples: u32) -> [&'static str; 2] {
+        let entry = match (self.visibility, samples) {
+            _ if !self.is_over_surface => return [vertex_shader, "stroke_fragment"],
+            (Visibility::Silhouette, 1) => "silhouette_of_pixels",
+            (Visibility::Silhouette, _) => "silhouette_of_samples",
+            (_, 1) => "over_surface_of_pixels",
+            _ => "over_surface_of_samples",
+        };
+        ["stroke_over_surface.wgsl", entry]
+    }
+
+    const fn shader(self, layout: Layout) -> &'static str {
+        match (self.source, layout) {
+            (VertexSource::Expanded, _) => "stroke_expanded.wgsl",
+            (VertexSource::Listed, _) => "stroke_listed.wgsl",
+            (VertexSource::All, _) => "stroke_all.wgsl",
+            (VertexSource::Attributes, Layout::Replicated16) => "stroke_replicated_16.wgsl",
+            (VertexSource::Attributes, Layout::FaceNormals) => "stroke_face_normals.wgsl",
+            (VertexSource::Attributes, _) => "stroke_replicated.wgsl",
+        }
+    }
+
+    fn groups(self, layouts: &StrokeLayouts) -> [Option<&wgpu::BindGroupLayout>; 4] {
+        let mut groups = match self.source {
+            VertexSource::Expanded => layouts.groups(None, None),
+            VertexSource::Listed => layouts.groups(Some(&layouts.edges), Some(&layouts.listed)),
+            VertexSource::All => layouts.groups(Some(&layouts.edges), Some(&layouts.planes)),
+            VertexSource::Attributes => layouts.groups(Some(&layouts.object), None),
+        };
+        if self.is_over_surface {
+            groups[0] = Some(&layouts.frame_fill);
+        }
+        groups
+    }
+
+    const fn vertex_buffer(self, layout: Layout) -> Option<wgpu::VertexBufferLayout<'static>> {
+        let (array_stride, attributes): (u64, &[wgpu::VertexAttribute]) =
+            match (self.source, layout) {
+                (VertexSource::Expanded, _) => {
+                    (crate::draw::expand::BYTES_PER_VERTEX as u64, &EXPANDED)
+                }
+                (VertexSource::Attributes, Layout::Replicated16) => (40, &REPLICATED_16),
+                (VertexSource::Attributes, Layout::FaceNormals) => (48, &FACE_NORMALS),
+                (VertexSource::Attributes, _) => (80, &REPLICATED),
+                _ => return None,
+            };
+        let step_mode = wgpu::VertexStepMode::Vertex;
+        Some(wgpu::VertexBufferLayout { array_stride, step_mode, attributes })
+    }
+}
+
+const EXPANDED: [wgpu::VertexAttribute; 3] =
+    wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32, 2 => Unorm16x2];
+
+const REPLICATED: [wgpu::VertexAttribute; 8] = wgpu::vertex_attr_array![
+    0 => Float32x3, 1 => Float32x3, 2 => Float32x3, 3 => Float32x3,
+    4 => Float32x3, 5 => Float32x3, 6 => Float32, 7 => Uint32
+];
+
+const FACE_NORMALS: [wgpu::VertexAttribute; 4] =
+    wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3, 3 => Float32x3];
+
+const REPLICATED_16: [wgpu::VertexAttribute; 6] = wgpu::vertex_attr_array![
+    0 => Sint16x4, 1 => Sint16x4, 2 => Sint16x4, 3 => Sint16x4, 4 => Sint16x2, 5 => Uint8x4
+];
+
+/// Builds the pipeline of a variant.
+pub(crate) fn stroke_pipeline(
+    device: &wgpu::Device,
+    layouts: &StrokeLayouts,
+    layout: Layout,
+    formats: &TargetFormats,
+    variant: StrokeVariant,
+) -> Result<wgpu::RenderPipeline, ShaderError> {
+    let shader = variant.shader(layout);
+    let module = layout.shader_module(device, shader)?;
+    let [fragment_shader, fragment_entry] = variant.fragment(shader, formats.samples);
+    let fragments = if fragment_shader == shader {
+        module.clone()
+    } else {
+        embedded_module(device, fragment_shader)?
+    };
+    let is_hidden = variant.visibility == Visibility::Hidden;
+    let constants = [("IS_TEXTURED", variant.is_textured), ("IS_HIDDEN", is_hidden)]
+        .map(|(name, value)| (name, f64::from(u8::from(value))));
+    let constants = if variant.is_over_surface { &constants[..] } else { &constants[..1] };
+    let compilation_options = wgpu::PipelineCompilationOptions { constants, ..Default::default() };
+    let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(shader),
+        bind_group_layouts: trimmed(&variant.groups(layouts)),
+        immediate_size: 0,
+    });
+    let buffers = [variant.vertex_buffer(layout)];
+    let topology = if variant.is_thin {
+        wgpu::PrimitiveTopology::LineList
+    } else {
+        wgpu::PrimitiveTopology::TriangleList
+    };
+    Ok(device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(shader),
+        layout: Some(&pipeline_layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("stroke_vertices"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: if buffers[0].is_some() { &buffers } else { &[] },
+        },
+        primitive: wgpu::PrimitiveState { topology, ..wgpu::PrimitiveState::default() },
+        depth_stencil: Some(depth_stencil(formats, variant)),
+        multisample: wgpu::MultisampleState { count: formats.samples, ..Default::default() },
+        fragment: Some(wgpu::FragmentState {
+            module: &fragments,
+            entry_point: Some(fragment_entry),
+            compilation_options,
+            targets: &[Some(wgpu::ColorTargetState {
+                format: formats.color,
+                blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    }))
+}
+
+/// Without the groups at the end that there are none of.
+fn trimmed<'a, 'b>(
+    groups: &'b [Option<&'a wgpu::BindGroupLayout>],
+) -> &'b [Option<&'a wgpu::BindGroupLayout>] {
+    let used = groups.iter().rposition(Option::is_some).map_or(0, |last| last + 1);
+    &groups[..used]
+}
+
+fn depth_stencil(formats: &TargetFormats, variant: StrokeVariant) -> wgpu::DepthStencilState {
+    // Depth is reversed. What is behind anything is hidden, and what is not is
+    // visible: no sample is in both or in neither.
+    let compare = match variant.visibility {
+        _ if variant.is_over_surface => CompareFunction::Always,
+        Visibility::Hidden => CompareFunction::Less,
+        Visibility::Visible | Visibility::Silhouette => CompareFunction::GreaterEqual,
+    };
+    let face = StencilFaceState {
+        compare: CompareFunction::NotEqual,
+        fail_op: StencilOperation::Keep,
+        depth_fail_op: StencilOperation::Keep,
+        pass_op: StencilOperation::Keep,
+    };
+    let stencil = match variant.visibility {
+        Visibility::Silhouette if !variant.is_over_surface => {
+            wgpu::StencilState { front: face, back: face, read_mask: 0xff, write_mask: 0 }
+        }
+        _ => wgpu::StencilState::default(),
+    };
+    wgpu::DepthStencilState {
+        format: formats.depth,
+        // Strokes hide nothing; they lie over each other in the order of the
+        // records.
+        depth_write_enabled: Some(false),
+        depth_compare: Some(compare),
+        stencil,
+        bias: wgpu::DepthBiasState::default(),
+    }
+}

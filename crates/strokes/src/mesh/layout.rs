@@ -1,0 +1,81 @@
+//! How edges lie in memory on the GPU.
+
+use bytemuck::{Pod, Zeroable};
+use edgemesh_shaders::{ShaderError, ShaderSource};
+
+use crate::gpu::shader::shader_module;
+
+/// Edges that one invocation looks at. WGSL twin: the constant of this name in
+/// `shaders/common/view_runs.wgsl`.
+pub const EDGES_PER_RUN: u32 = 64;
+
+/// Faces whose facing bits are one word.
+pub(crate) const FACES_PER_WORD: usize = 32;
+
+/// How edges lie in memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Layout {
+    /// Records of indices: 20 bytes an edge.
+    #[default]
+    Indexed,
+    /// The paper's, in 32-bit floats: 320 bytes an edge.
+    Replicated,
+    /// The paper's, at 16 bits: 160 bytes an edge.
+    Replicated16,
+    /// Card and Mitchell's fins, to compare with: 192 bytes an edge. They draw
+    /// contours and boundaries as fins, whatever the look says of kinds and
+    /// classes, and only where vertex shaders detect.
+    FaceNormals,
+}
+
+impl Layout {
+    /// The file of this layout that stands for a placeholder: `common/edge_source.wgsl`
+    /// (where an edge's geometry comes from) or `common/edge_faces.wgsl` (how a view sees
+    /// its faces). Files of one placeholder have functions of the same names.
+    fn shader_file(self, placeholder: &str) -> Option<&'static str> {
+        match (placeholder, self) {
+            ("common/edge_source.wgsl", Self::Indexed) => Some("common/edges_indexed.wgsl"),
+            ("common/edge_source.wgsl", Self::Replicated | Self::FaceNormals) => {
+                Some("common/edges_replicated.wgsl")
+            }
+            ("common/edge_source.wgsl", Self::Replicated16) => {
+                Some("common/edges_replicated_16.wgsl")
+            }
+            ("common/edge_faces.wgsl", Self::Indexed) => Some("common/faces_indexed.wgsl"),
+            ("common/edge_faces.wgsl", _) => Some("common/faces_replicated.wgsl"),
+            _ => None,
+        }
+    }
+
+    /// The module of an embedded shader for edges in this layout.
+    pub(crate) fn shader_module(
+        self,
+        device: &wgpu::Device,
+        root: &str,
+    ) -> Result<wgpu::ShaderModule, ShaderError> {
+        let source = ShaderSource::embedded_with(root, &|path| self.shader_file(path))?;
+        Ok(shader_module(device, &source, root))
+    }
+}
+
+/// How large a chunk is. WGSL twin: `ChunkUniform` in `shaders/common/mesh.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct ChunkUniform {
+    /// Triangles.
+    pub face_count: u32,
+    /// Edge records.
+    pub edge_count: u32,
+    /// Runs of [`EDGES_PER_RUN`] edges.
+    pub run_count: u32,
+    /// Strokes that there is room for between expansion and drawing.
+    pub capacity: u32,
+    /// The chunk's first run among those of the mesh.
+    pub first_run: u32,
+    /// The chunk's number.
+    pub chunk_index: u32,
+    /// Edges that can be linked into strokes.
+    pub node_capacity: u32,
+    /// Unused.
+    pub padding: u32,
+}

@@ -1,0 +1,444 @@
+//! The part of a frame that draws: the fill, the coverage of linked strokes, and all
+//! strokes in order.
+
+use std::sync::Arc;
+
+use edgemesh::line::kind::LineKind;
+
+use crate::draw::coverage::CHANNELS;
+use crate::draw::fill::{FillKind, FillPipeline};
+use crate::draw::silhouette::{NO_OBJECT, StencilValues};
+use crate::draw::stroke_indices::IndexKey;
+use crate::draw::targets::Targets;
+use crate::gpu::timer::TimedPasses;
+use crate::graph::buffers::RIBBON_DRAWS;
+use crate::renderer::object::{Object, ObjectPart, SeenBox};
+use crate::renderer::{DrawVertices, Fill, PASS_NAMES, PreparedDraw, Renderer};
+use crate::style::drawing_style::Visibility;
+use crate::view::live_lists::{DrawArguments, REST_OFFSET};
+
+/// The part of a frame that draws.
+pub(crate) struct FrameEncoder<'a> {
+    pub(crate) renderer: &'a Renderer,
+    pub(crate) targets: &'a Targets,
+    pub(crate) objects: &'a [&'a Object],
+    /// The frame with what was filled, where a draw asks for it.
+    pub(crate) frame_fill: Option<wgpu::BindGroup>,
+    /// The same of the whole picture, where a part is drawn.
+    pub(crate) overview_fill: Option<wgpu::BindGroup>,
+    pub(crate) steps: Vec<DrawStep>,
+    /// Whether the samples are averaged to the picture in the end.
+    pub(crate) resolves: bool,
+    /// Whether there are clip planes.
+    pub(crate) clips: bool,
+}
+
+/// What is drawn at once, in the order of a frame.
+pub(crate) enum DrawStep {
+    /// The strokes of an object and one of its draws, edge by edge.
+    Edges { object: usize, draw: usize },
+    /// Linked strokes: up to four draws, each of all objects with that look.
+    Linked(Vec<LinkedDraw>),
+}
+
+pub(crate) struct LinkedDraw {
+    objects: Vec<usize>,
+    draw: usize,
+}
+
+impl DrawStep {
+    /// All but silhouettes that are drawn edge by edge, which need the stencil.
+    pub(crate) fn plan(objects: &[&Object]) -> Vec<Self> {
+        let mut steps: Vec<Self> = Vec::new();
+        for visibility in [Visibility::Hidden, Visibility::Visible, Visibility::Silhouette] {
+            for (object, placed) in objects.iter().enumerate() {
+                let draws = placed.look.draws.iter().enumerate();
+                for (draw, prepared) in draws.filter(|(_, draw)| draw.visibility == visibility) {
+                    if prepared.is_linked {
+                        Self::add_linked(&mut steps, objects, object, draw);
+                    } else if visibility != Visibility::Silhouette {
+                        steps.push(Self::Edges { object, draw });
+                    }
+                }
+            }
+        }
+        steps
+    }
+
+    /// Objects that look alike share a channel, so that a scene has as many as it has
+    /// looks.
+    fn add_linked(steps: &mut Vec<Self>, objects: &[&Object], object: usize, draw: usize) {
+        let is_same = |linked: &LinkedDraw| {
+            let look = &objects[linked.objects[0]].look;
+            linked.draw == draw && Arc::ptr_eq(look, &objects[object].look)
+        };
+        let linked = steps.iter_mut().filter_map(|step| match step {
+            Self::Linked(draws) => Some(draws),
+            Self::Edges { .. } => None,
+        });
+        if let Some(same) = linked.flatten().find(|linked| is_same(linked)) {
+            same.objects.push(object);
+            return;
+        }
+        let new = LinkedDraw { objects: vec![object], draw };
+        match steps.last_mut() {
+            Some(Self::Linked(draws)) if draws.len() < CHANNELS => draws.push(new),
+            _ => steps.push(Self::Linked(vec![new])),
+        }
+    }
+}
+
+/// The stencil values of the objects, cut where the stencil must be cleared.
+pub(crate) struct StencilBatches {
+    /// One an object; [`NO_OBJECT`] for those without a silhouette.
+    values: Vec<u32>,
+    /// The first object of each batch behind the first one.
+    clears: Vec<usize>,
+}
+
+impl StencilBatches {
+    /// The objects of each batch, as ranges.
+    fn ranges(&self) -> Vec<std::ops::Range<usize>> {
+        let starts = std::iter::once(0).chain(self.clears.iter().copied());
+        let ends = self.clears.iter().copied().chain([self.values.len()]);
+        starts.zip(ends).map(|(start, end)| start..end).collect()
+    }
+}
+
+impl FrameEncoder<'_> {
+    pub(crate) fn stencil_values(&self) -> StencilBatches {
+        let mut counter = StencilValues::default();
+        let mut batches = StencilBatches { values: Vec::new(), clears: Vec::new() };
+        for (index, object) in self.objects.iter().enumerate() {
+            if !object.has_silhouette() {
+                batches.values.push(NO_OBJECT);
+                continue;
+            }
+            let (value, must_clear) = counter.next();
+            batches.values.push(value);
+            if must_clear {
+                batches.clears.push(index);
+            }
+        }
+        batches
+    }
+
+    pub(crate) fn encode_fill(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        fill: Fill,
+        batches: &StencilBatches,
+        timer: Option<TimedPasses>,
+    ) {
+        let load = match fill {
+            Fill::Clear([r, g, b, a]) => wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a }),
+            Fill::Depth => wgpu::LoadOp::Load,
+            Fill::Done => {
+                let timer = timer.map(|timer| timer.render(3));
+                let first = batches.ranges()[0].clone();
+                return self.encode_marks(encoder, first, &batches.values, timer);
+            }
+        };
+        let color = self.targets.color_attachment(load, false);
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(PASS_NAMES[3]),
+            color_attachments: &[Some(color)],
+            depth_stencil_attachment: Some(self.targets.cleared_depth()),
+            timestamp_writes: timer.map(|timer| timer.render(3)),
+            ..Default::default()
+        });
+        let first_batch = batches.clears.first().copied().unwrap_or(self.objects.len());
+        for (index, object) in self.objects.iter().enumerate() {
+            let value = if index < first_batch { batches.values[index] } else { NO_OBJECT };
+            self.fill(&mut pass, object, object.look.fill_kind, value);
+        }
+    }
+
+    fn fill(&self, pass: &mut wgpu::RenderPass, object: &Object, kind: FillKind, value: u32) {
+        self.renderer.fill.set(pass, kind, self.clips);
+        pass.set_bind_group(0, &self.renderer.frame.bind_group, &[]);
+        pass.set_bind_group(1, &object.look.fill_pass, &[]);
+        pass.set_bind_group(2, &object.fill_group, &[]);
+        pass.set_stencil_reference(value);
+        FillPipeline::record(pass, &object.mesh);
+    }
+
+    pub(crate) fn batches(&self) -> impl Iterator<Item = &[LinkedDraw]> {
+        self.steps.iter().filter_map(|step| match step {
+            DrawStep::Linked(draws) => Some(&draws[..]),
+            DrawStep::Edges { .. } => None,
+        })
+    }
+
+    /// From chains to ribbons, by the depth of the fill.
+    pub(crate) fn encode_paths(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        timer: Option<TimedPasses>,
+    ) {
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some(PASS_NAMES[4]),
+            timestamp_writes: timer.map(|timer| timer.compute(4)),
+        });
+        let frame = self.overview_fill.as_ref().or(self.frame_fill.as_ref());
+        let Some((frame, pipelines)) = frame.zip(self.renderer.graph.as_ref()) else {
+            return;
+        };
+        pass.set_bind_group(0, frame, &[]);
+        for object in self.objects {
+            if let Some((graph, styles)) = object.graph.as_ref().zip(object.look.path_pass.as_ref())
+            {
+                pass.set_bind_group(1, styles, &[]);
+                pipelines.path.record(&mut pass, &graph.buffers, &graph.path);
+            }
+        }
+    }
+
+    /// The coverage of linked strokes, one texture a batch.
+    pub(crate) fn encode_coverage(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        textures: &[wgpu::TextureView],
+        timer: Option<TimedPasses>,
+    ) {
+        if textures.is_empty() {
+            // The timer expects every pass.
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some(PASS_NAMES[5]),
+                timestamp_writes: timer.map(|timer| timer.compute(5)),
+            });
+        }
+        let Some((pipelines, frame)) = self.renderer.graph.as_ref().zip(self.frame_fill.as_ref())
+        else {
+            return;
+        };
+        for (batch, (draws, texture)) in self.batches().zip(textures).enumerate() {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some(PASS_NAMES[5]),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: texture,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                        store: wgpu::StoreOp::Store,
+                    },
+                })],
+                timestamp_writes: timer.filter(|_| batch == 0).map(|timer| timer.render(5)),
+                ..Default::default()
+            });
+            pass.set_bind_group(0, frame, &[]);
+            self.renderer.set_indices(&mut pass, IndexKey::Quads);
+            for (channel, linked) in draws.iter().enumerate() {
+                for object in linked.objects.iter().map(|&object| self.objects[object]) {
+                    let Some(graph) = &object.graph else { continue };
+                    let draw = &object.look.draws[linked.draw];
+                    pipelines.coverage.set_ribbons(&mut pass, channel, draw.is_textured);
+                    pass.set_bind_group(1, &draw.style, &[]);
+                    pass.set_bind_group(3, &graph.ribbons, &[]);
+                    let at = 4 * (RIBBON_DRAWS + 5 * linked.draw) as u64;
+                    pass.draw_indexed_indirect(&graph.buffers.arguments, at);
+                }
+            }
+        }
+    }
+
+    /// How each batch of coverage is laid over the picture.
+    pub(crate) fn composite_groups(
+        &self,
+        device: &wgpu::Device,
+        textures: &[wgpu::TextureView],
+    ) -> Vec<wgpu::BindGroup> {
+        let Some(pipelines) = &self.renderer.graph else { return Vec::new() };
+        let group = |(draws, texture): (&[LinkedDraw], &wgpu::TextureView)| {
+            let mut colors = [[0.0; 4]; CHANNELS];
+            for (color, linked) in colors.iter_mut().zip(draws) {
+                *color = self.objects[linked.objects[0]].look.draws[linked.draw].color;
+            }
+            pipelines.coverage.composite_group(device, colors, texture)
+        };
+        self.batches().zip(textures).map(group).collect()
+    }
+
+    /// The part of the picture that linked strokes can touch: left, top, width, height.
+    fn touched(&self, draws: &[LinkedDraw]) -> [u32; 4] {
+        let size = self.targets.size;
+        let everything = [0, 0, size[0], size[1]];
+        let mut touched: Option<SeenBox> = None;
+        let mut reach_px: f32 = 0.0;
+        for linked in draws {
+            for &object in &linked.objects {
+                let object = self.objects[object];
+                let reach = object.look.draws[linked.draw].reach_px;
+                let Some((seen, reach)) = object.seen.zip(reach) else { return everything };
+                reach_px = reach_px.max(reach);
+                touched = Some(touched.map_or(seen, |touched| touched.union(&seen)));
+            }
+        }
+        touched.map_or(everything, |touched| touched.pixels(reach_px, size))
+    }
+
+    /// What the steps say, in order.
+    fn draw_steps(&self, pass: &mut wgpu::RenderPass, laid: &[wgpu::BindGroup], values: &[u32]) {
+        let mut laid = laid.iter();
+        for step in &self.steps {
+            match step {
+                DrawStep::Edges { object, draw } => {
+                    self.strokes(pass, self.objects[*object], *draw)
+                }
+                DrawStep::Linked(draws) => {
+                    let pipelines = self.renderer.graph.as_ref();
+                    let [left, top, width, height] = self.touched(draws);
+                    let composite = pipelines.zip(laid.next());
+                    // Objects beside the picture touch nothing of it.
+                    if let Some((pipelines, group)) = composite.filter(|_| width * height > 0) {
+                        pass.set_scissor_rect(left, top, width, height);
+                        pipelines.coverage.record_composite(pass, group, draws.len());
+                        let [width, height] = self.targets.size;
+                        pass.set_scissor_rect(0, 0, width, height);
+                    }
+                    // What found no room to be linked.
+                    for linked in draws {
+                        for &object in &linked.objects {
+                            pass.set_stencil_reference(values[object]);
+                            self.strokes(pass, self.objects[object], linked.draw);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    pub(crate) fn encode_strokes(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        batches: &StencilBatches,
+        laid: &[wgpu::BindGroup],
+        timer: Option<TimedPasses>,
+    ) {
+        let ranges = batches.ranges();
+        for (batch, range) in ranges.iter().enumerate() {
+            let is_first = batch == 0;
+            if !is_first {
+                self.encode_marks(encoder, range.clone(), &batches.values, None);
+            }
+            let is_last = batch + 1 == ranges.len();
+            let color = self.targets.color_attachment(wgpu::LoadOp::Load, is_last && self.resolves);
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some(PASS_NAMES[6]),
+                color_attachments: &[Some(color)],
+                depth_stencil_attachment: Some(self.targets.read_depth()),
+                timestamp_writes: timer.filter(|_| is_first).map(|timer| timer.render(6)),
+                ..Default::default()
+            });
+            if is_first {
+                self.draw_steps(&mut pass, laid, &batches.values);
+            }
+            for index in range.clone().filter(|&index| batches.values[index] != NO_OBJECT) {
+                pass.set_stencil_reference(batches.values[index]);
+                let object = self.objects[index];
+                for (draw, prepared) in object.look.draws.iter().enumerate() {
+                    if prepared.visibility == Visibility::Silhouette && !prepared.is_linked {
+                        self.strokes(&mut pass, object, draw);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Clears the stencil and marks a batch of objects in it where their own depth is
+    /// what is seen.
+    fn encode_marks(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        range: std::ops::Range<usize>,
+        values: &[u32],
+        timer: Option<wgpu::RenderPassTimestampWrites>,
+    ) {
+        let color = self.targets.color_attachment(wgpu::LoadOp::Load, false);
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("marks"),
+            color_attachments: &[Some(color)],
+            depth_stencil_attachment: Some(self.targets.cleared_stencil()),
+            timestamp_writes: timer,
+            ..Default::default()
+        });
+        for index in range.filter(|&index| values[index] != NO_OBJECT) {
+            self.fill(&mut pass, self.objects[index], FillKind::Mark, values[index]);
+        }
+    }
+
+    /// The strokes of a draw, edge by edge.
+    fn strokes(&self, pass: &mut wgpu::RenderPass, object: &Object, index: usize) {
+        if let Some(draw) = object.look.draws.get(index) {
+            let frame = &self.renderer.frame.bind_group;
+            let frame =
+                self.frame_fill.as_ref().filter(|_| draw.lies_over_surface).unwrap_or(frame);
+            pass.set_bind_group(0, frame, &[]);
+            pass.set_bind_group(1, &draw.style, &[]);
+            for (chunk, part) in object.mesh.chunks.iter().zip(&object.parts) {
+                match &draw.vertices {
+                    DrawVertices::Lists { expanded, listed } => {
+                        let expanded = expanded.as_ref().map(|(_, pipeline)| pipeline);
+                        self.listed_strokes(pass, part, draw, index, expanded, listed);
+                    }
+                    DrawVertices::All(pipeline) => {
+                        let index_count = edgemesh::index::to_u32(draw.kind.indices().len());
+                        pass.set_pipeline(pipeline);
+                        pass.set_bind_group(2, &part.edges, &[]);
+                        pass.set_bind_group(3, part.planes.as_ref(), &[]);
+                        pass.draw(0..index_count * chunk.size.edge_count, 0..1);
+                    }
+                    DrawVertices::Attributes(pipeline) => {
+                        let crate::mesh::buffers::EdgeSource::Replicated { vertices } =
+                            &chunk.source
+                        else {
+                            continue;
+                        };
+                        pass.set_pipeline(pipeline);
+                        pass.set_bind_group(2, &part.edges, &[]);
+                        pass.set_vertex_buffer(0, vertices.slice(..));
+                        self.attribute_strokes(pass, draw.kind, chunk.size.edge_count);
+                    }
+                }
+            }
+        }
+    }
+
+    /// What was expanded, then the rest of the list.
+    fn listed_strokes(
+        &self,
+        pass: &mut wgpu::RenderPass,
+        part: &ObjectPart,
+        draw: &PreparedDraw,
+        index: usize,
+        expanded: Option<&wgpu::RenderPipeline>,
+        listed: &wgpu::RenderPipeline,
+    ) {
+        let Some(lists) = &part.lists else { return };
+        let arguments = (index * size_of::<DrawArguments>()) as u64;
+        if let (Some(expanded), Some(vertices)) = (expanded, &lists.view.vertices[index]) {
+            pass.set_pipeline(expanded);
+            pass.set_vertex_buffer(0, vertices.slice(..));
+            self.renderer.set_indices(pass, IndexKey::Expanded(draw.kind));
+            pass.draw_indexed_indirect(&lists.view.draws, arguments);
+        }
+        pass.set_pipeline(listed);
+        pass.set_bind_group(2, &part.edges, &[]);
+        pass.set_bind_group(3, &lists.listed, &[]);
+        pass.draw_indirect(&lists.view.draws, arguments + REST_OFFSET);
+    }
+
+    /// The paper's passes: all quads, then all ends, a triangle of each at a time.
+    fn attribute_strokes(&self, pass: &mut wgpu::RenderPass, kind: LineKind, edge_count: u32) {
+        let key = if kind == LineKind::Thin { IndexKey::Lines } else { IndexKey::Quads };
+        let per_edge = edgemesh::index::to_u32(key.pattern().0.len());
+        self.renderer.set_indices(pass, key);
+        pass.draw_indexed(0..per_edge * edge_count, 0, 0..1);
+        let parts = edgemesh::index::to_u32(kind.indices().len() / 3).saturating_sub(2);
+        if parts > 0 {
+            self.renderer.set_indices(pass, IndexKey::Ends);
+            pass.draw_indexed(0..3 * edge_count, 0, 1..1 + parts);
+        }
+    }
+}

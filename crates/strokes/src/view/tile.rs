@@ -1,0 +1,130 @@
+//! A part of a picture, drawn alone where the whole is too large for a texture.
+//!
+//! A part has a view of its own, whose clip space is a cut of that of the whole. What is
+//! measured in pixels is the same in both, so everything is drawn as in the whole, but
+//! that places are counted from the middle of the part. Lines that leave the part are
+//! clipped where the whole picture would clip them, so that strokes begin, end and count
+//! their length alike in all parts.
+
+use edgemesh::view::camera::View;
+use edgemesh::view::projection::GUARD_BAND;
+use glam::{DMat4, DVec2, Vec2};
+
+/// A part of a picture, or the whole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PicturePart {
+    /// Size of the whole picture.
+    pub picture_px: Vec2,
+    /// The upper left corner of the part, from that of the picture.
+    pub corner_px: Vec2,
+    /// Size of the part.
+    pub size_px: Vec2,
+}
+
+impl PicturePart {
+    /// All of a picture.
+    #[must_use]
+    pub const fn whole(picture_px: Vec2) -> Self {
+        Self { picture_px, corner_px: Vec2::ZERO, size_px: picture_px }
+    }
+
+    /// What sees the part, where `view` sees the whole.
+    #[must_use]
+    pub fn view(&self, view: &View) -> View {
+        if self.size_px == self.picture_px {
+            return *view;
+        }
+        let (scale, middle) = (self.scale(), self.middle());
+        // The middle comes to 0, and everything is as much larger as the part is smaller.
+        let mut part_from_whole = DMat4::from_diagonal(scale.extend(1.0).extend(1.0));
+        part_from_whole.w_axis = (-scale * middle).extend(0.0).extend(1.0);
+        let clip_from_world = part_from_whole * view.clip_from_world.as_dmat4();
+        View { clip_from_world: clip_from_world.as_mat4(), ..*view }
+    }
+
+    /// Where edges are clipped at the sides: left, right, bottom, top, in the clip space
+    /// of the part at w = 1.
+    #[must_use]
+    pub fn guard_band(&self) -> [f32; 4] {
+        let (scale, middle) = (self.scale(), self.middle());
+        let side = |axis: usize, side: f32| {
+            #[expect(clippy::cast_possible_truncation, reason = "as the shader has it")]
+            let side = ((f64::from(side) - middle[axis]) * scale[axis]) as f32;
+            side
+        };
+        [side(0, -GUARD_BAND), side(0, GUARD_BAND), side(1, -GUARD_BAND), side(1, GUARD_BAND)]
+    }
+
+    /// How much larger the part's clip space shows everything.
+    fn scale(&self) -> DVec2 {
+        self.picture_px.as_dvec2() / self.size_px.as_dvec2()
+    }
+
+    /// The middle of the part in the clip space of the whole, at w = 1.
+    fn middle(&self) -> DVec2 {
+        let picture = self.picture_px.as_dvec2();
+        let middle_px = self.corner_px.as_dvec2() + self.size_px.as_dvec2() / 2.0;
+        (2.0 * middle_px / picture - 1.0) * DVec2::new(1.0, -1.0)
+    }
+
+    /// The middle of the part, in pixels from the middle of the picture, y up.
+    #[must_use]
+    pub fn middle_px(&self) -> Vec2 {
+        let from_corner = self.corner_px + (self.size_px - self.picture_px) / 2.0;
+        from_corner * Vec2::new(1.0, -1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use edgemesh::edge_mesh::Bounds;
+    use edgemesh::view::camera::Camera;
+    use edgemesh::view::projection::to_pixels;
+    use glam::Vec4;
+
+    use super::*;
+
+    const PICTURE_PX: Vec2 = Vec2::new(3000.0, 2000.0);
+
+    #[test]
+    fn a_point_is_at_the_same_pixel_in_the_part_and_in_the_whole() {
+        let bounds = Bounds { min: [-1.0, -2.0, -3.0], max: [3.0, 2.0, 1.0] };
+        let part = PicturePart {
+            picture_px: PICTURE_PX,
+            corner_px: Vec2::new(1024.0, 640.0),
+            size_px: Vec2::new(700.0, 900.0),
+        };
+        for is_orthographic in [false, true] {
+            let camera = Camera { is_orthographic, ..Camera::default_view(&bounds) };
+            let whole = camera.view(&bounds, 1.5);
+            let seen = part.view(&whole);
+            for point in [Vec4::W, Vec4::new(2.0, -1.0, -2.5, 1.0)] {
+                let want = to_pixels(whole.clip_from_world * point, PICTURE_PX);
+                let got = to_pixels(seen.clip_from_world * point, part.size_px);
+                let got = got + part.middle_px();
+                assert!((got - want).length() < 2e-3, "{got} for {want}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_whole_is_a_part_that_changes_nothing() {
+        let whole = PicturePart::whole(PICTURE_PX);
+        let camera = Camera::default_view(&Bounds::default());
+        let view = camera.view(&Bounds::default(), 1.5);
+        assert_eq!(whole.view(&view), view);
+        assert_eq!(whole.guard_band(), [-GUARD_BAND, GUARD_BAND, -GUARD_BAND, GUARD_BAND]);
+        assert_eq!(whole.middle_px(), Vec2::ZERO);
+    }
+
+    #[test]
+    fn the_guard_band_is_that_of_the_picture() {
+        let part = PicturePart {
+            picture_px: PICTURE_PX,
+            corner_px: Vec2::ZERO,
+            size_px: PICTURE_PX / 2.0,
+        };
+        // The upper left quarter: its middle is at -0.5, 0.5 of the whole.
+        assert_eq!(part.guard_band(), [-7.0, 9.0, -9.0, 7.0]);
+    }
+}

@@ -1,0 +1,454 @@
+//! A scene of edge meshes to pictures, without a window.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use edgemesh::command::{ExitStatus, Failure};
+use edgemesh::edge_mesh::{Bounds, MeshFrame};
+use edgemesh::view::camera::{Camera, View};
+use image::RgbaImage;
+use strokes::draw::targets::Targets;
+use strokes::gpu::device::{Gpu, GpuError, ResourceError};
+use strokes::gpu::readback::{PendingRead, ReadbackError, read_picture};
+use strokes::gpu::timer::GpuTimer;
+use strokes::mesh::layout::Layout;
+use strokes::renderer::DetectionPath;
+use strokes::renderer::object::GraphReadback;
+use strokes::view::live_lists::Tally;
+use strokes::view::tile::PicturePart;
+
+use crate::pass_graph::{GraphOptions, PartOf, PassGraph, Seen};
+use crate::scene::lighting::Lighting;
+use crate::scene::models::Scene;
+use crate::technique::Technique;
+use crate::technique::mistake::Mistakes;
+use crate::technique::plan::{Plan, TexturePlan};
+use crate::technique::program::ShaderFiles;
+use crate::technique::texture_format::PassTexture;
+
+/// How a scene is drawn.
+#[derive(Debug, Clone)]
+pub struct PictureOptions {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Samples a pixel, 1 or 4.
+    pub samples: u32,
+    /// How the edges lie in memory.
+    pub layout: Layout,
+    /// Where features are detected.
+    pub path: DetectionPath,
+    /// Whether there is no paper behind the scene.
+    pub is_transparent: bool,
+    /// The light, and what cuts the scene.
+    pub lighting: Lighting,
+    /// Where shaders are taken from instead of those that are shipped.
+    pub shaders: Option<PathBuf>,
+}
+
+impl Default for PictureOptions {
+    /// 1024 x 1024 pixels of 4 samples.
+    fn default() -> Self {
+        Self {
+            size: [1024; 2],
+            samples: 4,
+            layout: Layout::default(),
+            path: DetectionPath::default(),
+            is_transparent: false,
+            lighting: Lighting::default(),
+            shaders: None,
+        }
+    }
+}
+
+impl PictureOptions {
+    const fn of_graph(&self) -> GraphOptions {
+        GraphOptions {
+            size: self.size,
+            samples: self.samples,
+            layout: self.layout,
+            path: self.path,
+            is_transparent: self.is_transparent,
+            clips: !self.lighting.clip_planes.is_empty(),
+        }
+    }
+}
+
+/// A scene on the GPU with everything that its pictures need.
+#[derive(Debug)]
+pub struct PictureRenderer {
+    gpu: Gpu,
+    /// None only where a technique could be checked and not be built.
+    graph: Option<PassGraph>,
+    options: PictureOptions,
+    plan: Plan,
+    bounds: Bounds,
+    frame: MeshFrame,
+    timer: Option<GpuTimer>,
+}
+
+/// What a frame cost and drew.
+#[derive(Debug, Clone)]
+pub struct FrameStatistics {
+    /// The counts of all meshes, summed; none where vertex shaders detect.
+    pub tally: Option<Tally>,
+    /// Each pass with its milliseconds on the GPU, where the adapter has
+    /// timestamps.
+    pub passes: Vec<(String, Option<f64>)>,
+    /// From the submission until the GPU was done.
+    pub frame_ms: f64,
+}
+
+impl FrameStatistics {
+    /// Those of two parts of one picture: times are added up, counts are of the whole
+    /// scene in both.
+    #[must_use]
+    pub fn plus(mut self, other: Self) -> Self {
+        for (sum, time) in self.passes.iter_mut().zip(other.passes) {
+            sum.1 = sum.1.zip(time.1).map(|(one, other)| one + other);
+        }
+        Self { frame_ms: self.frame_ms + other.frame_ms, ..self }
+    }
+}
+
+/// What a picture drew and cost, not yet read.
+#[derive(Debug)]
+pub struct PendingStatistics {
+    tallies: Vec<PendingRead<Tally>>,
+    ticks: Option<PendingRead<u64>>,
+    started: Instant,
+}
+
+impl PictureRenderer {
+    /// Checks `technique`, uploads the scene, and builds the pipelines. An object whose
+    /// look is a number of `looks` takes what is drawn object by object, its fill and
+    /// its strokes, from there.
+    ///
+    /// # Errors
+    /// Where something is wrong with the technique or its shaders, or the picture or a
+    /// mesh is too large for the adapter.
+    pub fn new(
+        gpu: &Gpu,
+        scene: &Scene,
+        technique: &Technique,
+        looks: &[Technique],
+        options: &PictureOptions,
+    ) -> Result<Self, Failure> {
+        check_size(gpu, options.size)?;
+        let shaders = ShaderFiles::new(&technique.folders, options.shaders.clone());
+        let plan =
+            Plan::of(technique, &shaders).map_err(|mistakes| technique_failure(&mistakes))?;
+        let graph_options = options.of_graph();
+        let made = gpu.make(|| PassGraph::new(gpu, scene, technique, &plan, looks, &graph_options));
+        let graph =
+            made.map_err(|error| resource_failure(&error, options.size, options.samples))??;
+        Ok(Self {
+            gpu: gpu.clone(),
+            timer: timer_for(gpu, &graph),
+            graph: Some(graph),
+            options: options.clone(),
+            plan,
+            bounds: scene.bounds,
+            frame: scene.frame,
+        })
+    }
+
+    /// Goes on with a technique, looks and options that have changed; what did not change
+    /// stays on the GPU, and textures keep what is in them.
+    ///
+    /// # Errors
+    /// As [`Self::new`]. Mistakes in the technique or its shaders leave everything as it
+    /// was.
+    pub fn reload(
+        &mut self,
+        scene: &Scene,
+        technique: &Technique,
+        looks: &[Technique],
+        options: &PictureOptions,
+    ) -> Result<(), Failure> {
+        check_size(&self.gpu, options.size)?;
+        let shaders = ShaderFiles::new(&technique.folders, options.shaders.clone());
+        let plan =
+            Plan::of(technique, &shaders).map_err(|mistakes| technique_failure(&mistakes))?;
+        let graph_options = options.of_graph();
+        let (gpu, options_before) = (&self.gpu, self.options.of_graph());
+        let is_alike = (graph_options.layout, graph_options.path)
+            == (options_before.layout, options_before.path);
+        let before = self.graph.take().filter(|_| is_alike);
+        let made = gpu.make(|| match before {
+            Some(before) => before.rebuilt(gpu, scene, technique, &plan, looks, &graph_options),
+            None => PassGraph::new(gpu, scene, technique, &plan, looks, &graph_options),
+        });
+        let graph =
+            made.map_err(|error| resource_failure(&error, options.size, options.samples))??;
+        self.timer = timer_for(gpu, &graph);
+        self.graph = Some(graph);
+        self.plan = plan;
+        self.options = options.clone();
+        (self.bounds, self.frame) = (scene.bounds, scene.frame);
+        Ok(())
+    }
+
+    /// Goes on in another size; pipelines and meshes stay.
+    ///
+    /// # Errors
+    /// Where it is too large for the adapter; then a [`Self::reload`] must come first.
+    pub fn resize(&mut self, size: [u32; 2]) -> Result<(), Failure> {
+        check_size(&self.gpu, size)?;
+        let (gpu, plan, samples) = (&self.gpu, &self.plan, self.options.samples);
+        let mut graph = self.graph.take().ok_or_else(no_graph)?;
+        gpu.make(|| graph.resize(&gpu.device, plan, size))
+            .map_err(|error| resource_failure(&error, size, samples))?;
+        self.graph = Some(graph);
+        self.options.size = size;
+        Ok(())
+    }
+
+    /// How it draws.
+    #[must_use]
+    pub const fn options(&self) -> &PictureOptions {
+        &self.options
+    }
+
+    /// Another light, and other planes that cut the scene; false where that needs a
+    /// [`Self::reload`], as there were none before, or are none any more.
+    pub fn set_lighting(&mut self, lighting: &Lighting) -> bool {
+        let is_cut = |lighting: &Lighting| !lighting.clip_planes.is_empty();
+        let can = is_cut(lighting) == is_cut(&self.options.lighting);
+        if can {
+            self.options.lighting = lighting.clone();
+        }
+        can
+    }
+
+    fn graph(&self) -> Result<&PassGraph, Failure> {
+        self.graph.as_ref().ok_or_else(no_graph)
+    }
+
+    /// Draws one picture, with premultiplied alpha.
+    ///
+    /// # Errors
+    /// Where the device is lost, or an image cannot be read.
+    pub fn render(&mut self, camera: &Camera) -> Result<(RgbaImage, FrameStatistics), Failure> {
+        let started = Instant::now();
+        self.draw(camera)?;
+        self.read(started)
+    }
+
+    /// Draws one part of a picture for itself, as the first picture that there is; the
+    /// part must be of this renderer's size. Where strokes are linked, `overview` must
+    /// have drawn the whole picture last.
+    ///
+    /// # Errors
+    /// As [`Self::render`].
+    pub fn render_part(
+        &mut self,
+        view: &View,
+        part: PicturePart,
+        overview: Option<&Self>,
+    ) -> Result<(RgbaImage, FrameStatistics), Failure> {
+        let started = Instant::now();
+        let overview = overview.map(Self::graph).transpose()?.map(PassGraph::framebuffer);
+        self.draw_first(view, Some(PartOf { part, overview }))?;
+        self.read(started)
+    }
+
+    /// Draws the whole picture for itself, as the first one that there is.
+    ///
+    /// # Errors
+    /// Where an image cannot be read.
+    pub fn draw_overview(&mut self, view: &View) -> Result<(), Failure> {
+        self.draw_first(view, None)
+    }
+
+    fn draw_first(&mut self, view: &View, part: Option<PartOf>) -> Result<(), Failure> {
+        let graph = self.graph.as_mut().ok_or_else(no_graph)?;
+        let (gpu, plan) = (&self.gpu, &self.plan);
+        gpu.make(|| graph.forget_frames(&gpu.device, plan))
+            .map_err(|error| resource_failure(&error, self.options.size, self.options.samples))?;
+        self.submit(view, part)
+    }
+
+    /// Waits for the picture that was submitted, and reads it.
+    fn read(&self, started: Instant) -> Result<(RgbaImage, FrameStatistics), Failure> {
+        self.gpu
+            .device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .map_err(|error| Failure::fault(format!("the graphics adapter was lost: {error}")))?;
+        let frame_ms = started.elapsed().as_secs_f64() * 1e3;
+        let picture = read_picture(&self.gpu, self.graph()?.picture()).map_err(lost)?;
+        let tally = self.graph()?.tally(&self.gpu).map_err(lost)?;
+        let statistics = FrameStatistics { tally, passes: self.read_passes()?, frame_ms };
+        Ok((picture, statistics))
+    }
+
+    /// The stroke graph of an object in the last picture; nothing where its strokes are
+    /// not linked.
+    ///
+    /// # Errors
+    /// Where the device is lost.
+    pub fn read_graph(&self, object: usize) -> Result<Option<GraphReadback>, Failure> {
+        let group = self.graph()?.stroke_groups().next();
+        let Some(object) = group.and_then(|group| group.objects.get(object)) else {
+            return Ok(None);
+        };
+        object.read_graph(&self.gpu).map_err(lost)
+    }
+
+    /// The texture that passes call `<generated>:name`, as it is after the last picture.
+    #[must_use]
+    pub fn generated(&self, name: &str) -> Option<&wgpu::Texture> {
+        self.graph.as_ref()?.generated(&self.plan, name)
+    }
+
+    /// The textures that passes draw for each other.
+    #[must_use]
+    pub fn generated_textures(&self) -> Vec<PassTexture> {
+        let textures = self.plan.textures.iter();
+        let of_plan = |texture: &TexturePlan| PassTexture {
+            name: texture.name.clone(),
+            format: texture.format,
+        };
+        textures.map(of_plan).collect()
+    }
+
+    /// The picture that was drawn last, or is being drawn.
+    #[must_use]
+    pub fn picture(&self) -> Option<&wgpu::Texture> {
+        self.graph.as_ref().map(PassGraph::picture)
+    }
+
+    /// Submits a picture and does not wait for it.
+    ///
+    /// # Errors
+    /// Where an image cannot be read.
+    pub fn draw(&mut self, camera: &Camera) -> Result<(), Failure> {
+        let view = self.view(camera, self.options.size);
+        self.submit(&view, None)
+    }
+
+    /// How a camera sees the scene in a picture of a size.
+    #[must_use]
+    pub fn view(&self, camera: &Camera, [width, height]: [u32; 2]) -> View {
+        camera.view(&self.bounds, f64::from(width) / f64::from(height))
+    }
+
+    fn submit(&mut self, view: &View, part: Option<PartOf>) -> Result<(), Failure> {
+        let around = self.options.lighting.surroundings(view, &self.bounds, &self.frame);
+        let seen = Seen { view, around: &around, part };
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        let timer = self.timer.as_ref().map(|timer| timer.passes_from(0));
+        let graph = self.graph.as_mut().ok_or_else(no_graph)?;
+        graph.encode(&self.gpu, &mut encoder, &seen, timer)?;
+        if let Some(timer) = &self.timer {
+            timer.resolve(&mut encoder);
+        }
+        self.gpu.queue.submit([encoder.finish()]);
+        Ok(())
+    }
+
+    /// Begins to read what the last picture drew and cost.
+    ///
+    /// # Errors
+    /// Where the device is lost.
+    pub fn begin_statistics(&self) -> Result<PendingStatistics, Failure> {
+        let graph = self.graph()?;
+        let objects = graph.counted_objects().iter();
+        let tallies = objects.map(|object| object.begin_read_tallies(&self.gpu));
+        let tallies = tallies.collect::<Result<Vec<_>, _>>().map_err(lost)?;
+        let ticks = self.timer.as_ref().map(|timer| timer.begin_read(&self.gpu));
+        let ticks = ticks.transpose().map_err(lost)?;
+        Ok(PendingStatistics { tallies, ticks, started: Instant::now() })
+    }
+
+    /// What a picture drew and cost, once that is known; `pending` is of the last picture
+    /// of this renderer, which was not reloaded since.
+    ///
+    /// # Errors
+    /// Where the device is lost.
+    pub fn statistics(
+        &self,
+        pending: &PendingStatistics,
+    ) -> Result<Option<FrameStatistics>, Failure> {
+        let mut sum = None;
+        for pending in &pending.tallies {
+            let Some(tallies) = pending.poll(&self.gpu).map_err(lost)? else { return Ok(None) };
+            let before = sum.unwrap_or_default();
+            sum = Some(tallies.iter().fold(before, |sum: Tally, tally| sum.plus(tally)));
+        }
+        let mut passes_ms = Vec::new();
+        if let (Some(timer), Some(ticks)) = (&self.timer, &pending.ticks) {
+            let Some(ticks) = ticks.poll(&self.gpu).map_err(lost)? else { return Ok(None) };
+            passes_ms = timer.times(&self.gpu, &ticks).passes_ms;
+        }
+        let frame_ms = pending.started.elapsed().as_secs_f64() * 1e3;
+        Ok(Some(FrameStatistics { tally: sum, passes: self.named(passes_ms)?, frame_ms }))
+    }
+
+    fn read_passes(&self) -> Result<Vec<(String, Option<f64>)>, Failure> {
+        let times = self.timer.as_ref().map(|timer| timer.read(&self.gpu)).transpose();
+        self.named(times.map_err(lost)?.map_or_else(Vec::new, |times| times.passes_ms))
+    }
+
+    fn named(&self, passes_ms: Vec<f64>) -> Result<Vec<(String, Option<f64>)>, Failure> {
+        let times = passes_ms.into_iter().map(Some).chain(std::iter::repeat(None));
+        Ok(self.graph()?.time_names().into_iter().zip(times).collect())
+    }
+}
+
+fn timer_for(gpu: &Gpu, graph: &PassGraph) -> Option<GpuTimer> {
+    let count = edgemesh::index::to_u32(graph.time_names().len());
+    GpuTimer::new(gpu, count)
+}
+
+/// A technique that could be checked and not be built has left nothing to draw.
+fn no_graph() -> Failure {
+    Failure {
+        message: "the technique could not be built; there is nothing to draw".into(),
+        status: ExitStatus::Shader,
+    }
+}
+
+/// The failure that mistakes in a technique are: exit status 4.
+#[must_use]
+pub fn technique_failure(mistakes: &Mistakes) -> Failure {
+    let text = mistakes.to_string();
+    // The first one is announced as an error by who prints it.
+    let message = text.strip_prefix("error: ").unwrap_or(&text).trim_end().to_owned();
+    Failure { message, status: ExitStatus::Shader }
+}
+
+fn lost(error: ReadbackError) -> Failure {
+    Failure::fault(error.to_string())
+}
+
+fn resource_failure(error: &ResourceError, size: [u32; 2], samples: u32) -> Failure {
+    match error {
+        ResourceError::OutOfMemory => Failure::fault(format!(
+            "{error}: the picture alone, {}x{} with {samples} samples, needs {} MiB; a \
+             smaller one needs less, and one with --samples 1",
+            size[0],
+            size[1],
+            Targets::byte_count(size, samples) >> 20
+        )),
+        ResourceError::Fault(_) => {
+            Failure { message: error.to_string(), status: ExitStatus::Internal }
+        }
+    }
+}
+
+fn check_size(gpu: &Gpu, size: [u32; 2]) -> Result<(), Failure> {
+    let limit = gpu.device.limits().max_texture_dimension_2d;
+    if size.iter().any(|&side| side > limit) {
+        let [width, height] = size;
+        return Err(Failure::fault(format!(
+            "--size {width}x{height}: this adapter draws at most {limit} pixels a side at once"
+        )));
+    }
+    Ok(())
+}
+
+/// The failure that a missing or unfit adapter is: exit status 3.
+#[must_use]
+pub fn adapter_failure(error: &GpuError) -> Failure {
+    Failure { message: error.to_string(), status: ExitStatus::NoAdapter }
+}

@@ -1,0 +1,68 @@
+//! A camera that goes around, as numbered pictures or as one that moves.
+
+use std::f64::consts::TAU;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+use edgemesh::command::{Failure, write_file};
+use edgemesh::view::camera::Camera;
+use glam::DQuat;
+use image::RgbaImage;
+
+use crate::picture::animation::{AnimationKind, encode_animation};
+use crate::picture::png::{as_stored, encode_png};
+
+/// The camera at one of `steps` around its target, to the left.
+#[must_use]
+pub fn camera_at(camera: &Camera, step: u32, steps: u32) -> Camera {
+    let axis = camera.up.normalize_or_zero();
+    let turn = DQuat::from_axis_angle(axis, TAU * f64::from(step) / f64::from(steps));
+    Camera { eye: camera.target + turn * (camera.eye - camera.target), ..*camera }
+}
+
+/// Writes all pictures, which `draw` gives with premultiplied alpha: as an animation where
+/// the path ends so, else numbered.
+///
+/// # Errors
+/// Where a picture cannot be drawn or written.
+pub fn write(
+    path: &Path,
+    steps: u32,
+    size: [u32; 2],
+    is_transparent: bool,
+    mut draw: impl FnMut(u32) -> Result<RgbaImage, Failure>,
+) -> Result<(), Failure> {
+    if let Some(kind) = AnimationKind::of(path) {
+        let bytes = encode_animation(kind, steps, size, |step| {
+            draw(step).map(|picture| as_stored(&picture, is_transparent))
+        })?;
+        return write_file(path, &bytes);
+    }
+    for step in 0..steps {
+        let bytes = encode_png(&draw(step)?, is_transparent)?;
+        write_file(&numbered(path, step, steps), &bytes)?;
+    }
+    Ok(())
+}
+
+/// `turn.png` becomes `turn-00.png`, with as many digits as the last one needs.
+fn numbered(path: &Path, step: u32, steps: u32) -> PathBuf {
+    let digits = (steps - 1).checked_ilog10().map_or(1, |log| log as usize + 1);
+    let mut name = path.file_stem().unwrap_or(OsStr::new("picture")).to_owned();
+    name.push(format!("-{step:0digits$}.png"));
+    path.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turntable_names_sort_as_they_turn() {
+        let names = [0, 9, 35].map(|step| numbered(Path::new("a/turn.png"), step, 36));
+        assert_eq!(names[0], Path::new("a/turn-00.png"));
+        assert_eq!(names[2], Path::new("a/turn-35.png"));
+        assert!(names.is_sorted());
+        assert_eq!(numbered(Path::new("t.png"), 0, 1), Path::new("t-0.png"));
+    }
+}
