@@ -3,7 +3,7 @@
 // workgroup scans the counts, each invocation writes its run from its base on.
 //
 // Only what a view changes is worked out for it: which edges are drawn without a
-// contour is marked once (mark_static), and runs whose faces all look one way
+// contour is found once (find_static), and runs whose faces all look one way
 // have no contours.
 //
 // No racing appends: the list, and with it the picture, is the same every time.
@@ -15,19 +15,23 @@
 #import <common/draw_arguments.wgsl>
 #import <common/view_runs.wgsl>
 
-// Rust twin: DetectUniform in crates/strokes/src/detect.rs.
+// Rust twin: DetectUniform in crates/strokes/src/view/detect.rs.
 struct DetectUniform {
-    layers: u32,
-    drawn: u32,
-    ridge_steps: u32,
-    valley_steps: u32,
-    keeps_hidden: u32,
+    classes: ClassTable,
     layer_count: u32,
-    draw_count: u32,
-    padding: u32,
-    // Layer and indices an edge of each draw, 1 where none of its strokes is
-    // expanded, 1 where they are linked.
-    draws: array<vec4u, MAX_DRAWS>,
+    set_count: u32,
+    padding: vec2u,
+    sets: array<DetectedSet, MAX_STROKE_SETS>,
+}
+
+// What detection must know of a stroke set.
+struct DetectedSet {
+    layer: u32,
+    indices_per_edge: u32,
+    // 1 if none of its strokes is expanded.
+    is_listed: u32,
+    // 1 if its strokes are linked.
+    is_linked: u32,
 }
 
 @group(1) @binding(0) var<uniform> detect: DetectUniform;
@@ -38,21 +42,11 @@ struct DetectUniform {
 @group(3) @binding(2) var<storage, read_write> counts: array<u32>;
 @group(3) @binding(3) var<storage, read_write> live: array<u32>;
 @group(3) @binding(4) var<storage, read_write> tallies: array<Tally>;
-@group(3) @binding(5) var<storage, read_write> draws: array<DrawArguments, MAX_DRAWS>;
-
-fn class_table() -> ClassTable {
-    return ClassTable(
-        detect.layers,
-        detect.drawn,
-        detect.ridge_steps,
-        detect.valley_steps,
-        detect.keeps_hidden,
-    );
-}
+@group(3) @binding(5) var<storage, read_write> draws: array<DrawArguments, MAX_STROKE_SETS>;
 
 fn line_of(edge: u32) -> Line {
     let faces = edge_faces(edge);
-    return classify_edge(edge_word(edge), faces, class_table(), object.eye_is_outside != 0u);
+    return classify_edge(edge_word(edge), faces, detect.classes, object.eye_is_outside != 0u);
 }
 
 // The first edge of a run, and the one behind its last.
@@ -68,47 +62,39 @@ fn bit_of(k: u32) -> vec2u {
 
 // What no view changes: runs once, and again when the classes change.
 @compute @workgroup_size(64)
-fn mark_static(@builtin(global_invocation_id) id: vec3u) {
+fn find_static(@builtin(global_invocation_id) id: vec3u) {
     let run = id.x;
     if run >= chunk.run_count {
         return;
     }
     let edges = edges_of(run);
-    let table = class_table();
+    let table = detect.classes;
     var state = RunState();
-    var ridge = 0u;
-    var valley = 0u;
-    var boundary = 0u;
-    var marked = 0u;
-    var material = 0u;
-    var smoothing = 0u;
+    var counts_of_run = array<u32, LINE_CLASS_COUNT>();
     for (var edge = edges.x; edge < edges.y; edge++) {
         let word = edge_word(edge);
         let bit = bit_of(edge - edges.x);
         let classes = static_classes(word, table);
         if (classes & table.drawn) != 0u {
-            state.marked |= bit;
+            state.static_edges |= bit;
             state.solid |= select(vec2u(0u), bit, (word & SOLID) != 0u);
         }
         state.has_clash |= select(0u, 1u, (word & CLASH) != 0u);
         if (word & NON_MANIFOLD) != 0u {
             continue;
         }
-        ridge += (classes >> 5u) & 1u;
-        valley += (classes >> 6u) & 1u;
-        boundary += u32((word & BOUNDARY) != 0u);
-        marked += u32((word & MARKED) != 0u);
-        material += u32((word & MATERIAL) != 0u);
-        smoothing += u32((word & SMOOTHING) != 0u);
+        for (var class_index = 0u; class_index < LINE_CLASS_COUNT; class_index++) {
+            counts_of_run[class_index] += (classes >> class_index) & 1u;
+        }
     }
     runs[chunk.first_run + run] = state;
     // Sums of whole numbers: the same in any order.
-    if ridge > 0u { atomicAdd(&tallies[chunk.chunk_index].ridge, ridge); }
-    if valley > 0u { atomicAdd(&tallies[chunk.chunk_index].valley, valley); }
-    if boundary > 0u { atomicAdd(&tallies[chunk.chunk_index].boundary, boundary); }
-    if marked > 0u { atomicAdd(&tallies[chunk.chunk_index].marked, marked); }
-    if material > 0u { atomicAdd(&tallies[chunk.chunk_index].material, material); }
-    if smoothing > 0u { atomicAdd(&tallies[chunk.chunk_index].smoothing, smoothing); }
+    for (var class_index = 0u; class_index < LINE_CLASS_COUNT; class_index++) {
+        let count = counts_of_run[class_index];
+        if count > 0u {
+            atomicAdd(&tallies[chunk.chunk_index].features[class_index], count);
+        }
+    }
 }
 
 @compute @workgroup_size(64)
@@ -118,11 +104,11 @@ fn count_runs(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let at = chunk.first_run + run;
-    var bits = LiveBits(runs[at].marked, vec2u(0u));
+    var bits = LiveBits(runs[at].static_edges, vec2u(0u));
     let whole = cone_facing(run_cones[run], object.eye);
     if whole == MIXED || runs[at].has_clash != 0u {
         bits = look_at_each(run);
-    } else if whole == ALL_AWAY && object.eye_is_outside != 0u && detect.keeps_hidden == 0u {
+    } else if whole == ALL_AWAY && object.eye_is_outside != 0u && detect.classes.keeps_hidden == 0u {
         bits.live &= ~runs[at].solid;
     }
     let live_bits = bits.live;
@@ -151,7 +137,7 @@ fn look_at_each(run: u32) -> LiveBits {
         found.contour |= select(vec2u(0u), bit, (bits & CONTOUR) != 0u);
     }
     let contour = countOneBits(found.contour.x) + countOneBits(found.contour.y);
-    if contour > 0u { atomicAdd(&tallies[chunk.chunk_index].contour, contour); }
+    if contour > 0u { atomicAdd(&tallies[chunk.chunk_index].features[CLASS_CONTOUR], contour); }
     return found;
 }
 
@@ -203,7 +189,7 @@ fn scan_runs(@builtin(local_invocation_index) lane: u32) {
         base += count;
     }
     storageBarrier();
-    if lane < detect.draw_count {
+    if lane < detect.set_count {
         set_arguments(lane);
     }
     if lane <= MAX_LAYERS {
@@ -221,19 +207,19 @@ fn first_of(layer: u32) -> u32 {
 
 const EXPAND_WIDTH: u32 = 64u;
 
-fn set_arguments(draw: u32) {
-    let layer = detect.draws[draw].x;
-    let index_count = detect.draws[draw].y;
-    let first = first_of(layer);
-    let count = first_of(layer + 1u) - first;
-    let expanded = select(min(count, chunk.capacity), 0u, detect.draws[draw].z != 0u);
+fn set_arguments(set_index: u32) {
+    let stroke_set = detect.sets[set_index];
+    let first = first_of(stroke_set.layer);
+    let count = first_of(stroke_set.layer + 1u) - first;
+    let expanded = select(min(count, chunk.capacity), 0u, stroke_set.is_listed != 0u);
     // What is linked is not drawn edge by edge.
     let linked = min(first + count, chunk.node_capacity) - min(first, chunk.node_capacity);
-    let done = select(expanded, linked, detect.draws[draw].w != 0u);
-    draws[draw] = DrawArguments(
-        index_count * expanded, 1u, 0u, 0u, 0u,
+    let done = select(expanded, linked, stroke_set.is_linked != 0u);
+    let indices_per_edge = stroke_set.indices_per_edge;
+    draws[set_index] = DrawArguments(
+        indices_per_edge * expanded, 1u, 0u, 0u, 0u,
         (expanded + EXPAND_WIDTH - 1u) / EXPAND_WIDTH, 1u, 1u,
-        index_count * (count - done), 1u, index_count * done, 0u,
+        indices_per_edge * (count - done), 1u, indices_per_edge * done, 0u,
         first, expanded, vec2u(0u),
     );
 }

@@ -14,11 +14,11 @@ override VERTEX_COUNT: u32 = 10u;
 @compute @workgroup_size(64)
 fn expand_strokes(@builtin(global_invocation_id) id: vec3u) {
     let slot = id.x;
-    let draw = draws[stroke.draw_index];
-    if slot >= draw.expanded {
+    let arguments = draws[stroke.set_index];
+    if slot >= arguments.expanded {
         return;
     }
-    let entry = live[draw.first + slot];
+    let entry = live[arguments.first + slot];
     let shape = stroke_shape();
     let edge = clip_edge(edge_geometry(entry & EDGE_INDEX_MASK));
     var segment = Segment();

@@ -2,7 +2,7 @@
 // colour. Both sides of a face are filled.
 #import <common/frame.wgsl>
 
-// Rust twin: FillUniform in crates/strokes/src/fill.rs.
+// Rust twin: FillUniform in crates/strokes/src/draw/fill.rs.
 struct FillUniform {
     color: vec4f,
 }

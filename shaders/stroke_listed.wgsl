@@ -13,9 +13,9 @@
 @vertex
 fn stroke_vertices(@builtin(vertex_index) vertex_index: u32) -> StrokeVarying {
     let slot = vertex_index / stroke.index_count;
-    let entry = live[draws[stroke.draw_index].first + slot];
+    let entry = live[draws[stroke.set_index].first + slot];
     if is_passed_over(entry) {
-        return varying_of(unseen_vertex());
+        return varying_of(culled_vertex());
     }
     let edge = clip_edge(edge_geometry(entry & EDGE_INDEX_MASK));
     let corner = corner_of(vertex_index % stroke.index_count);

@@ -1,5 +1,5 @@
 // The arguments of one draw of strokes, written by the GPU alone. Rust twin:
-// DrawArguments in crates/strokes/src/view_buffers.rs.
+// DrawArguments in crates/strokes/src/view/live_lists.rs.
 #import <common/object_limits.wgsl>
 
 struct DrawArguments {

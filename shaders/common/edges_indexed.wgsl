@@ -2,14 +2,14 @@
 // shared with the faces.
 #import <common/edge_geometry.wgsl>
 
-@group(2) @binding(2) var<storage, read> records: array<EdgeRecord>;
+@group(2) @binding(2) var<storage, read> records: array<PackedRecord>;
 @group(2) @binding(3) var<storage, read> positions: array<f32>;
 @group(2) @binding(4) var<storage, read> normals: array<f32>;
 // Three vertices a face.
 @group(2) @binding(5) var<storage, read> triangles: array<u32>;
 
 fn edge_word(edge: u32) -> u32 {
-    return records[edge].flags;
+    return records[edge].word;
 }
 
 // Where an edge begins and ends.
@@ -35,7 +35,7 @@ fn edge_geometry(edge: u32) -> EdgeGeometry {
 
 // The vertex of a face that is not on the edge; the paper's v3 = v0 where there
 // is no face.
-fn apex(face: u32, record: EdgeRecord) -> u32 {
+fn apex(face: u32, record: PackedRecord) -> u32 {
     if face == NONE {
         return record.v0;
     }

@@ -2,11 +2,11 @@
 #import <common/facing.wgsl>
 #import <common/feature.wgsl>
 
-@group(2) @binding(2) var<storage, read> records: array<EdgeRecord>;
+@group(2) @binding(2) var<storage, read> records: array<PackedRecord>;
 @group(3) @binding(0) var<storage, read> facing: array<u32>;
 
 fn edge_word(edge: u32) -> u32 {
-    return records[edge].flags;
+    return records[edge].word;
 }
 
 fn edge_faces(edge: u32) -> EdgeFaces {

@@ -1,5 +1,5 @@
 // Which side of a face the eye is on (McGuire and Hughes, Equation 1); zero
-// counts as back. Rust twin: crates/edgemesh/src/oracle/facing.rs.
+// counts as back. Rust twin: crates/edgemesh/src/view/facing.rs.
 #import <common/mesh.wgsl>
 
 fn faces_eye(plane: FacePlane, eye: vec4f) -> bool {

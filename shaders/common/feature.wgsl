@@ -1,6 +1,7 @@
 // Which edges are features of a view (McGuire and Hughes, Equation 1).
-// Rust twins: EdgeFlags in crates/edgemesh/src/record.rs, the crease's angle in
-// edge_word.rs, the rest in crates/edgemesh/src/oracle/feature.rs.
+// Rust twins: EdgeFlags in crates/edgemesh/src/edge_mesh/record.rs, the crease's angle in
+// edge_word.rs, the rest in crates/edgemesh/src/view/feature.rs.
+#import <common/line_class.wgsl>
 
 const BOUNDARY: u32 = 1u;
 const RIDGE: u32 = 2u;
@@ -27,20 +28,6 @@ const BEHIND_SOLID: u32 = 0x20000000u;
 const DRAWN: u32 = 0x10000000u;
 const EDGE_INDEX_MASK: u32 = 0x1fffffffu;
 
-const NO_LAYER: u32 = 15u;
-
-struct ClassTable {
-    // Four bits a class, the strongest lowest.
-    layers: u32,
-    // One bit a class.
-    drawn: u32,
-    // Thresholds in steps; 0 for the creases as built.
-    ridge_steps: u32,
-    valley_steps: u32,
-    // 1 where edges that their own solid hides are drawn too.
-    keeps_hidden: u32,
-}
-
 struct EdgeFaces {
     has_b: bool,
     a_faces: bool,
@@ -52,8 +39,7 @@ struct Line {
     layer: u32,
 }
 
-// One bit for each class but contours: 1 marked, 2 boundary, 3 material,
-// 4 smoothing, 5 ridge, 6 valley.
+// The bits of the classes that an edge is of in every view.
 fn static_classes(word: u32, table: ClassTable) -> u32 {
     let steps = (word >> CREASE_SHIFT) & CREASE_STEPS;
     let is_concave = (word & CONCAVE) != 0u;
@@ -67,12 +53,12 @@ fn static_classes(word: u32, table: ClassTable) -> u32 {
         (word & VALLEY) != 0u,
         table.valley_steps == 0u,
     );
-    return select(0u, 2u, (word & MARKED) != 0u)
-        | select(0u, 4u, (word & (BOUNDARY | NON_MANIFOLD)) != 0u)
-        | select(0u, 8u, (word & MATERIAL) != 0u)
-        | select(0u, 16u, (word & SMOOTHING) != 0u)
-        | select(0u, 32u, is_ridge)
-        | select(0u, 64u, is_valley);
+    return (u32((word & MARKED) != 0u) << CLASS_MARKED)
+        | (u32((word & (BOUNDARY | NON_MANIFOLD)) != 0u) << CLASS_BOUNDARY)
+        | (u32((word & MATERIAL) != 0u) << CLASS_MATERIAL)
+        | (u32((word & SMOOTHING) != 0u) << CLASS_SMOOTHING)
+        | (u32(is_ridge) << CLASS_RIDGE)
+        | (u32(is_valley) << CLASS_VALLEY);
 }
 
 fn is_groove(word: u32) -> bool {
@@ -85,7 +71,7 @@ fn classify_edge(word: u32, faces: EdgeFaces, table: ClassTable, eye_is_outside:
     let is_manifold = faces.has_b && (word & NON_MANIFOLD) == 0u;
     // Contour where exactly one of the two faces looks at the eye.
     let is_contour = is_manifold && faces.a_faces != b_faces;
-    let classes = (static_classes(word, table) | u32(is_contour)) & table.drawn;
+    let classes = (static_classes(word, table) | (u32(is_contour) << CLASS_CONTOUR)) & table.drawn;
     // The solid itself hides what turns away from an eye outside of it, and the
     // contours in its grooves.
     let is_turned_away = !faces.a_faces && !b_faces;
@@ -96,7 +82,6 @@ fn classify_edge(word: u32, faces: EdgeFaces, table: ClassTable, eye_is_outside:
         | select(0u, A_FACES, faces.a_faces)
         | select(0u, BEHIND_SOLID, is_behind)
         | select(0u, DRAWN, is_drawn);
-    let class_index = countTrailingZeros(classes) & 7u;
-    let layer = select(NO_LAYER, (table.layers >> (4u * class_index)) & 15u, is_drawn);
+    let layer = select(NO_LAYER, layer_of_class(table, countTrailingZeros(classes)), is_drawn);
     return Line(bits, layer);
 }

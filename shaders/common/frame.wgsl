@@ -1,5 +1,5 @@
 // What one view needs, the same for every pass, and what it makes of one object.
-// Rust twins: FrameUniform and ObjectUniform in crates/strokes/src/frame.rs.
+// Rust twins: FrameUniform and ObjectUniform in crates/strokes/src/view/frame.rs.
 
 struct FrameUniform {
     // Size of what is drawn: the picture, or a part of it.
@@ -94,7 +94,7 @@ fn is_cut_away(point_in_world: vec3f) -> bool {
 }
 
 // The middle of what is drawn, in pixels from the middle of the picture, y up; twin:
-// PicturePart::middle_px in crates/strokes/src/picture_part.rs.
+// Tile::middle_px in crates/strokes/src/view/tile.rs.
 fn middle_px() -> vec2f {
     let from_corner = frame.corner_px + 0.5 * (frame.viewport_px - frame.picture_px);
     return vec2f(from_corner.x, -from_corner.y);

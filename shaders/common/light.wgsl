@@ -21,12 +21,12 @@ fn intensity(color: vec3f) -> f32 {
     return dot(color, vec3f(0.3, 0.6, 0.1));
 }
 
-// The material of a part, its diffuse and ambient colours times the model's texture
+// The material of a range, its diffuse and ambient colours times the model's texture
 // where it has texture coordinates.
-fn material_at(part: u32, texel: vec4f) -> MaterialUniform {
-    let of_part = surface_parts[part];
-    var material = materials[of_part.material];
-    if of_part.has_texcoords == 1u {
+fn material_at(material_range: u32, texel: vec4f) -> MaterialUniform {
+    let of_range = surface_ranges[material_range];
+    var material = materials[of_range.material];
+    if of_range.has_texcoords == 1u {
         material.diffuse *= texel;
         material.ambient *= vec4f(texel.rgb, 1.0);
     }

@@ -1,17 +1,17 @@
-// The edge mesh on the GPU. Rust twins: EdgeRecord and edge_random in
-// crates/edgemesh/src/record.rs, FacePlane in edge_mesh.rs, ChunkUniform in
-// crates/strokes/src/mesh_buffers.rs.
+// The edge mesh on the GPU. Rust twins: PackedRecord and ChunkUniform in
+// crates/strokes/src/mesh/layout.rs, edge_random in crates/edgemesh/src/edge_mesh/record.rs,
+// FacePlane in mesh.rs beside it.
 
 const NONE: u32 = 0xffffffffu;
 
 // 20 bytes an edge. face_a traverses the edge from v0 to v1; face_b may be NONE,
 // and face_a too, for a line that is no edge of a face.
-struct EdgeRecord {
+struct PackedRecord {
     v0: u32,
     v1: u32,
     face_a: u32,
     face_b: u32,
-    flags: u32,
+    word: u32,
 }
 
 struct FacePlane {
@@ -37,7 +37,7 @@ struct ChunkUniform {
 @group(2) @binding(1) var<uniform> chunk: ChunkUniform;
 
 // The position of 16-bit steps. Rust twin: Quantization in
-// crates/edgemesh/src/replicate.rs.
+// crates/edgemesh/src/edge_mesh/replicate.rs.
 fn dequantize(steps: vec3f, center: vec3f, step: f32) -> vec3f {
     return center + steps * step;
 }

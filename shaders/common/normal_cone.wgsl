@@ -1,5 +1,5 @@
 // Whether all faces of a cluster look at the eye, or all away from it (Johnson
-// and Cohen 2001). Rust twin: crates/edgemesh/src/oracle/normal_cone.rs.
+// and Cohen 2001). Rust twin: crates/edgemesh/src/edge_mesh/normal_cone.rs.
 
 struct NormalCone {
     // A sphere around the points of the faces.

@@ -3,7 +3,7 @@
 #import <common/feature.wgsl>
 #import <common/mesh.wgsl>
 #import <common/stroke_graph.wgsl>
-#import <common/path_style.wgsl>
+#import <common/link_style.wgsl>
 
 @group(3) @binding(0) var<storage, read_write> header: GraphHeader;
 @group(3) @binding(2) var<storage, read_write> elements: array<Element>;
@@ -26,17 +26,17 @@ const FOLD_STEPS: f32 = 4.0;
 const MOST_ELEMENTS: u32 = 96u;
 
 // The draw that an element of a path belongs to.
-fn draw_of(path: u32) -> u32 {
-    var draw = 0u;
-    while draw + 1u < MAX_DRAWS && path >= header.draw_first[draw + 1u] {
-        draw++;
+fn set_of(joint: u32) -> u32 {
+    var set_index = 0u;
+    while set_index + 1u < MAX_STROKE_SETS && joint >= header.set_first[set_index + 1u] {
+        set_index++;
     }
-    return draw;
+    return set_index;
 }
 
 // The element of a chain at a place of a path.
-fn element_of(path: u32, draw: u32) -> u32 {
-    return header.layer_first[paths[draw].layer] + path - header.draw_first[draw];
+fn element_of(joint: u32, set_index: u32) -> u32 {
+    return header.layer_first[link_styles[set_index].layer] + joint - header.set_first[set_index];
 }
 
 // The element before one, or NONE where its chain begins or is clipped.
@@ -85,8 +85,8 @@ fn chain_arc(element: u32) -> u32 {
 
 // Pixels between the points of a draw's paths: more where there would be no room for
 // all of them.
-fn step_of(draw: u32) -> f32 {
-    let room = f32(header.point_capacity - min(2u * header.path_count, header.point_capacity));
-    let total_px = f32(header.draws_a_layer) * header.total_px;
-    return max(paths[draw].step_px, total_px / max(room, 1.0));
+fn step_of(set_index: u32) -> f32 {
+    let room = f32(header.point_capacity - min(2u * header.joint_count, header.point_capacity));
+    let total_px = f32(header.sets_per_layer) * header.total_px;
+    return max(link_styles[set_index].step_px, total_px / max(room, 1.0));
 }

@@ -21,11 +21,11 @@ fn extent_of(stroke_index: u32) -> Extent {
     );
     let start = points[stroke.first];
     let end = points[stroke.last + 1u];
-    let draw = start.flags >> DRAW_SHIFT;
-    let chain = elements[element_of(start.path, draw)];
-    let first_path = header.draw_first[draw] + chain.first - header.layer_first[paths[draw].layer];
-    let last_joint = joints[first_path + (chain.count & ~ON_LOOP) - 1u];
-    let first_segment = joints[first_path].first_point;
+    let set_index = start.flags >> SET_SHIFT;
+    let chain = elements[element_of(start.joint, set_index)];
+    let first_joint = header.set_first[set_index] + chain.first - header.layer_first[link_styles[set_index].layer];
+    let last_joint = joints[first_joint + (chain.count & ~ON_LOOP) - 1u];
+    let first_segment = joints[first_joint].first_point;
     let last_segment = last_joint.first_point + last_joint.point_count - 2u;
     let begins_on_seam = stroke.first == first_segment
         && (start.flags & POINT_ON_SEAM) != 0u && stroke.start_arc == start.arc;
@@ -55,15 +55,15 @@ fn extent_of(stroke_index: u32) -> Extent {
 }
 
 // Of how many equal parts of a stroke a segment is in which.
-struct Part {
+struct Piece {
     count: f32,
     index: f32,
 }
 
-fn part_of(style: PathUniform, extent: Extent, index: u32) -> Part {
+fn piece_of(style: LinkStyleUniform, extent: Extent, index: u32) -> Piece {
     let stroke_px = px_of_arc(extent.end_arc - extent.start_arc);
     if style.max_length_px <= 0.0 || stroke_px <= style.max_length_px {
-        return Part(1.0, 0.0);
+        return Piece(1.0, 0.0);
     }
     let count = ceil(stroke_px / style.max_length_px);
     var middle_px = 0.5 * (px_of_arc(points[index].arc - extent.start_arc)
@@ -72,7 +72,7 @@ fn part_of(style: PathUniform, extent: Extent, index: u32) -> Part {
     if middle_px < 0.0 || middle_px > stroke_px {
         middle_px = clamp(middle_px, 0.0, stroke_px);
     }
-    return Part(count, min(floor(middle_px / stroke_px * count), count - 1.0));
+    return Piece(count, min(floor(middle_px / stroke_px * count), count - 1.0));
 }
 
 // Of a difference of arc lengths, which may be negative.

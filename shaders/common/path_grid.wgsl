@@ -13,25 +13,25 @@ struct Grid {
     steps: f32,
 }
 
-fn grid_of(element: u32, path: u32, draw: u32) -> Grid {
+fn grid_of(element: u32, joint: u32, set_index: u32) -> Grid {
     let here = elements[element];
     let chain = f32(chain_arc(element));
-    let steps = max(1.0, round(chain / (step_of(draw) * ARC_PER_PX)));
+    let steps = max(1.0, round(chain / (step_of(set_index) * ARC_PER_PX)));
     let next = behind(element);
     let count = here.count & ~ON_LOOP;
     // Loops are cut at their first element.
-    let has_start = (joints[path].kind & KEPT) != 0u || element == here.first;
+    let has_start = (joints[joint].kind & KEPT) != 0u || element == here.first;
     let has_end = next == NONE || element + 1u == here.first + count;
     let arc = here.arc - elements[here.first].arc;
     let length_arc = u32(round(length_of(element) * ARC_PER_PX));
     var begin = arc;
     var until = arc + length_arc;
     // No point so near to one that is kept that the two say nothing of a direction.
-    let clear = u32(0.5 * step_of(draw) * ARC_PER_PX);
+    let clear = u32(0.5 * step_of(set_index) * ARC_PER_PX);
     if has_start {
         begin += clear;
     }
-    if has_end || (joints[path + next - element].kind & KEPT) != 0u {
+    if has_end || (joints[joint + next - element].kind & KEPT) != 0u {
         until -= min(clear, until);
     }
     var grid = Grid(has_start, has_end, 0u, 0u, chain, steps);

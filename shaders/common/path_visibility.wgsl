@@ -30,7 +30,7 @@ fn visibility_at(
     depth: f32,
     direction: vec2f,
     on_contour: bool,
-    draw: u32,
+    set_index: u32,
 ) -> u32 {
     // A contour's front is on its left, but in a mirror.
     let pixel_px = filled_pixel_px();
@@ -48,7 +48,7 @@ fn visibility_at(
         let before_px = (here - nearest) * px_per_unit_at(here);
         return select(SEEN_NOT, SEEN_ALMOST, before_px < GRAZED_PX * pixel_px);
     }
-    if paths[draw].visibility != SILHOUETTE_STROKES {
+    if link_styles[set_index].visibility != SILHOUETTE_STROKES {
         return SEEN;
     }
     let own = filled_object(pixel_of(place - outward * INSIDE_PX));

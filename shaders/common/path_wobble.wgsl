@@ -8,8 +8,8 @@
 #import <common/noise.wgsl>
 
 // How far a point of a path lies beside it, in pixels to the left.
-fn wobble_at(place: vec2f, depth: f32, draw: u32) -> f32 {
-    let style = paths[draw];
+fn wobble_at(place: vec2f, depth: f32, set_index: u32) -> f32 {
+    let style = link_styles[set_index];
     if style.wobble_px == 0.0 && style.jitter_px == 0.0 {
         return 0.0;
     }

@@ -1,2 +1,2 @@
-// Rust twin: the constant of this name in crates/strokes/src/silhouette.rs.
+// Rust twin: the constant of this name in crates/strokes/src/draw/silhouette.rs.
 const NO_OBJECT: u32 = 255u;

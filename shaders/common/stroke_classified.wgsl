@@ -6,7 +6,7 @@ fn classified(edge: EdgeGeometry, word: u32, faces: EdgeFaces, corner: u32) -> S
     let line = classify_edge(word, faces, stroke.classes, object.eye_is_outside != 0u);
     let is_drawn = (line.bits & DRAWN) != 0u && line.layer == stroke.layer;
     if !is_drawn || is_passed_over(line.bits) {
-        return varying_of(unseen_vertex());
+        return varying_of(culled_vertex());
     }
     let shape = stroke_shape();
     return varying_of(stroke_vertex(clip_edge(edge), shape, line.bits, corner));

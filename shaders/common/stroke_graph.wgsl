@@ -5,28 +5,38 @@
 // Invocations a workgroup.
 const GROUP: u32 = 64u;
 
+// Rounds of linking, at most: each looks four times as far.
+const MAX_LINK_ROUNDS: u32 = 16u;
+
 // Items that one invocation sums up before a scan.
 const ITEMS_PER_SUM: u32 = 16u;
 
-// Of GraphUniform.draws: which draws are linked, and how.
+// Which stroke sets are linked, and how much room there is.
 struct GraphUniform {
     chunk_count: u32,
-    draw_count: u32,
-    path_capacity: u32,
+    set_count: u32,
+    joint_capacity: u32,
     point_capacity: u32,
     // 1 where contours are in a layer as such: else an edge is what else it is.
     draws_contours: u32,
-    // Linked draws of one layer, at most.
-    draws_a_layer: u32,
+    // The most linked stroke sets of one layer.
+    sets_per_layer: u32,
     padding: vec2u,
-    // Layer of each draw, and 1 where its strokes are linked.
-    draws: array<vec4u, MAX_DRAWS>,
+    sets: array<LinkedSet, MAX_STROKE_SETS>,
+}
+
+// What linking must know of a stroke set.
+struct LinkedSet {
+    layer: u32,
+    // 1 if its strokes are linked.
+    is_linked: u32,
+    padding: vec2u,
 }
 
 struct GraphHeader {
     node_count: u32,
-    // Elements of all linked draws together.
-    path_count: u32,
+    // Elements of all linked stroke sets together: one joint each.
+    joint_count: u32,
     point_count: u32,
     stroke_count: u32,
     chain_count: u32,
@@ -34,13 +44,13 @@ struct GraphHeader {
     total_px: f32,
     // Points that there is room for.
     point_capacity: u32,
-    draws_a_layer: u32,
+    sets_per_layer: u32,
     // Where the nodes of each layer begin; the last is their number.
-    layer_first: array<u32, 8>,
-    // Where the elements of each draw begin among all, and their number.
-    draw_first: array<u32, 20>,
+    layer_first: array<u32, MAX_LAYERS + 1u>,
+    // Where the joints of each stroke set begin, and their number.
+    set_first: array<u32, MAX_STROKE_SETS + 1u>,
     // 1 where a round of linking changed anything.
-    changed: array<atomic<u32>, 16>,
+    changed: array<atomic<u32>, MAX_LINK_ROUNDS>,
 }
 
 // One drawn edge, in the direction of its chain.
@@ -63,7 +73,7 @@ const BACKWARD: u32 = 0x40000000u;
 const NO_NODE: u32 = 0x1fffffffu;
 const CUT_START: u32 = 0x80000000u;
 const CUT_END: u32 = 0x40000000u;
-const UNSEEN: u32 = 0x20000000u;
+const CUT_WHOLE: u32 = 0x20000000u;
 
 // What a node knows of its chain after some rounds.
 struct ChainState {
@@ -110,16 +120,16 @@ const ARC_PER_PX: f32 = 1024.0;
 // Workgroups of dispatches: three words each.
 const NODE_GROUPS: u32 = 0u;
 const NODE_SUM_GROUPS: u32 = 3u;
-const PATH_GROUPS: u32 = 6u;
-const PATH_SUM_GROUPS: u32 = 9u;
+const JOINT_GROUPS: u32 = 6u;
+const JOINT_SUM_GROUPS: u32 = 9u;
 const POINT_GROUPS: u32 = 12u;
 const POINT_SUM_GROUPS: u32 = 15u;
-// Five words for each draw of ribbons.
+// Five words for the ribbons of each stroke set.
 const RIBBON_DRAWS: u32 = 18u;
 // Then the workgroups of each chunk.
-const CHUNK_GROUPS: u32 = 98u;
+const CHUNK_GROUPS: u32 = RIBBON_DRAWS + 5u * MAX_STROKE_SETS;
 
-// The beginning of an element in a draw's path.
+// The beginning of an element in the path of a stroke set.
 struct Joint {
     // Cosine of the turn there, measured over some pixels.
     cosine: f32,
@@ -146,8 +156,8 @@ struct PathPoint {
     depth: f32,
     // Arc length up to here along the points, in ARC_PER_PX of a pixel, from anywhere.
     arc: u32,
-    // The element it is on, among those of all draws.
-    path: u32,
+    // The joint of the element that it is on.
+    joint: u32,
     flags: u32,
     // What of its segment is drawn, as fractions from and to; the other way round for
     // nothing.
@@ -167,7 +177,7 @@ const POINT_ON_CONTOUR: u32 = 16u;
 const POINT_ON_SEAM: u32 = 32u;
 const POINT_IS_GRAZED: u32 = 64u;
 const POINT_IS_CORNER: u32 = 128u;
-const DRAW_SHIFT: u32 = 8u;
+const SET_SHIFT: u32 = 8u;
 
 // A stroke: from the first segment to the last one, and from arc length to arc length.
 struct Stroke {

@@ -2,7 +2,7 @@
 #import <common/edge_geometry.wgsl>
 #import <common/draw_arguments.wgsl>
 
-// Rust twin: StrokeUniform in crates/strokes/src/stroke.rs.
+// Rust twin: StrokeUniform in crates/strokes/src/draw/stroke.rs.
 struct StrokeUniform {
     // Premultiplied.
     color: vec4f,
@@ -17,7 +17,7 @@ struct StrokeUniform {
     is_world_width: u32,
     // The layer whose edges are drawn, and the draw's place among all.
     layer: u32,
-    draw_index: u32,
+    set_index: u32,
     // Indices an edge.
     index_count: u32,
     // 1 where edges that their own solid hides are drawn.

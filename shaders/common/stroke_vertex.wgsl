@@ -28,7 +28,7 @@ struct StrokeVertex {
     over_px: f32,
 }
 
-fn unseen_vertex() -> StrokeVertex {
+fn culled_vertex() -> StrokeVertex {
     return StrokeVertex(BEHIND, 0.0, 0.0, 0.0, vec3f(0.0), 0.0);
 }
 
@@ -42,7 +42,7 @@ fn stroke_vertex(edge: ClipEdge, shape: StrokeShape, bits: u32, corner: u32) -> 
 fn segment_vertex(segment: Segment, shape: StrokeShape, corner: u32) -> StrokeVertex {
     let spine = segment.spine;
     if !segment.is_drawn {
-        return unseen_vertex();
+        return culled_vertex();
     }
     if shape.kind == THIN {
         let is_end = corner == 1u;
@@ -63,7 +63,7 @@ fn segment_vertex(segment: Segment, shape: StrokeShape, corner: u32) -> StrokeVe
     let is_end = corner >= 4u + per_end;
     // A clipped end is no vertex of the mesh, and nobody meets it there.
     if select(spine.t0 > 0.0, spine.t1 < 1.0, is_end) {
-        return unseen_vertex();
+        return culled_vertex();
     }
     let i = (corner - 4u) % per_end;
     if shape.kind == QUAD_AND_CAPS {
@@ -135,17 +135,17 @@ fn of_end(values: vec2f, is_end: bool) -> f32 {
 // A fin (Card and Mitchell, Listing 1): a quad that stands on the edge along the
 // vertex normals. Corners as those of the quad, 2 and 3 pushed out.
 fn fin_vertex(edge: ClipEdge, shape: StrokeShape, corner: u32) -> StrokeVertex {
-    let hidden = unseen_vertex();
+    let culled = culled_vertex();
     let spine = project_spine(edge.c0, edge.c1, shape.viewport_px, shape.guard_band);
     if all(spine.p == vec2f(0.0)) {
-        return hidden;
+        return culled;
     }
     let start = lerp(edge.c0, edge.c1, spine.t0);
     let end = lerp(edge.c0, edge.c1, spine.t1);
     let start_tip = start + lerp(edge.n0, edge.n1, spine.t0) * fin_height(start, shape);
     let end_tip = end + lerp(edge.n0, edge.n1, spine.t1) * fin_height(end, shape);
     if start_tip.w - start_tip.z <= 0.0 || end_tip.w - end_tip.z <= 0.0 {
-        return hidden;
+        return culled;
     }
     let is_end = corner == 1u || corner == 2u;
     let is_tip = corner >= 2u;

@@ -1,10 +1,10 @@
 // The surfaces of a scene: what vertex programs are given, and what fragment programs
 // are given by the vertex program `surface:surface`.
-// Rust twins: SurfacePart in crates/viewer/src/pass_graph/surface.rs, MaterialUniform
+// Rust twins: SurfaceRange in crates/viewer/src/pass_graph/surface.rs, MaterialUniform
 // in material.rs.
 #import <common/frame.wgsl>
 
-struct SurfacePart {
+struct SurfaceRange {
     material: u32,
     // Region ids from 1 on, different for each object, material and group.
     object_region: u32,
@@ -24,7 +24,7 @@ struct MaterialUniform {
     specular: vec4f,
 }
 
-@group(2) @binding(1) var<storage, read> surface_parts: array<SurfacePart>;
+@group(2) @binding(1) var<storage, read> surface_ranges: array<SurfaceRange>;
 @group(2) @binding(2) var<storage, read> materials: array<MaterialUniform>;
 @group(2) @binding(3) var base_texture: texture_2d<f32>;
 @group(2) @binding(4) var base_sampler: sampler;
@@ -33,7 +33,7 @@ struct SurfaceVertex {
     @location(0) position: vec3f,
     @location(1) normal: vec3f,
     @location(2) texcoord: vec2f,
-    @builtin(instance_index) part: u32,
+    @location(3) material_range: u32,
 }
 
 struct SurfaceVarying {
@@ -42,7 +42,7 @@ struct SurfaceVarying {
     @location(0) point_in_world: vec3f,
     @location(1) normal_in_world: vec3f,
     @location(2) texcoord: vec2f,
-    @location(3) @interpolate(flat) part: u32,
+    @location(3) @interpolate(flat) material_range: u32,
     @location(4) point_in_object: vec3f,
 }
 
@@ -64,7 +64,7 @@ fn surface_varying(vertex: SurfaceVertex) -> SurfaceVarying {
         (object.world_from_normal * vec4f(vertex.normal, 0.0)).xyz,
         // (0, 0) is the lower left corner of a model's picture.
         vec2f(vertex.texcoord.x, 1.0 - vertex.texcoord.y),
-        vertex.part,
+        vertex.material_range,
         vertex.position,
     );
 }

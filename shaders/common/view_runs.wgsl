@@ -1,13 +1,14 @@
 // What one view makes of all runs of edges of an object, and its counts. Rust
-// twins: RunState and Tally in crates/strokes/src/view_buffers.rs.
+// twins: RunState and Tally in crates/strokes/src/view/live_lists.rs.
+#import <common/line_class.wgsl>
 #import <common/object_limits.wgsl>
 
-// Edges an invocation looks at. Rust twin: EDGES_PER_RUN in mesh_buffers.rs.
+// Edges an invocation looks at. Rust twin: EDGES_PER_RUN in crates/strokes/src/mesh/layout.rs.
 const EDGES_PER_RUN: u32 = 64u;
 
 struct RunState {
-    // Edges that are drawn without being contours, one bit each.
-    marked: vec2u,
+    // Edges that are drawn in every view, one bit each.
+    static_edges: vec2u,
     // Those of them that their own solid can hide.
     solid: vec2u,
     // Edges drawn in this view.
@@ -21,15 +22,11 @@ struct RunState {
 
 // The counts of a chunk in a view.
 struct Tally {
-    contour: atomic<u32>,
+    // Edges in the live list.
     stroke_count: u32,
-    ridge: atomic<u32>,
-    valley: atomic<u32>,
-    boundary: atomic<u32>,
-    marked: atomic<u32>,
-    material: atomic<u32>,
-    smoothing: atomic<u32>,
+    // Edges of each line class.
+    features: array<atomic<u32>, LINE_CLASS_COUNT>,
     // Where the edges of each layer begin in the live list; the last is their
     // number.
-    layer_first: array<u32, 8>,
+    layer_first: array<u32, MAX_LAYERS + 1u>,
 }

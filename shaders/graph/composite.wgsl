@@ -1,7 +1,7 @@
 // The coverage of up to four draws of strokes, laid over the picture once: overlaps
 // within a draw are no darker than one stroke.
 
-// Rust twin: CompositeUniform in crates/strokes/src/graph/coverage.rs.
+// Rust twin: CompositeUniform in crates/strokes/src/draw/coverage.rs.
 struct CompositeUniform {
     // Premultiplied, in the order in which they are laid.
     colors: array<vec4f, 4>,

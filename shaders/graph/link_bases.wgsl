@@ -22,7 +22,7 @@ fn link_bases() {
             let most = bases[chunk];
             let first = min(tallies[chunk].layer_first[layer], most);
             let end = min(tallies[chunk].layer_first[layer + 1u], most);
-            bases[graph.chunk_count + 8u * chunk + layer] = nodes;
+            bases[graph.chunk_count + (MAX_LAYERS + 1u) * chunk + layer] = nodes;
             nodes += end - first;
         }
     }
@@ -30,26 +30,26 @@ fn link_bases() {
         let count = min(tallies[chunk].layer_first[MAX_LAYERS], bases[chunk]);
         set_groups(CHUNK_GROUPS + 3u * chunk, count, GROUP);
     }
-    var paths = 0u;
-    for (var draw = 0u; draw <= MAX_DRAWS; draw++) {
-        header.draw_first[draw] = paths;
-        if draw < graph.draw_count && graph.draws[draw].y != 0u {
-            let layer = graph.draws[draw].x;
-            paths += header.layer_first[layer + 1u] - header.layer_first[layer];
-            paths = min(paths, graph.path_capacity);
+    var joint_count = 0u;
+    for (var set_index = 0u; set_index <= MAX_STROKE_SETS; set_index++) {
+        header.set_first[set_index] = joint_count;
+        if set_index < graph.set_count && graph.sets[set_index].is_linked != 0u {
+            let layer = graph.sets[set_index].layer;
+            joint_count += header.layer_first[layer + 1u] - header.layer_first[layer];
+            joint_count = min(joint_count, graph.joint_capacity);
         }
     }
     header.node_count = nodes;
-    header.path_count = paths;
+    header.joint_count = joint_count;
     header.point_capacity = graph.point_capacity;
-    header.draws_a_layer = graph.draws_a_layer;
-    for (var round = 0u; round < 16u; round++) {
+    header.sets_per_layer = graph.sets_per_layer;
+    for (var round = 0u; round < MAX_LINK_ROUNDS; round++) {
         atomicStore(&header.changed[round], 0u);
     }
     set_groups(NODE_GROUPS, nodes, GROUP);
     set_groups(NODE_SUM_GROUPS, nodes, GROUP * ITEMS_PER_SUM);
-    set_groups(PATH_GROUPS, paths, GROUP);
-    set_groups(PATH_SUM_GROUPS, paths, GROUP * ITEMS_PER_SUM);
+    set_groups(JOINT_GROUPS, joint_count, GROUP);
+    set_groups(JOINT_SUM_GROUPS, joint_count, GROUP * ITEMS_PER_SUM);
 }
 
 fn set_groups(at: u32, count: u32, per_group: u32) {

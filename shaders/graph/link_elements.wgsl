@@ -9,7 +9,7 @@
 #import <common/view_runs.wgsl>
 #import <common/stroke_graph.wgsl>
 
-// Rust twins: the constants of these names in crates/strokes/src/graph/link_table.rs.
+// Rust twins: the constants of these names in crates/strokes/src/mesh/link_table.rs.
 const SURFACE_END: u32 = 0xffffffffu;
 const SURFACE_CUT: u32 = 0xfffffffeu;
 const REVERSED: u32 = 0x80000000u;
@@ -36,7 +36,7 @@ fn link_elements(@builtin(global_invocation_id) id: vec3u) {
         && slot >= tallies[chunk.chunk_index].layer_first[layer + 1u] {
         layer++;
     }
-    let base = bases[chunk_count + 8u * chunk.chunk_index + layer];
+    let base = bases[chunk_count + (MAX_LAYERS + 1u) * chunk.chunk_index + layer];
     let entry = live[slot] & select(~CONTOUR, 0xffffffffu, graph.draws_contours != 0u);
     let edge = entry & EDGE_INDEX_MASK;
     nodes[base + slot - tallies[chunk.chunk_index].layer_first[layer]] = link_node(entry, edge);
@@ -62,7 +62,7 @@ fn link_node(entry: u32, edge: u32) -> LinkNode {
         c1 = last;
     }
     let spine = project_spine(c0, c1, frame.viewport_px, frame.guard_band);
-    let is_unseen = spine.t0 >= spine.t1;
+    let is_culled = spine.t0 >= spine.t1;
     return LinkNode(
         spine.s0,
         spine.s1,
@@ -74,9 +74,9 @@ fn link_node(entry: u32, edge: u32) -> LinkNode {
             | select(0u, BEHIND_SOLID, is_contour && is_groove(edge_word(edge)))
             | select(0u, BACKWARD, is_reversed),
         following
-            | select(0u, UNSEEN, is_unseen)
-            | select(0u, CUT_START, is_unseen || spine.t0 > 0.0)
-            | select(0u, CUT_END, is_unseen || spine.t1 < 1.0),
+            | select(0u, CUT_WHOLE, is_culled)
+            | select(0u, CUT_START, is_culled || spine.t0 > 0.0)
+            | select(0u, CUT_END, is_culled || spine.t1 < 1.0),
     );
 }
 

@@ -17,24 +17,24 @@
 
 @compute @workgroup_size(GROUP)
 fn measure_turns(@builtin(global_invocation_id) id: vec3u) {
-    let path = id.x;
-    if path >= header.path_count {
+    let joint = id.x;
+    if joint >= header.joint_count {
         return;
     }
-    let draw = draw_of(path);
-    let element = element_of(path, draw);
-    let step_px = step_of(draw);
+    let set_index = set_of(joint);
+    let element = element_of(joint, set_index);
+    let step_px = step_of(set_index);
     let near = turn_cosine(element, step_px);
-    joints[path].kind = 0u;
-    joints[path].cosine = near;
+    joints[joint].kind = 0u;
+    joints[joint].cosine = near;
     if near < KEPT_COSINE {
         var far = turn_cosine(element, FOLD_STEPS * step_px);
         if far < KEPT_COSINE && near < CUSP_COSINE {
             // What turns back on itself is a corner if it does not turn again soon.
             far = turn_cosine(element, 2.0 * FOLD_STEPS * step_px);
         }
-        joints[path].cosine = max(near, far);
-        joints[path].kind = select(0u, FOLD, far >= KEPT_COSINE);
+        joints[joint].cosine = max(near, far);
+        joints[joint].kind = select(0u, FOLD, far >= KEPT_COSINE);
     }
 }
 
@@ -88,30 +88,30 @@ fn place_ahead(element: u32, reach_px: f32) -> vec2f {
 
 @compute @workgroup_size(GROUP)
 fn find_corners(@builtin(global_invocation_id) id: vec3u) {
-    let path = id.x;
-    if path >= header.path_count {
+    let joint = id.x;
+    if joint >= header.joint_count {
         return;
     }
-    let draw = draw_of(path);
-    let element = element_of(path, draw);
-    var kind = joints[path].kind;
+    let set_index = set_of(joint);
+    let element = element_of(joint, set_index);
+    var kind = joints[joint].kind;
     if before(element) == NONE {
         kind |= BREAK;
-    } else if is_corner(element, path, step_of(draw)) {
+    } else if is_corner(element, joint, step_of(set_index)) {
         kind |= CORNER;
         // A contour that turns back is another one from there on: it has a cusp.
-        let is_cusp = joints[path].cosine < CUSP_COSINE
+        let is_cusp = joints[joint].cosine < CUSP_COSINE
             && (elements[element].edge & CONTOUR) != 0u;
-        if joints[path].cosine < paths[draw].corner_cosine || is_cusp {
+        if joints[joint].cosine < link_styles[set_index].corner_cosine || is_cusp {
             kind |= SPLIT;
         }
     }
-    joints[path].kind = kind;
+    joints[joint].kind = kind;
 }
 
 // Whether no joint within reach turns more; of two that turn alike the first.
-fn is_corner(element: u32, path: u32, reach_px: f32) -> bool {
-    let cosine = joints[path].cosine;
+fn is_corner(element: u32, joint: u32, reach_px: f32) -> bool {
+    let cosine = joints[joint].cosine;
     if cosine >= KEPT_COSINE {
         return false;
     }
@@ -126,7 +126,7 @@ fn is_corner(element: u32, path: u32, reach_px: f32) -> bool {
         if left < 0.0 {
             break;
         }
-        if joints[path + at - element].cosine <= cosine {
+        if joints[joint + at - element].cosine <= cosine {
             return false;
         }
     }
@@ -138,7 +138,7 @@ fn is_corner(element: u32, path: u32, reach_px: f32) -> bool {
         if left < 0.0 || at == NONE || at == element {
             break;
         }
-        if joints[path + at - element].cosine < cosine {
+        if joints[joint + at - element].cosine < cosine {
             return false;
         }
     }
@@ -147,26 +147,26 @@ fn is_corner(element: u32, path: u32, reach_px: f32) -> bool {
 
 // The points of an element: one where it begins, as far as its place is kept; those
 // of the grid along the whole chain; one where it ends, where the path does.
-fn count_points(path: u32) -> u32 {
-    let draw = draw_of(path);
-    let element = element_of(path, draw);
-    if (elements[element].next & UNSEEN) != 0u {
+fn count_points(joint: u32) -> u32 {
+    let set_index = set_of(joint);
+    let element = element_of(joint, set_index);
+    if (elements[element].next & CUT_WHOLE) != 0u {
         return 0u;
     }
-    let grid = grid_of(element, path, draw);
+    let grid = grid_of(element, joint, set_index);
     return u32(grid.has_start) + u32(grid.has_end) + grid.end - grid.first;
 }
 
 @compute @workgroup_size(GROUP)
 fn sum_points(@builtin(global_invocation_id) id: vec3u) {
     let first = id.x * ITEMS_PER_SUM;
-    if first >= header.path_count {
+    if first >= header.joint_count {
         return;
     }
     var sum = 0u;
-    for (var path = first; path < min(first + ITEMS_PER_SUM, header.path_count); path++) {
-        let count = count_points(path);
-        joints[path].point_count = count;
+    for (var joint = first; joint < min(first + ITEMS_PER_SUM, header.joint_count); joint++) {
+        let count = count_points(joint);
+        joints[joint].point_count = count;
         sum += count;
     }
     sums[id.x] = vec2u(sum, 0u);
@@ -174,7 +174,7 @@ fn sum_points(@builtin(global_invocation_id) id: vec3u) {
 
 @compute @workgroup_size(SCAN_WIDTH)
 fn scan_points(@builtin(local_invocation_index) lane: u32) {
-    let total = scan_sums(lane, (header.path_count + ITEMS_PER_SUM - 1u) / ITEMS_PER_SUM);
+    let total = scan_sums(lane, (header.joint_count + ITEMS_PER_SUM - 1u) / ITEMS_PER_SUM);
     if lane == 0u {
         header.point_count = min(total.x, header.point_capacity);
     }
@@ -183,37 +183,37 @@ fn scan_points(@builtin(local_invocation_index) lane: u32) {
 @compute @workgroup_size(GROUP)
 fn write_points(@builtin(global_invocation_id) id: vec3u) {
     let first = id.x * ITEMS_PER_SUM;
-    if first >= header.path_count {
+    if first >= header.joint_count {
         return;
     }
     var base = sums[id.x].x;
-    for (var path = first; path < min(first + ITEMS_PER_SUM, header.path_count); path++) {
-        joints[path].first_point = base;
-        base += joints[path].point_count;
+    for (var joint = first; joint < min(first + ITEMS_PER_SUM, header.joint_count); joint++) {
+        joints[joint].first_point = base;
+        base += joints[joint].point_count;
     }
 }
 
 // How much the passes over points have to do, and where the ribbons of each draw are.
-@compute @workgroup_size(MAX_DRAWS)
-fn finish_points(@builtin(local_invocation_index) draw: u32) {
-    if draw == 0u {
+@compute @workgroup_size(MAX_STROKE_SETS)
+fn finish_points(@builtin(local_invocation_index) set_index: u32) {
+    if set_index == 0u {
         set_groups(POINT_GROUPS, header.point_count, GROUP);
         set_groups(POINT_SUM_GROUPS, header.point_count, GROUP * ITEMS_PER_SUM);
     }
-    let first = point_at(header.draw_first[draw]);
-    let at = RIBBON_DRAWS + 5u * draw;
-    arguments[at] = 6u * (point_at(header.draw_first[draw + 1u]) - first);
+    let first = point_at(header.set_first[set_index]);
+    let at = RIBBON_DRAWS + 5u * set_index;
+    arguments[at] = 6u * (point_at(header.set_first[set_index + 1u]) - first);
     arguments[at + 1u] = 1u;
     arguments[at + 2u] = 6u * first;
     arguments[at + 3u] = 0u;
     arguments[at + 4u] = 0u;
 }
 
-fn point_at(path: u32) -> u32 {
-    if path >= header.path_count {
+fn point_at(joint: u32) -> u32 {
+    if joint >= header.joint_count {
         return header.point_count;
     }
-    return min(joints[path].first_point, header.point_count);
+    return min(joints[joint].first_point, header.point_count);
 }
 
 fn set_groups(at: u32, count: u32, per_group: u32) {

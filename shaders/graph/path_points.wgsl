@@ -19,12 +19,12 @@ fn place_points(@builtin(global_invocation_id) id: vec3u) {
 }
 
 fn point_of(index: u32) -> PathPoint {
-    let path = path_of_point(index);
-    let draw = draw_of(path);
-    let element = element_of(path, draw);
+    let joint = joint_of_point(index);
+    let set_index = set_of(joint);
+    let element = element_of(joint, set_index);
     let here = elements[element];
-    let grid = grid_of(element, path, draw);
-    let rank = index - joints[path].first_point;
+    let grid = grid_of(element, joint, set_index);
+    let rank = index - joints[joint].first_point;
     let is_start = grid.has_start && rank == 0u;
     let step = grid.first + rank - u32(grid.has_start);
     let is_end = !is_start && step >= grid.end;
@@ -36,10 +36,10 @@ fn point_of(index: u32) -> PathPoint {
     }
     let t = clamp(along_px / max(length_px, 1e-6), 0.0, 1.0);
 
-    let step_px = step_of(draw);
+    let step_px = step_of(set_index);
     let far_px = FOLD_STEPS * step_px;
-    var back = walk_back(element, path, t, far_px);
-    var ahead = walk_ahead(element, path, t, far_px);
+    var back = walk_back(element, joint, t, far_px);
+    var ahead = walk_ahead(element, joint, t, far_px);
     let direction = unit(ahead.place - back.place, here.s1 - here.s0);
     let exact = vec3f(mix(here.s0, here.s1, t), mix(here.z0, here.z1, t));
     // Near folds more is averaged, so that a path does not go back and forth.
@@ -53,8 +53,8 @@ fn point_of(index: u32) -> PathPoint {
     let half_px = min(wanted_px, min(back.length_px, ahead.length_px));
     var averaged = exact;
     if half_px > 0.01 {
-        back = walk_back(element, path, t, half_px);
-        ahead = walk_ahead(element, path, t, half_px);
+        back = walk_back(element, joint, t, half_px);
+        ahead = walk_ahead(element, joint, t, half_px);
         averaged = (back.sum + ahead.sum) / (back.length_px + ahead.length_px);
     }
     let on_contour = (here.edge & CONTOUR) != 0u;
@@ -62,20 +62,20 @@ fn point_of(index: u32) -> PathPoint {
     // a fold is of what is before and behind the surface.
     var seen = select(SEEN_NOT, SEEN_ALMOST, on_contour && half_px > 2.0 * step_px);
     if (here.edge & BEHIND_SOLID) == 0u {
-        seen = visibility_at(exact.xy, exact.z, direction, on_contour, draw);
+        seen = visibility_at(exact.xy, exact.z, direction, on_contour, set_index);
     }
     let across = vec2f(-direction.y, direction.x);
     return PathPoint(
         averaged.xy,
-        across * wobble_at(averaged.xy, averaged.z, draw),
+        across * wobble_at(averaged.xy, averaged.z, set_index),
         averaged.z,
         0u,
-        path,
-        flags_of(element, path, is_start, is_end)
+        joint,
+        flags_of(element, joint, is_start, is_end)
             | select(0u, POINT_IS_VISIBLE, seen == SEEN)
             | select(0u, POINT_IS_GRAZED, seen == SEEN_ALMOST && chain_px > LEAST_BRIDGED_PX)
             | select(0u, POINT_ON_CONTOUR, on_contour)
-            | (draw << DRAW_SHIFT),
+            | (set_index << SET_SHIFT),
         vec2f(0.0, 1.0),
         0u,
         0u,
@@ -83,9 +83,9 @@ fn point_of(index: u32) -> PathPoint {
 }
 
 // The element of a point: the last one whose points begin there or before.
-fn path_of_point(index: u32) -> u32 {
+fn joint_of_point(index: u32) -> u32 {
     var low = 0u;
-    var high = header.path_count;
+    var high = header.joint_count;
     while high - low > 1u {
         let middle = (low + high) / 2u;
         if joints[middle].first_point <= index {
@@ -97,10 +97,10 @@ fn path_of_point(index: u32) -> u32 {
     return low;
 }
 
-fn flags_of(element: u32, path: u32, is_start: bool, is_end: bool) -> u32 {
+fn flags_of(element: u32, joint: u32, is_start: bool, is_end: bool) -> u32 {
     let here = elements[element];
-    let kind = joints[path].kind;
-    let first_kind = joints[path + here.first - element].kind;
+    let kind = joints[joint].kind;
+    let first_kind = joints[joint + here.first - element].kind;
     // A loop that is split where it was cut has no seam there.
     let is_seam = (first_kind & (BREAK | SPLIT)) == 0u;
     if is_start {
@@ -139,7 +139,7 @@ fn walked(so_far: Walk, element: u32, part: f32, to: f32, taken_px: f32) -> Walk
     return walk;
 }
 
-fn walk_back(element: u32, path: u32, t: f32, reach_px: f32) -> Walk {
+fn walk_back(element: u32, joint: u32, t: f32, reach_px: f32) -> Walk {
     var at = element;
     var part = t;
     var walk = Walk(vec3f(0.0), 0.0, vec2f(0.0), 1e9);
@@ -151,7 +151,7 @@ fn walk_back(element: u32, path: u32, t: f32, reach_px: f32) -> Walk {
         if walk.length_px >= reach_px {
             break;
         }
-        let kind = joints[path + at - element].kind;
+        let kind = joints[joint + at - element].kind;
         if (kind & KEPT) != 0u {
             break;
         }
@@ -166,7 +166,7 @@ fn walk_back(element: u32, path: u32, t: f32, reach_px: f32) -> Walk {
     return walk;
 }
 
-fn walk_ahead(element: u32, path: u32, t: f32, reach_px: f32) -> Walk {
+fn walk_ahead(element: u32, joint: u32, t: f32, reach_px: f32) -> Walk {
     var at = element;
     var part = t;
     var walk = Walk(vec3f(0.0), 0.0, vec2f(0.0), 1e9);
@@ -182,7 +182,7 @@ fn walk_ahead(element: u32, path: u32, t: f32, reach_px: f32) -> Walk {
         if other == NONE || other == element {
             break;
         }
-        let kind = joints[path + other - element].kind;
+        let kind = joints[joint + other - element].kind;
         if (kind & KEPT) != 0u {
             break;
         }

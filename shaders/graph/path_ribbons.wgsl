@@ -26,8 +26,8 @@ fn write_ribbons(@builtin(global_invocation_id) id: vec3u) {
 fn ribbon_of(index: u32) -> Ribbon {
     let here = points[index];
     let next = points[index + 1u];
-    let draw = here.flags >> DRAW_SHIFT;
-    let style = paths[draw];
+    let set_index = here.flags >> SET_SHIFT;
+    let style = link_styles[set_index];
     let extent = extent_of(here.stroke);
     var a = mix(drawn_place(index), drawn_place(index + 1u), here.cut.x);
     var b = mix(drawn_place(index), drawn_place(index + 1u), here.cut.y);
@@ -40,7 +40,7 @@ fn ribbon_of(index: u32) -> Ribbon {
     }
     let direction = along / length_px;
     let widest_px = width_of(style, points[extent.first].depth);
-    let part = part_of(style, extent, index);
+    let part = piece_of(style, extent, index);
     // From where the stroke begins.
     let from_start = px_of_arc(here.arc - extent.start_arc);
     let whole_px = px_of_arc(next.arc - here.arc);
@@ -77,9 +77,9 @@ fn ribbon_of(index: u32) -> Ribbon {
         let taper = select(taper_of(style, arcs[end] - range.x, total_px), 1.0, is_even);
         let t = (arcs[end] - range.x) / total_px;
         half_widths[end] =
-            0.5 * width_of(style, depth) * taper * curve_at(paths[draw].width_curve, t);
+            0.5 * width_of(style, depth) * taper * curve_at(link_styles[set_index].width_curve, t);
         opacities[end] = opacity_of(style, depth) * fade_of_short(style, total_px, least_px)
-            * curve_at(paths[draw].opacity_curve, t);
+            * curve_at(link_styles[set_index].opacity_curve, t);
     }
     if max(opacities.x, opacities.y) <= 0.0 {
         return ribbon;
@@ -114,14 +114,14 @@ fn ribbon_of(index: u32) -> Ribbon {
 
 // The segments before and behind one, or NONE where its stroke, or its part of a long
 // one, begins and ends.
-fn neighbours_of(style: PathUniform, extent: Extent, part: Part, index: u32) -> vec2u {
+fn neighbours_of(style: LinkStyleUniform, extent: Extent, part: Piece, index: u32) -> vec2u {
     var other = vec2u(
         select(index - 1u, extent.before_first, index == extent.first),
         select(index + 1u, extent.behind_last, index == extent.last),
     );
     for (var end = 0u; end < 2u; end++) {
         if part.count > 1.0 && other[end] != NONE
-            && part_of(style, extent, other[end]).index != part.index {
+            && piece_of(style, extent, other[end]).index != part.index {
             other[end] = NONE;
         }
     }
@@ -137,7 +137,7 @@ struct Meeting {
 
 // `end` is 0 where it begins and 1 where it ends; `other` the segment that it meets.
 fn meeting_of(
-    style: PathUniform,
+    style: LinkStyleUniform,
     index: u32,
     direction: vec2f,
     length_px: f32,
@@ -224,7 +224,7 @@ fn curve_at(curve: array<vec4f, 2>, t: f32) -> f32 {
     return mix(low, high, at - f32(first));
 }
 
-fn width_of(style: PathUniform, depth: f32) -> f32 {
+fn width_of(style: LinkStyleUniform, depth: f32) -> f32 {
     if style.is_world_width == 0u {
         return style.width;
     }
@@ -232,7 +232,7 @@ fn width_of(style: PathUniform, depth: f32) -> f32 {
     return min(style.width * px_per_unit_at(distance_of(depth)), frame.picture_px.y);
 }
 
-fn taper_of(style: PathUniform, arc_px: f32, total_px: f32) -> f32 {
+fn taper_of(style: LinkStyleUniform, arc_px: f32, total_px: f32) -> f32 {
     // Where both do not fit, both are shorter.
     let fit = min(1.0, total_px / max(style.taper_px.x + style.taper_px.y, 1e-3));
     let taper_px = style.taper_px * fit;
@@ -241,7 +241,7 @@ fn taper_of(style: PathUniform, arc_px: f32, total_px: f32) -> f32 {
     return clamp(min(grown, left), 0.0, 1.0);
 }
 
-fn opacity_of(style: PathUniform, depth: f32) -> f32 {
+fn opacity_of(style: LinkStyleUniform, depth: f32) -> f32 {
     if style.fade.x == style.fade.y {
         return 1.0;
     }
@@ -249,7 +249,7 @@ fn opacity_of(style: PathUniform, depth: f32) -> f32 {
     return 1.0 - clamp(faded, 0.0, 1.0);
 }
 
-fn fade_of_short(style: PathUniform, total_px: f32, width_px: f32) -> f32 {
+fn fade_of_short(style: LinkStyleUniform, total_px: f32, width_px: f32) -> f32 {
     let least_px = select(style.min_length_px, width_px, style.min_length_px < 0.0);
     return clamp(2.0 * total_px / max(least_px, 1e-3) - 1.0, 0.0, 1.0);
 }
@@ -258,7 +258,7 @@ fn fade_of_short(style: PathUniform, total_px: f32, width_px: f32) -> f32 {
 // where the stroke has its middle. A short stroke has a part of the brush, but a ring
 // has a whole one.
 fn brush_of(
-    style: PathUniform,
+    style: LinkStyleUniform,
     arcs: vec2f,
     range: vec2f,
     width_px: f32,
@@ -275,7 +275,7 @@ fn brush_of(
 }
 
 // 0 for centred, 1 for right of its direction, 2 for left; and where it is inside.
-fn side_of(style: PathUniform, flags: u32) -> u32 {
+fn side_of(style: LinkStyleUniform, flags: u32) -> u32 {
     let on_contour = (flags & POINT_ON_CONTOUR) != 0u;
     let is_outside = style.placement == OUTSIDE || (style.placement == AUTOMATIC && on_contour);
     if !is_outside && style.placement != INSIDE {

@@ -14,8 +14,8 @@ const BRIDGE: u32 = 6u;
 
 // Whether a point is drawn.
 fn is_drawn(index: u32) -> bool {
-    let draw = points[index].flags >> DRAW_SHIFT;
-    return is_seen(index) != (paths[draw].visibility == HIDDEN_STROKES);
+    let set_index = points[index].flags >> SET_SHIFT;
+    return is_seen(index) != (link_styles[set_index].visibility == HIDDEN_STROKES);
 }
 
 fn is_seen(index: u32) -> bool {
@@ -87,7 +87,7 @@ fn segment_at(index: u32) -> Segment {
     segment.exists = true;
     segment.is_drawn0 = is_drawn(index);
     segment.is_drawn1 = is_drawn(index + 1u);
-    let is_cut = paths[flags >> DRAW_SHIFT].is_cut_where_hidden != 0u;
+    let is_cut = link_styles[flags >> SET_SHIFT].is_cut_where_hidden != 0u;
     segment.is_cut = is_cut;
     let is_touched = segment.is_drawn0 || segment.is_drawn1 || !is_cut;
     segment.starts_stroke = is_touched && ((flags & (POINT_STARTS | POINT_SPLITS)) != 0u
@@ -111,7 +111,7 @@ fn segment_arc(index: u32) -> u32 {
 fn cut_of(index: u32, is_drawn0: bool) -> f32 {
     let a = points[index];
     let b = points[index + 1u];
-    let draw = a.flags >> DRAW_SHIFT;
+    let set_index = a.flags >> SET_SHIFT;
     let on_contour = (a.flags & POINT_ON_CONTOUR) != 0u;
     let along = b.position - a.position;
     let direction = along / max(length(along), 1e-6);
@@ -120,8 +120,8 @@ fn cut_of(index: u32, is_drawn0: bool) -> f32 {
     for (var halving = 0u; halving < HALVINGS; halving++) {
         let t = 0.5 * (low + high);
         let place = mix(a.position, b.position, t);
-        let seen = visibility_at(place, mix(a.depth, b.depth, t), direction, on_contour, draw);
-        let is_like_start = ((seen == SEEN) != (paths[draw].visibility == HIDDEN_STROKES)) == is_drawn0;
+        let seen = visibility_at(place, mix(a.depth, b.depth, t), direction, on_contour, set_index);
+        let is_like_start = ((seen == SEEN) != (link_styles[set_index].visibility == HIDDEN_STROKES)) == is_drawn0;
         low = select(low, t, is_like_start);
         high = select(t, high, is_like_start);
     }

@@ -17,7 +17,7 @@
 #import <common/fill_depth.wgsl>
 #import <common/stroke_graph.wgsl>
 
-// Rust twin: MITRE_LIMIT in crates/strokes/src/graph/path_style.rs.
+// Rust twin: MITRE_LIMIT in crates/strokes/src/style/link_style.rs.
 const MITRE_LIMIT: f32 = 4.0;
 
 // Both segments of a join have the pixels on the line that halves its angle.

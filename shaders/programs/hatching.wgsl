@@ -27,7 +27,7 @@ struct HatchingVarying {
     @builtin(position) @invariant position: vec4f,
     @location(0) point_in_world: vec3f,
     @location(1) texcoord: vec2f,
-    @location(2) @interpolate(flat) part: u32,
+    @location(2) @interpolate(flat) material_range: u32,
     @location(3) point_in_object: vec3f,
     @location(4) normal_in_object: vec3f,
     // Of the outside, and of the inside: a vertex at a contour has both.
@@ -67,7 +67,7 @@ fn tone(uv: vec2f, along_x: vec2f, along_y: vec2f, weights: Weights) -> f32 {
 }
 
 fn hatched(
-    part: u32,
+    material_range: u32,
     texel: vec4f,
     texcoord: vec2f,
     point: vec3f,
@@ -81,7 +81,7 @@ fn hatched(
     let place_x = dpdx(place);
     let place_y = dpdy(place);
     var level = 1.0;
-    if surface_parts[part].has_texcoords == 1u {
+    if surface_ranges[material_range].has_texcoords == 1u {
         level = tone(uv, uv_x, uv_y, weights);
     } else {
         var sides = pow(abs(normal), vec3f(6.0));
@@ -90,7 +90,7 @@ fn hatched(
             + sides.y * tone(place.xz, place_x.xz, place_y.xz, weights)
             + sides.z * tone(place.xy, place_x.xy, place_y.xy, weights);
     }
-    let material = material_at(part, texel);
+    let material = material_at(material_range, texel);
     let ink = select(params.ink_color, material.diffuse.rgb, params.from_material == 1u);
     return vec4f(mix(ink, params.paper_color, level), 1.0);
 }
@@ -106,7 +106,7 @@ fn hatching_vertex(vertex: SurfaceVertex) -> HatchingVarying {
         at.position,
         at.point_in_world,
         at.texcoord,
-        at.part,
+        at.material_range,
         vertex.position,
         vertex.normal,
         outside.of_123,
@@ -125,7 +125,7 @@ fn per_vertex(at: HatchingVarying, @builtin(front_facing) is_front: bool) -> @lo
         select(at.inside_456, at.outside_456, is_outside),
     );
     let color = hatched(
-        at.part,
+        at.material_range,
         texel,
         at.texcoord,
         at.point_in_object,
@@ -145,7 +145,7 @@ fn per_pixel(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @loca
     let normal = unit(cross(dpdx(at.point_in_object), dpdy(at.point_in_object)));
     let surface = surface_of(at.point_in_world, side_seen(is_front) * at.normal_in_world);
     let weights = weights_of(params.brightness * diffuse_factor(surface));
-    let color = hatched(at.part, texel, at.texcoord, at.point_in_object, normal, weights);
+    let color = hatched(at.material_range, texel, at.texcoord, at.point_in_object, normal, weights);
     cut(at);
     return color;
 }

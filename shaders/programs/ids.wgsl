@@ -9,14 +9,14 @@ struct Params {
 
 @group(1) @binding(0) var<uniform> params: Params;
 
-fn region_color(part: u32) -> vec4f {
-    let of_part = surface_parts[part];
-    let ids = array(of_part.object_region, of_part.material_region, of_part.group_region);
+fn region_color(material_range: u32) -> vec4f {
+    let of_range = surface_ranges[material_range];
+    let ids = array(of_range.object_region, of_range.material_region, of_range.group_region);
     return vec4f(rgb_of_id(ids[min(params.regions, 2u)]), 1.0);
 }
 
 @fragment
 fn ids(at: SurfaceVarying) -> @location(0) vec4f {
     cut(at);
-    return region_color(at.part);
+    return region_color(at.material_range);
 }

@@ -20,9 +20,9 @@ struct SceneData {
     @location(2) region: vec4f,
 }
 
-fn region_color(part: u32) -> vec4f {
-    let of_part = surface_parts[part];
-    let ids = array(of_part.object_region, of_part.material_region, of_part.group_region);
+fn region_color(material_range: u32) -> vec4f {
+    let of_range = surface_ranges[material_range];
+    let ids = array(of_range.object_region, of_range.material_region, of_range.group_region);
     return vec4f(rgb_of_id(ids[min(params.regions, 2u)]), 1.0);
 }
 
@@ -36,14 +36,14 @@ fn background_color() -> vec4f {
 fn scene_data(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> SceneData {
     let texel = textureSample(base_texture, base_sampler, at.texcoord);
     let surface = surface_at(at, is_front);
-    let material = material_at(at.part, texel);
+    let material = material_at(at.material_range, texel);
     let lit = diffuse_factor(surface) * material.diffuse.rgb
         + specular_factor(surface, material.specular.w) * material.specular.rgb;
     let color = vec4f(material.ambient.rgb + frame.light_color * lit, 1.0);
     return SceneData(
         color,
         vec4f(rgb_of_normal(surface.normal), 1.0),
-        region_color(at.part),
+        region_color(at.material_range),
     );
 }
 

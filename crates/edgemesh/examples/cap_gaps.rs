@@ -56,6 +56,7 @@ const SHAPE: StrokeShape = StrokeShape {
     placement: Placement::Automatic,
     parameterization: Parameterization::ObjectSpace,
     is_world_width: false,
+    guard_band: edgemesh::view::projection::WHOLE_BAND,
 };
 
 /// What was counted of one class and curvature.

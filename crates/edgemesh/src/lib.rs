@@ -1,33 +1,32 @@
-//! Turns a triangle mesh into an **edge mesh**: every undirected edge a record
-//! of its two vertices, its two faces and its classes, ready for the GPU to find
-//! the feature edges of any view.
+//! Turns a triangle mesh into an **edge mesh**: every undirected edge a record of its two
+//! vertices, its two faces and its classes, ready for the GPU to find the feature edges of any
+//! view.
 //!
-//! Based on M. McGuire and J. F. Hughes, *Hardware-Determined Feature Edges*
-//! (NPAR 2004), sections 1 to 3.
+//! Based on M. McGuire and J. F. Hughes, *Hardware-Determined Feature Edges* (NPAR 2004),
+//! sections 1 to 3.
 //!
-//! ```text
-//! file --read--> Model --build--> EdgeMesh + Report
-//!                                   |--> records, planes, positions --> GPU (crate strokes)
-//!                                   '--> oracle: the same decisions and corners on the CPU
+//! The rooms, in the order in which an edge goes through them:
+//!
+//! | room | what is done there |
+//! |---|---|
+//! | [`model`] | what a file says: polygons, materials, rigs |
+//! | [`format`] | files in and out |
+//! | [`build`] | a model becomes an edge mesh, one stage per file |
+//! | [`edge_mesh`] | the edge mesh, its records and layouts |
+//! | [`line`] | line classes, kinds of lines, where they lie |
+//! | [`view`] | what one view makes of it: cameras, facing, features |
+//! | [`oracle`] | CPU twins of the shaders, which tests hold them to |
+//!
 //! ```
-//!
-//! - [`read`]: files in, [`model::Model`] out, every error with file and line.
-//! - [`build`]: weld, repair, classify; one stage a file.
-//! - [`export`]: the mesh and its edges for other programs: glTF, PLY, OBJ, JSON.
-//! - [`mod@file`]: edge meshes on disk, with a checksum, used where they lie.
-//! - [`oracle`]: the CPU twin of the shaders, and the reference they are held to.
-//! - [`camera`]: the eye and the clip-space matrix, the same for every command.
-//!
-//! ```
-//! use edgemesh::{build, camera::Camera, model::Model, oracle, report::Report};
+//! use edgemesh::{BuildOptions, Camera, LineClass, Model, Report, build_edge_mesh, count_features};
 //!
 //! let corners = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
 //! let model = Model::from_polygons(&corners, &[&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]]);
-//! let mesh = build::build_edge_mesh(&model, &build::BuildOptions::default(), &mut Report::default());
+//! let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
 //! let view = Camera::default_view(&mesh.bounds).view(&mesh.bounds, 1.0);
-//! let features = oracle::count_features(&mesh, view.eye);
+//! let features = count_features(&mesh, view.eye);
 //! assert_eq!(mesh.records.len(), 6);
-//! assert_eq!(features.contour, 3);
+//! assert_eq!(features[LineClass::Contour], 3);
 //! ```
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]
@@ -43,3 +42,14 @@ pub mod model;
 pub mod oracle;
 pub mod report;
 pub mod view;
+
+pub use glam;
+
+pub use self::build::{BuildOptions, build_edge_mesh};
+pub use self::edge_mesh::{Bounds, EdgeMesh};
+pub use self::format::read::{ReadError, read_model};
+pub use self::line::class::LineClass;
+pub use self::model::Model;
+pub use self::report::Report;
+pub use self::view::camera::{Camera, View};
+pub use self::view::feature_counts::{FeatureCounts, count_features};

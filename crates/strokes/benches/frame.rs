@@ -25,6 +25,7 @@ use edgemesh::line::placement::Placement;
 use edgemesh::model::Model;
 use edgemesh::report::Report;
 use edgemesh::view::camera::{Camera, View};
+use glam::DMat4;
 use strokes::draw::targets::Targets;
 use strokes::gpu::device;
 use strokes::gpu::device::Gpu;
@@ -32,10 +33,14 @@ use strokes::gpu::target_formats::TargetFormats;
 use strokes::gpu::timer::{GpuTimer, GpuTimes};
 use strokes::mesh::buffers::MeshBuffers;
 use strokes::mesh::layout::Layout;
-use strokes::renderer::object::Object;
-use strokes::renderer::{DetectionPath, PASS_NAMES, Renderer, RendererOptions};
+use strokes::mesh::{MeshInstance, MeshOptions};
+use strokes::render::frame_request::PASS_NAMES;
+use strokes::render::pipelines::{DetectionStage, RendererOptions};
+use strokes::render::renderer::Renderer;
+use strokes::render::scene_view::SceneView;
 use strokes::style::brush::Brush;
-use strokes::style::drawing_style::{Layer, Look, PathStyle, StrokeStyle, Width};
+use strokes::style::drawing_style::{DrawingStyle, Layer, StrokeStyle, Width};
+use strokes::style::link_style::LinkStyle;
 
 const SIZE_PX: u32 = 1024;
 
@@ -48,28 +53,28 @@ const BALLS: [u32; 3] = [10_000, 100_000, 1_100_000];
 /// A look with its name.
 struct Contender {
     name: String,
-    look: Look,
+    look: DrawingStyle,
     layout: Layout,
-    path: DetectionPath,
+    stage: DetectionStage,
 }
 
 /// A look on the GPU.
 struct Runner {
     name: String,
     renderer: Renderer,
-    objects: Vec<Object>,
+    scene: SceneView,
     timer: GpuTimer,
     times: Vec<GpuTimes>,
     byte_count: u64,
 }
 
-fn look(classes: &[LineClass], style: StrokeStyle) -> Look {
+fn look(classes: &[LineClass], style: StrokeStyle) -> DrawingStyle {
     let layer = Layer { classes: classes.to_vec(), visible: Some(style), hidden: None };
-    Look { fill_color: Some([1.0; 4]), layers: vec![layer], ..Look::default() }
+    DrawingStyle { fill_color: Some([1.0; 4]), layers: vec![layer], ..DrawingStyle::default() }
 }
 
-fn fill_alone() -> Look {
-    Look { fill_color: Some([1.0; 4]), ..Look::default() }
+fn fill_alone() -> DrawingStyle {
+    DrawingStyle { fill_color: Some([1.0; 4]), ..DrawingStyle::default() }
 }
 
 /// The pen that ships: its alpha is the coverage.
@@ -86,30 +91,31 @@ fn style(kind: LineKind, is_textured: bool) -> StrokeStyle {
 }
 
 impl Contender {
-    fn new(name: &str, look: Look) -> Self {
-        let (layout, path) = (Layout::Indexed, DetectionPath::Compute);
-        Self { name: name.into(), look, layout, path }
+    fn new(name: &str, look: DrawingStyle) -> Self {
+        let (layout, stage) = (Layout::Indexed, DetectionStage::Compute);
+        Self { name: name.into(), look, layout, stage }
     }
 }
 
 impl Runner {
     fn new(gpu: &Gpu, mesh: &EdgeMesh, formats: TargetFormats, contender: &Contender) -> Self {
-        let Contender { layout, path, .. } = *contender;
-        let mut renderer = Renderer::new(gpu, RendererOptions { layout, path, formats }).unwrap();
-        let look = renderer.prepare(gpu, &contender.look).unwrap();
-        let upload = if look.is_linked() { MeshBuffers::with_links } else { MeshBuffers::new };
-        let buffers = Arc::new(upload(&gpu.device, mesh, layout).unwrap());
+        let Contender { layout, stage, .. } = *contender;
+        let mut renderer = Renderer::new(gpu, RendererOptions { layout, stage, formats }).unwrap();
+        let style = renderer.prepare(gpu, &contender.look).unwrap();
+        let options = MeshOptions { layout, links: style.is_linked(), surface: false };
+        let buffers = Arc::new(MeshBuffers::new(&gpu.device, mesh, options).unwrap());
         let byte_count = buffers.byte_count();
-        let objects = vec![renderer.object(gpu, &buffers, &look)];
+        let instance = MeshInstance::new(&buffers, DMat4::IDENTITY);
+        let scene = SceneView::new(gpu, vec![instance], vec![style]);
         let passes = u32::try_from(PASS_NAMES.len()).unwrap();
         let timer = GpuTimer::new(gpu, passes).expect("an adapter with timestamps");
         let name = contender.name.clone();
-        Self { name, renderer, objects, timer, times: Vec::new(), byte_count }
+        Self { name, renderer, scene, timer, times: Vec::new(), byte_count }
     }
 
     fn frame(&mut self, gpu: &Gpu, targets: &Targets, view: &View) {
         let timer = Some(&self.timer);
-        self.renderer.render(gpu, targets, view, [1.0; 4], &mut self.objects, timer);
+        self.renderer.render(gpu, targets, &mut self.scene, view, [1.0; 4], timer).unwrap();
         gpu.device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
         self.times.push(self.timer.read(gpu).unwrap());
     }
@@ -165,7 +171,7 @@ impl Bench {
             for pass in 0..PASS_NAMES.len() {
                 print!("{:>9.2}", runner.median(|times| times.passes_ms[pass]));
             }
-            let tally = runner.objects[0].read_tally(&self.gpu).unwrap();
+            let tally = runner.scene.drawing.objects()[0].read_tally(&self.gpu).unwrap();
             #[expect(clippy::cast_precision_loss, reason = "megabytes")]
             let megabytes = runner.byte_count as f64 / 1e6;
             println!("{:>11}{megabytes:>10.1}", tally.stroke_count);
@@ -197,8 +203,8 @@ impl Bench {
     fn linked(&self, name: &str, mesh: &EdgeMesh, samples: u32) {
         let all = LineClass::ALL;
         let linked = |is_textured| {
-            let path = Some(PathStyle::default());
-            StrokeStyle { path, ..style(LineKind::QuadAndCaps, is_textured) }
+            let link = Some(LinkStyle::default());
+            StrokeStyle { link, ..style(LineKind::QuadAndCaps, is_textured) }
         };
         let wide = |style| StrokeStyle { width: Width::Pixels(7.0), ..style };
         let contenders = [
@@ -223,12 +229,12 @@ impl Bench {
             ("replicated f32", Layout::Replicated),
             ("replicated 16-bit", Layout::Replicated16),
         ] {
-            for (path_name, path) in
-                [("compute", DetectionPath::Compute), ("vertex shader", DetectionPath::Vertex)]
+            for (stage_name, stage) in
+                [("compute", DetectionStage::Compute), ("vertex shader", DetectionStage::Vertex)]
             {
-                let name = format!("{layout_name}, detected in {path_name}");
+                let name = format!("{layout_name}, detected in {stage_name}");
                 let look = look(&LineClass::ALL, style(LineKind::QuadAndCaps, true));
-                contenders.push(Contender { name, look, layout, path });
+                contenders.push(Contender { name, look, layout, stage });
             }
         }
         let name = name.to_owned();
@@ -236,7 +242,7 @@ impl Bench {
             name: "Card and Mitchell's face normals".into(),
             look: look(&[LineClass::Contour, LineClass::Boundary], style(LineKind::Fin, false)),
             layout: Layout::FaceNormals,
-            path: DetectionPath::Vertex,
+            stage: DetectionStage::Vertex,
         });
         self.table(&format!("{name}, layouts and paths"), mesh, samples, &contenders);
     }
@@ -247,17 +253,17 @@ impl Bench {
     fn section_5(&self, balls: [&EdgeMesh; 2]) {
         let contours = |kind| look(&[LineClass::Contour], style(kind, false));
         let ways = [
-            ("the paper's way", Layout::Replicated, DetectionPath::Vertex),
-            ("the paper's way, 16 bits", Layout::Replicated16, DetectionPath::Vertex),
-            ("our way", Layout::Indexed, DetectionPath::Compute),
+            ("the paper's way", Layout::Replicated, DetectionStage::Vertex),
+            ("the paper's way, 16 bits", Layout::Replicated16, DetectionStage::Vertex),
+            ("our way", Layout::Indexed, DetectionStage::Compute),
         ];
         let contenders = |kinds: &[(&str, LineKind)]| -> Vec<Contender> {
-            let of_way = |&(way, layout, path): &(&str, Layout, DetectionPath)| {
+            let of_way = |&(way, layout, stage): &(&str, Layout, DetectionStage)| {
                 kinds
                     .iter()
                     .map(|&(kind_name, kind)| {
                         let name = format!("{kind_name}, {way}");
-                        Contender { name, look: contours(kind), layout, path }
+                        Contender { name, look: contours(kind), layout, stage }
                     })
                     .collect::<Vec<_>>()
             };

@@ -18,15 +18,18 @@ use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::format::read::read_model;
 use edgemesh::line::class::LineClass;
 use edgemesh::view::camera::Camera;
-use glam::Vec2;
+use glam::{DMat4, Vec2};
 use image::{Rgb, RgbImage};
 use strokes::draw::targets::Targets;
 use strokes::gpu::target_formats::TargetFormats;
+use strokes::graph::readback::GraphReadback;
 use strokes::mesh::buffers::MeshBuffers;
-use strokes::mesh::layout::Layout;
-use strokes::renderer::object::GraphReadback;
-use strokes::renderer::{DetectionPath, Renderer, RendererOptions};
-use strokes::style::drawing_style::{Layer, Look, PathStyle, StrokeStyle};
+use strokes::mesh::{MeshInstance, MeshOptions};
+use strokes::render::pipelines::RendererOptions;
+use strokes::render::renderer::Renderer;
+use strokes::render::scene_view::SceneView;
+use strokes::style::drawing_style::{DrawingStyle, Layer, StrokeStyle};
+use strokes::style::link_style::LinkStyle;
 
 /// Pixels of the view, and of the map.
 const SIZE: u16 = 1024;
@@ -35,20 +38,20 @@ fn graph_of(path: &Path) -> GraphReadback {
     let gpu = pollster::block_on(strokes::gpu::device::open(None)).unwrap();
     let (model, mut report) = read_model(path).unwrap();
     let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut report);
-    let style = StrokeStyle { path: Some(PathStyle::default()), ..StrokeStyle::default() };
+    let style = StrokeStyle { link: Some(LinkStyle::default()), ..StrokeStyle::default() };
     let layers = vec![Layer { classes: LineClass::ALL.into(), visible: Some(style), hidden: None }];
-    let look = Look { fill_color: Some([1.0; 4]), layers, ..Look::default() };
+    let style = DrawingStyle { fill_color: Some([1.0; 4]), layers, ..DrawingStyle::default() };
     let formats = TargetFormats::new(4);
-    let options =
-        RendererOptions { layout: Layout::Indexed, path: DetectionPath::Compute, formats };
-    let mut renderer = Renderer::new(&gpu, options).unwrap();
-    let look = renderer.prepare(&gpu, &look).unwrap();
-    let buffers = MeshBuffers::with_links(&gpu.device, &mesh, Layout::Indexed).unwrap();
-    let mut objects = [renderer.object(&gpu, &Arc::new(buffers), &look)];
+    let mut renderer = Renderer::new(&gpu, RendererOptions::new(formats)).unwrap();
+    let style = renderer.prepare(&gpu, &style).unwrap();
+    let options = MeshOptions { links: true, ..MeshOptions::default() };
+    let buffers = Arc::new(MeshBuffers::new(&gpu.device, &mesh, options).unwrap());
+    let instance = MeshInstance::new(&buffers, DMat4::IDENTITY);
+    let mut scene = SceneView::new(&gpu, vec![instance], vec![style]);
     let targets = Targets::new(&gpu.device, [SIZE.into(); 2], formats);
     let view = Camera::default_view(&mesh.bounds).view(&mesh.bounds, 1.0);
-    renderer.render(&gpu, &targets, &view, [1.0; 4], &mut objects, None);
-    objects[0].read_graph(&gpu).unwrap().unwrap()
+    renderer.render(&gpu, &targets, &mut scene, &view, [1.0; 4], None).unwrap();
+    scene.drawing.objects()[0].read_graph(&gpu).unwrap().unwrap()
 }
 
 struct Map {

@@ -27,7 +27,7 @@ use strokes::gpu::device;
 use strokes::gpu::device::Gpu;
 use strokes::gpu::readback::read_texels;
 use strokes::view::frame::{FrameUniform, Surroundings};
-use strokes::view::tile::PicturePart;
+use strokes::view::tile::Tile;
 use viewer::picture::renderer::{PictureOptions, PictureRenderer};
 use viewer::scene::models::Scene;
 use viewer::technique::Technique;
@@ -94,11 +94,8 @@ fn measure(gpu: &Gpu, path: &Path, side: u32, frames: usize) {
     let mut maps = renderer(MAPS).unwrap();
     let camera = Camera::default_view(&scene.bounds);
     let view = camera.view(&scene.bounds, 1.0);
-    let frame = FrameUniform::new(
-        &view,
-        &PicturePart::whole(Vec2::splat(side as f32)),
-        &Surroundings::default(),
-    );
+    let frame =
+        FrameUniform::new(&view, &Tile::whole(Vec2::splat(side as f32)), &Surroundings::default());
     let [mut of_gpu, mut of_cpu] = [Times::default(), Times::default()];
     for _ in 0..frames {
         let statistics = on_gpu.render(&camera).unwrap().1;

@@ -16,7 +16,7 @@ use edgemesh::view::camera::Camera;
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use strokes::gpu::readback::read_texels;
 use strokes::view::frame::FrameUniform;
-use strokes::view::tile::PicturePart;
+use strokes::view::tile::Tile;
 use testkit::locate::{left_out, shared};
 use viewer::picture::renderer::{PictureOptions, PictureRenderer};
 use viewer::scene::lighting::Lighting;
@@ -285,10 +285,8 @@ fn compare(mesh: &EdgeMesh, camera: &Camera) {
     let viewport_px = Vec2::new(237.0, 181.0);
     let view = camera.view(&scene.bounds, f64::from(viewport_px.x) / f64::from(viewport_px.y));
     let around = Lighting::default().surroundings(&view, &scene.bounds, &scene.frame);
-    let inputs = Inputs::read(
-        &renderer,
-        FrameUniform::new(&view, &PicturePart::whole(viewport_px), &around),
-    );
+    let inputs =
+        Inputs::read(&renderer, FrameUniform::new(&view, &Tile::whole(viewport_px), &around));
     for (at, case) in CASES.iter().enumerate() {
         let what = format!("{} {}", case.component, case.values.replace('\n', ", "));
         let texture = renderer.generated(&format!("of_{at}_color")).unwrap();

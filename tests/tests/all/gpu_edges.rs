@@ -12,7 +12,7 @@ use edgemesh::view::camera::Camera;
 use glam::DVec3;
 use strokes::gpu::readback::read_texels;
 use strokes::view::frame::{FrameUniform, Surroundings};
-use strokes::view::tile::PicturePart;
+use strokes::view::tile::Tile;
 use viewer::picture::renderer::{PictureOptions, PictureRenderer};
 use viewer::technique::library::Library;
 
@@ -430,12 +430,8 @@ fn chiang_adds_gradients_and_drops_edges_without_a_step_of_depth() {
     let mesh = strips(folder.path(), &STEP);
     let projection = |mesh: &EdgeMesh| {
         let view = camera().view(&mesh.bounds, 1.0);
-        FrameUniform::new(
-            &view,
-            &PicturePart::whole(glam::Vec2::splat(32.0)),
-            &Surroundings::default(),
-        )
-        .projection
+        FrameUniform::new(&view, &Tile::whole(glam::Vec2::splat(32.0)), &Surroundings::default())
+            .projection
     };
     let range = |mesh: &EdgeMesh| {
         let [far, near] = [0.0, 1.0].map(|depth| distance_of(depth, projection(mesh)));

@@ -19,12 +19,16 @@ use strokes::draw::targets::Targets;
 use strokes::gpu::device::Gpu;
 use strokes::gpu::readback::read_texels;
 use strokes::gpu::target_formats::TargetFormats;
-use strokes::graph::buffers::{BACKWARD, CUT_END, CUT_START, NO_NODE, ON_LOOP, UNSEEN};
+use strokes::graph::buffers::{BACKWARD, CUT_END, CUT_START, CUT_WHOLE, NO_NODE, ON_LOOP};
+use strokes::graph::readback::GraphReadback;
 use strokes::mesh::buffers::MeshBuffers;
 use strokes::mesh::layout::Layout;
-use strokes::renderer::object::{GraphReadback, Object};
-use strokes::renderer::{DetectionPath, Renderer, RendererOptions};
-use strokes::style::drawing_style::{Layer, Look, PathStyle, StrokeStyle};
+use strokes::mesh::{MeshInstance, MeshOptions};
+use strokes::render::pipelines::RendererOptions;
+use strokes::render::renderer::Renderer;
+use strokes::render::scene_view::SceneView;
+use strokes::style::drawing_style::{DrawingStyle, Layer, StrokeStyle};
+use strokes::style::link_style::LinkStyle;
 use testkit::locate::{left_out, shared};
 
 use crate::gpu_device::{gpu, gpu_with_limits};
@@ -33,14 +37,14 @@ use crate::layer_chains::{VIEWS, check_chain, eye};
 use crate::own_models::own_models;
 
 /// Linked strokes, contours apart from everything else.
-fn linked_look() -> Look {
-    let style = StrokeStyle { path: Some(PathStyle::default()), ..StrokeStyle::default() };
+fn linked_look() -> DrawingStyle {
+    let style = StrokeStyle { link: Some(LinkStyle::default()), ..StrokeStyle::default() };
     let layer = |classes| Layer { classes, visible: Some(style.clone()), hidden: None };
     let others = LineClass::ALL.into_iter().filter(|class| *class != LineClass::Contour);
-    Look {
+    DrawingStyle {
         fill_color: Some([1.0; 4]),
         layers: vec![layer(vec![LineClass::Contour]), layer(others.collect())],
-        ..Look::default()
+        ..DrawingStyle::default()
     }
 }
 
@@ -50,34 +54,38 @@ struct Linker<'a> {
     mesh: &'a EdgeMesh,
     renderer: Renderer,
     targets: Targets,
-    objects: [Object; 1],
+    scene: SceneView,
     faces: FaceEdges,
     links: StaticLinks,
 }
 
 impl<'a> Linker<'a> {
-    fn new(gpu: &'a Gpu, mesh: &'a EdgeMesh, look: &Look, layout: Layout) -> Self {
+    fn new(gpu: &'a Gpu, mesh: &'a EdgeMesh, look: &DrawingStyle, layout: Layout) -> Self {
         let formats = TargetFormats::new(1);
-        let options = RendererOptions { layout, path: DetectionPath::Compute, formats };
+        let options = RendererOptions { layout, ..RendererOptions::new(formats) };
         let mut renderer = Renderer::new(gpu, options).unwrap();
-        let look = renderer.prepare(gpu, look).unwrap();
-        let buffers = Arc::new(MeshBuffers::with_links(&gpu.device, mesh, layout).unwrap());
-        let objects = [renderer.object(gpu, &buffers, &look)];
+        let style = renderer.prepare(gpu, look).unwrap();
+        let options = MeshOptions { layout, links: true, surface: false };
+        let buffers = Arc::new(MeshBuffers::new(&gpu.device, mesh, options).unwrap());
+        let instance = MeshInstance::new(&buffers, DMat4::IDENTITY);
+        let scene = SceneView::new(gpu, vec![instance], vec![style]);
         let targets = Targets::new(&gpu.device, [16, 16], formats);
         let (faces, links) = (FaceEdges::of(mesh), StaticLinks::of(mesh));
-        Self { gpu, mesh, renderer, targets, objects, faces, links }
+        Self { gpu, mesh, renderer, targets, scene, faces, links }
     }
 
     fn graph(&mut self, camera: &Camera) -> GraphReadback {
         let view = camera.view(&self.mesh.bounds, 1.0);
-        self.renderer.render(self.gpu, &self.targets, &view, [0.0; 4], &mut self.objects, None);
-        self.objects[0].read_graph(self.gpu).unwrap().unwrap()
+        self.renderer
+            .render(self.gpu, &self.targets, &mut self.scene, &view, [0.0; 4], None)
+            .unwrap();
+        self.scene.drawing.objects()[0].read_graph(self.gpu).unwrap().unwrap()
     }
 
     /// Checks the graph of a view against the CPU's; says how many contours it has.
     fn check(&mut self, name: &str, camera: &Camera) -> usize {
         let graph = self.graph(camera);
-        let drawn = self.objects[0].read_tally(self.gpu).unwrap().stroke_count;
+        let drawn = self.scene.drawing.objects()[0].read_tally(self.gpu).unwrap().stroke_count;
         assert_eq!(graph.header.node_count, drawn, "{name}: every drawn edge is a node");
         let lines = lines_of(self.mesh, &graph);
         let (mesh, faces, links, lines) = (self.mesh, &self.faces, &self.links, &lines);
@@ -144,7 +152,7 @@ fn check_geometry(name: &str, graph: &GraphReadback) {
         if pair[1].first == u32::try_from(at + 1).unwrap() {
             continue;
         }
-        let is_clipped = node.next & (CUT_END | UNSEEN) != 0 || next.next & CUT_START != 0;
+        let is_clipped = node.next & (CUT_END | CUT_WHOLE) != 0 || next.next & CUT_START != 0;
         assert!(is_clipped || node.s1 == next.s0, "{name}: a gap at element {at}");
         assert_eq!(node.next & NO_NODE, pair[1].node, "{name}: linked as placed");
     }
@@ -204,7 +212,7 @@ fn chains_are_the_same_in_every_layout_and_across_chunks() {
             }
             let mut linker = Linker::new(&small, &mesh, &linked_look(), Layout::Replicated);
             linker.check(&name, &camera);
-            chunks += linker.objects[0].mesh().chunk_count();
+            chunks += linker.scene.instances[0].mesh().chunk_count();
         }
     }
     assert!(chunks > 50, "{chunks} chunks");
@@ -217,7 +225,7 @@ fn chains_of_a_real_model_run_across_chunks() {
     let (model, mut report) = read_model(&folder.join("models/stanford-bunny.obj")).unwrap();
     let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut report);
     let mut linker = Linker::new(&small, &mesh, &linked_look(), Layout::Replicated);
-    assert!(linker.objects[0].mesh().chunk_count() > 3, "in chunks");
+    assert!(linker.scene.instances[0].mesh().chunk_count() > 3, "in chunks");
     for view in [5, 50, 100] {
         linker.check("bunny", &camera_of(&mesh, view));
     }
@@ -274,7 +282,7 @@ fn mirrored_objects_have_the_same_chains() {
     let straight = linker.graph(&camera);
     let center = DMat4::from_translation(mesh.bounds.center());
     let mirror = DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0));
-    linker.objects[0].world_from_object = center * mirror * center.inverse();
+    linker.scene.instances[0].world_from_object = center * mirror * center.inverse();
     let mut seen = camera;
     seen.eye.x = 2.0 * mesh.bounds.center().x - camera.eye.x;
     let mirrored = linker.graph(&seen);
@@ -303,10 +311,14 @@ fn what_finds_no_room_is_drawn_edge_by_edge() {
         let mut linker = Linker::new(gpu, &mesh, &linked_look(), Layout::Indexed);
         linker.targets = Targets::new(&gpu.device, [256; 2], TargetFormats::new(1));
         let view = camera.view(&mesh.bounds, 1.0);
-        linker.renderer.render(gpu, &linker.targets, &view, [1.0; 4], &mut linker.objects, None);
+        linker
+            .renderer
+            .render(gpu, &linker.targets, &mut linker.scene, &view, [1.0; 4], None)
+            .unwrap();
         let texels: Vec<[u8; 4]> = read_texels(gpu, linker.targets.picture(), 4).unwrap();
-        let count = linker.objects[0].read_graph(gpu).unwrap().unwrap().header.node_count;
-        let drawn = linker.objects[0].read_tally(gpu).unwrap().stroke_count;
+        let count =
+            linker.scene.drawing.objects()[0].read_graph(gpu).unwrap().unwrap().header.node_count;
+        let drawn = linker.scene.drawing.objects()[0].read_tally(gpu).unwrap().stroke_count;
         (texels.iter().map(|texel| 255 - u32::from(texel[0])).sum::<u32>(), drawn - count)
     };
     let ((whole, left), (crowded, left_out)) = (ink(gpu()), ink(&crowded));

@@ -11,17 +11,19 @@ use edgemesh::model::{Model, Segment};
 use edgemesh::report::Report;
 use edgemesh::view::camera::Camera;
 use edgemesh_brushes::BRUSH_NAMES;
-use glam::{DVec3, Vec2};
+use glam::{DMat4, DVec3, Vec2};
 use strokes::draw::targets::Targets;
 use strokes::gpu::readback::read_texels;
 use strokes::gpu::target_formats::TargetFormats;
 use strokes::graph::buffers::Ribbon;
+use strokes::graph::readback::GraphReadback;
 use strokes::mesh::buffers::MeshBuffers;
-use strokes::mesh::layout::Layout;
-use strokes::renderer::object::GraphReadback;
-use strokes::renderer::{DetectionPath, Renderer, RendererOptions};
-use strokes::style::drawing_style::{Layer, Look, PathStyle, StrokeStyle, Width};
-use strokes::style::link_style::{End, Join};
+use strokes::mesh::{MeshInstance, MeshOptions};
+use strokes::render::pipelines::RendererOptions;
+use strokes::render::renderer::Renderer;
+use strokes::render::scene_view::SceneView;
+use strokes::style::drawing_style::{DrawingStyle, Layer, StrokeStyle, Width};
+use strokes::style::link_style::{End, Join, LinkStyle};
 use viewer::technique::brush_file::shipped_brush;
 
 use crate::gpu_device::gpu;
@@ -86,13 +88,13 @@ fn stars(random: &mut Random) -> EdgeMesh {
 fn draw(mesh: &EdgeMesh, style: StrokeStyle, classes: &[LineClass]) -> (Vec<u8>, GraphReadback) {
     let gpu = gpu();
     let formats = TargetFormats::new(1);
-    let options =
-        RendererOptions { layout: Layout::Indexed, path: DetectionPath::Compute, formats };
-    let mut renderer = Renderer::new(gpu, options).unwrap();
+    let mut renderer = Renderer::new(gpu, RendererOptions::new(formats)).unwrap();
     let layers = vec![Layer { classes: classes.into(), visible: Some(style), hidden: None }];
-    let look = renderer.prepare(gpu, &Look { layers, ..Look::default() }).unwrap();
-    let buffers = MeshBuffers::with_links(&gpu.device, mesh, Layout::Indexed).unwrap();
-    let mut objects = [renderer.object(gpu, &Arc::new(buffers), &look)];
+    let style = renderer.prepare(gpu, &DrawingStyle { layers, ..DrawingStyle::default() }).unwrap();
+    let options = MeshOptions { links: true, ..MeshOptions::default() };
+    let buffers = Arc::new(MeshBuffers::new(&gpu.device, mesh, options).unwrap());
+    let instance = MeshInstance::new(&buffers, DMat4::IDENTITY);
+    let mut scene = SceneView::new(gpu, vec![instance], vec![style]);
     let targets = Targets::new(&gpu.device, [SIZE.into(); 2], formats);
     let camera = Camera {
         eye: DVec3::new(0.0, 0.0, 4.0),
@@ -100,9 +102,9 @@ fn draw(mesh: &EdgeMesh, style: StrokeStyle, classes: &[LineClass]) -> (Vec<u8>,
         ..Camera::default_view(&mesh.bounds)
     };
     let view = camera.view(&mesh.bounds, 1.0);
-    renderer.render(gpu, &targets, &view, [1.0; 4], &mut objects, None);
+    renderer.render(gpu, &targets, &mut scene, &view, [1.0; 4], None).unwrap();
     let texels: Vec<[u8; 4]> = read_texels(gpu, targets.picture(), 4).unwrap();
-    let graph = objects[0].read_graph(gpu).unwrap().unwrap();
+    let graph = scene.drawing.objects()[0].read_graph(gpu).unwrap().unwrap();
     (texels.into_iter().map(|texel| texel[0]).collect(), graph)
 }
 
@@ -165,17 +167,17 @@ fn wandering_lines_have_no_gap_and_no_pixel_is_covered_twice() {
     for case in 0..100 {
         let mesh = wandering(&mut random);
         let width = 64.0_f32.powf(random.unit());
-        let path = PathStyle {
+        let link = LinkStyle {
             join: if case % 2 == 0 { Join::Round } else { Join::Mitred },
             corner_rad: [1.0, 4.0][case / 2 % 2],
             min_length_px: Some(0.0),
-            ..PathStyle::default()
+            ..LinkStyle::default()
         };
         let style = StrokeStyle {
             width: Width::Pixels(width),
             color: [0.0, 0.0, 0.0, 0.5],
             placement: Placement::Centred,
-            path: Some(path),
+            link: Some(link),
             ..StrokeStyle::default()
         };
         let (picture, graph) = draw(&mesh, style, &LineClass::ALL);
@@ -209,15 +211,15 @@ fn strokes_outside_of_contours_have_no_gap_either() {
     for case in 0..60 {
         let mesh = stars(&mut random);
         let width = 40.0_f32.powf(random.unit());
-        let path = PathStyle {
+        let link = LinkStyle {
             corner_rad: [1.0, 4.0][case % 2],
             min_length_px: Some(0.0),
-            ..PathStyle::default()
+            ..LinkStyle::default()
         };
         let style = StrokeStyle {
             width: Width::Pixels(width),
             color: [0.0, 0.0, 0.0, 0.5],
-            path: Some(path),
+            link: Some(link),
             ..StrokeStyle::default()
         };
         let (picture, graph) = draw(&mesh, style, &[LineClass::Contour]);
@@ -248,18 +250,18 @@ fn nothing_makes_a_stroke_darker_than_its_ink() {
     let mut random = Random(23);
     for (case, name) in BRUSH_NAMES.into_iter().cycle().take(20).enumerate() {
         let mesh = wandering(&mut random);
-        let path = PathStyle {
+        let link = LinkStyle {
             end: [End::Round, End::Flat, End::Pointed][case % 3],
             taper_px: [20.0, 40.0],
             overshoot_px: 5.0,
             wobble_px: 4.0,
-            ..PathStyle::default()
+            ..LinkStyle::default()
         };
         let style = StrokeStyle {
             width: Width::Pixels(random.between(2.0, 40.0)),
             color: [0.0, 0.0, 0.0, 0.5],
             brush: shipped_brush(name).map(Result::unwrap),
-            path: Some(path),
+            link: Some(link),
             ..StrokeStyle::default()
         };
         let (picture, _) = draw(&mesh, style, &LineClass::ALL);

@@ -13,7 +13,7 @@ use image::RgbaImage;
 use strokes::gpu::device::Gpu;
 use strokes::mesh::buffers::MeshBuffers;
 use strokes::mesh::layout::Layout;
-use strokes::renderer::DetectionPath;
+use strokes::render::pipelines::DetectionStage;
 use testkit::locate::{left_out, shared};
 use viewer::picture::renderer::{PictureOptions, PictureRenderer};
 use viewer::technique::Technique;
@@ -21,16 +21,16 @@ use viewer::technique::Technique;
 use crate::gpu_device::{gpu, gpu_with_limits};
 use crate::gpu_render::{own_model, scene_of, technique};
 use crate::gpu_twin::detect;
-use crate::noop::layouts_and_paths;
+use crate::noop::layouts_and_stages;
 use crate::own_models::own_models;
 
 fn picture_on(
     gpu: &Gpu,
     mesh: &EdgeMesh,
     technique: &Technique,
-    (layout, path): (Layout, DetectionPath),
+    (layout, stage): (Layout, DetectionStage),
 ) -> RgbaImage {
-    let options = PictureOptions { size: [256; 2], layout, path, ..PictureOptions::default() };
+    let options = PictureOptions { size: [256; 2], layout, stage, ..PictureOptions::default() };
     let mut renderer =
         PictureRenderer::new(gpu, &scene_of(mesh), technique, &[], &options).unwrap();
     renderer.render(&Camera::default_view(&mesh.bounds)).unwrap().0
@@ -62,17 +62,17 @@ fn looks() -> Vec<Technique> {
 }
 
 #[test]
-fn all_layouts_and_paths_draw_the_same() {
+fn all_layouts_and_stages_draw_the_same() {
     for (name, mesh) in own_models() {
         for (at, look) in looks().iter().enumerate() {
-            let pictures = layouts_and_paths().map(|how| picture_on(gpu(), &mesh, look, how));
+            let pictures = layouts_and_stages().map(|how| picture_on(gpu(), &mesh, look, how));
             let [indexed, others @ ..] = &pictures;
-            for (other, (layout, path)) in others.iter().zip(&layouts_and_paths()[1..]) {
+            for (other, (layout, stage)) in others.iter().zip(&layouts_and_stages()[1..]) {
                 if *layout != Layout::Replicated16 {
                     assert_eq!(
                         difference(indexed, other),
                         0,
-                        "{name}, look {at}: {layout:?} {path:?}"
+                        "{name}, look {at}: {layout:?} {stage:?}"
                     );
                 }
             }
@@ -89,10 +89,10 @@ fn textured_strokes_differ_by_their_order_at_most() {
     for name in ["bracket", "torus_knot"] {
         let mesh = own_model(name);
         let look = technique("pen", &["strokes.width=8"]);
-        let indexed = picture_on(gpu(), &mesh, &look, (Layout::Indexed, DetectionPath::Compute));
-        for how in layouts_and_paths().into_iter().filter(|how| how.0 != Layout::Replicated16) {
+        let indexed = picture_on(gpu(), &mesh, &look, (Layout::Indexed, DetectionStage::Compute));
+        for how in layouts_and_stages().into_iter().filter(|how| how.0 != Layout::Replicated16) {
             let apart = difference(&indexed, &picture_on(gpu(), &mesh, &look, how));
-            let most = if how == (Layout::Replicated, DetectionPath::Vertex) { 4 } else { 0 };
+            let most = if how == (Layout::Replicated, DetectionStage::Vertex) { 4 } else { 0 };
             assert!(apart <= most, "{name}, {how:?}: {apart}");
         }
     }
@@ -115,9 +115,9 @@ fn sixteen_bits_draw_their_own_positions() {
             *plane = FacePlane { normal, point };
         }
         let look = technique("ink", &[]);
-        let exact = picture_on(gpu(), &rounded, &look, (Layout::Indexed, DetectionPath::Compute));
+        let exact = picture_on(gpu(), &rounded, &look, (Layout::Indexed, DetectionStage::Compute));
         let sixteen =
-            picture_on(gpu(), &mesh, &look, (Layout::Replicated16, DetectionPath::Compute));
+            picture_on(gpu(), &mesh, &look, (Layout::Replicated16, DetectionStage::Compute));
         let wrong = exact
             .pixels()
             .zip(sixteen.pixels())
@@ -136,11 +136,11 @@ fn chunks_draw_the_picture_of_the_whole() {
     for (name, mesh) in own_models() {
         let pen = technique("pen", &["strokes.width=6"]);
         for (at, look) in looks().iter().chain([&pen]).enumerate() {
-            for how in layouts_and_paths() {
+            for how in layouts_and_stages() {
                 let whole = picture_on(gpu(), &mesh, look, how);
                 let chunks = picture_on(&small, &mesh, look, how);
                 // The paper's passes, chunk by chunk, are another order of the ink.
-                let is_reordered = how.1 == DetectionPath::Vertex && how.0 != Layout::Indexed;
+                let is_reordered = how.1 == DetectionStage::Vertex && how.0 != Layout::Indexed;
                 let most = if is_reordered && at == looks().len() { 4 } else { 0 };
                 let apart = difference(&whole, &chunks);
                 assert!(apart <= most, "{name}, look {at}, {how:?}: {apart}");
@@ -159,7 +159,7 @@ fn large_meshes_in_bindings_of_a_mebibyte() {
         let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut report);
         let buffers = MeshBuffers::new(&small.device, &mesh, Layout::Indexed).unwrap();
         assert_eq!(buffers.chunk_count() > 1, mesh.triangles.len() > 32_768, "{name}");
-        let how = (Layout::Indexed, DetectionPath::Compute);
+        let how = (Layout::Indexed, DetectionStage::Compute);
         for look in [technique("ink", &[]), technique("pen", &["hidden.render=true"])] {
             let whole = picture_on(gpu(), &mesh, &look, how);
             assert_eq!(difference(&whole, &picture_on(&small, &mesh, &look, how)), 0, "{name}");
@@ -180,7 +180,7 @@ fn linked_strokes_are_the_same_in_every_layout_and_in_chunks() {
     ];
     for (name, mesh) in own_models() {
         for look in &looks {
-            let how = |layout| (layout, DetectionPath::Compute);
+            let how = |layout| (layout, DetectionStage::Compute);
             let indexed = picture_on(gpu(), &mesh, look, how(Layout::Indexed));
             let replicated = picture_on(gpu(), &mesh, look, how(Layout::Replicated));
             assert_eq!(difference(&indexed, &replicated), 0, "{name}");
@@ -197,7 +197,7 @@ fn strokes_without_room_are_drawn_all_the_same() {
     let crowded = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 17);
     let mesh = own_model("torus_knot");
     for look in looks() {
-        let how = (Layout::Indexed, DetectionPath::Compute);
+        let how = (Layout::Indexed, DetectionStage::Compute);
         let whole = picture_on(gpu(), &mesh, &look, how);
         assert_eq!(difference(&whole, &picture_on(&crowded, &mesh, &look, how)), 0);
     }

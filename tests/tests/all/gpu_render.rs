@@ -10,7 +10,7 @@ use edgemesh::report::Report;
 use edgemesh::view::camera::Camera;
 use glam::DVec3;
 use image::{GrayImage, Luma, RgbaImage};
-use strokes::style::drawing_style::Look;
+use strokes::style::drawing_style::DrawingStyle;
 use testkit::compare::Golden;
 use viewer::pass_graph::strokes_of;
 use viewer::picture::renderer::{PictureOptions, PictureRenderer};
@@ -31,9 +31,12 @@ pub(crate) fn technique(name: &str, settings: &[&str]) -> Technique {
 }
 
 /// The strokes of a technique over white.
-pub(crate) fn look_of(technique: &Technique, mesh: &EdgeMesh) -> Look {
+pub(crate) fn look_of(technique: &Technique, mesh: &EdgeMesh) -> DrawingStyle {
     let built = [30_f64.to_radians(); 2];
-    Look { fill_color: Some([1.0; 4]), ..strokes_of(technique, &mesh.frame, built).unwrap() }
+    DrawingStyle {
+        fill_color: Some([1.0; 4]),
+        ..strokes_of(technique, &mesh.frame, built).unwrap()
+    }
 }
 
 pub(crate) fn picture(

@@ -13,8 +13,11 @@ use glam::{DMat4, DQuat, DVec3};
 use image::RgbaImage;
 use strokes::draw::targets::Targets;
 use strokes::gpu::target_formats::TargetFormats;
+use strokes::mesh::MeshInstance;
 use strokes::mesh::buffers::MeshBuffers;
-use strokes::renderer::{Renderer, RendererOptions};
+use strokes::render::pipelines::RendererOptions;
+use strokes::render::renderer::Renderer;
+use strokes::render::scene_view::SceneView;
 use viewer::picture::renderer::{PictureOptions, PictureRenderer};
 use viewer::scene::models::{PlacedObject, Scene};
 use viewer::technique::Technique;
@@ -293,16 +296,17 @@ fn no_view_draws_what_is_no_number() {
         &["strokes.placement=inside", "strokes.brush=fur", "ridge.kind=thin"],
     ];
     for (mesh_name, mesh) in awkward_meshes() {
-        for how in crate::noop::layouts_and_paths() {
-            let options = RendererOptions { layout: how.0, path: how.1, formats };
+        for how in crate::noop::layouts_and_stages() {
+            let options = RendererOptions { layout: how.0, stage: how.1, formats };
             let mut renderer = Renderer::new(gpu, options).unwrap();
             let buffers = Arc::new(MeshBuffers::new(&gpu.device, &mesh, how.0).unwrap());
             for settings in settings {
                 let look = renderer.prepare(gpu, &look_of(&look(settings), &mesh)).unwrap();
-                let mut objects = [renderer.object(gpu, &buffers, &look)];
+                let instance = MeshInstance::new(&buffers, DMat4::IDENTITY);
+                let mut scene = SceneView::new(gpu, vec![instance], vec![look]);
                 for (view_name, camera) in awkward_cameras(&mesh) {
                     let view = camera.view(&mesh.bounds, 1.0);
-                    renderer.render(gpu, &targets, &view, [1.0; 4], &mut objects, None);
+                    renderer.render(gpu, &targets, &mut scene, &view, [1.0; 4], None).unwrap();
                     let halves = read_halves(&targets);
                     let odd = halves.iter().filter(|&&half| half > HALF_ONE + 1).count();
                     assert_eq!(odd, 0, "{mesh_name}, {view_name}, {how:?}, {settings:?}");

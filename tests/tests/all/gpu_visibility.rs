@@ -8,6 +8,7 @@ use edgemesh::oracle::spine::project_spine;
 use edgemesh::view::camera::{Camera, View};
 use edgemesh::view::feature::LineBits;
 use edgemesh::view::feature_counts::classify_edges;
+use edgemesh::view::projection::WHOLE_BAND;
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use image::RgbaImage;
 use testkit::locate::{left_out, shared};
@@ -41,7 +42,7 @@ fn samples(mesh: &EdgeMesh, camera: &Camera, view: &View) -> Vec<Sample> {
         }
         let ends = [record.v0, record.v1].map(|v| Vec3::from(mesh.positions[v as usize]));
         let [c0, c1] = ends.map(|end| view.clip_from_world * end.extend(1.0));
-        let spine = project_spine(c0, c1, viewport_px);
+        let spine = project_spine(c0, c1, viewport_px, WHOLE_BAND);
         if (spine.s1 - spine.s0).length() < 1.5 {
             continue;
         }

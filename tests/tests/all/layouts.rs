@@ -6,8 +6,8 @@ use std::mem::offset_of;
 use edgemesh::edge_mesh::FacePlane;
 use edgemesh::edge_mesh::edge_word::{CONCAVE, CREASE_SHIFT, CREASE_STEPS};
 use edgemesh::edge_mesh::normal_cone::{CONE_MARGIN, ConeFacing, NormalCone};
-use edgemesh::edge_mesh::record::{EdgeFlags, EdgeRecord, EdgeVertex, EdgeVertex16};
-use edgemesh::line::class::{ClassTable, LineClass, NO_LAYER};
+use edgemesh::edge_mesh::record::{EdgeFlags, EdgeVertex, EdgeVertex16};
+use edgemesh::line::class::{LineClass, MAX_LINE_CLASSES, NO_LAYER};
 use edgemesh::line::kind::{CAP_VERTICES, DISK_STEPS, DISK_VERTICES, LineKind};
 use edgemesh::line::placement::{Parameterization, Placement};
 use edgemesh::oracle::spine::MIN_LENGTH_PX;
@@ -20,20 +20,20 @@ use strokes::draw::fill::FillUniform;
 use strokes::draw::silhouette::NO_OBJECT;
 use strokes::draw::stroke::StrokeUniform;
 use strokes::graph::buffers::{
-    ARC_PER_PX, BACKWARD, CUT_END, CUT_START, Chain, ChainState, Element, GraphHeader,
-    GraphUniform, ITEMS_PER_SUM, Joint, LinkNode, NO_NODE, NOT_DRAWN, ON_LOOP, PathPoint, Ribbon,
-    Stroke, UNSEEN,
+    ARC_PER_PX, BACKWARD, CUT_END, CUT_START, CUT_WHOLE, Chain, ChainState, Element, GraphHeader,
+    GraphUniform, ITEMS_PER_SUM, Joint, LinkNode, MAX_LINK_ROUNDS, NO_NODE, NOT_DRAWN, ON_LOOP,
+    PathPoint, Ribbon, Stroke, arguments,
 };
-use strokes::graph::path::PathUniform;
-use strokes::mesh::layout::{ChunkUniform, EDGES_PER_RUN};
+use strokes::graph::path::LinkStyleUniform;
+use strokes::mesh::layout::{ChunkUniform, EDGES_PER_RUN, PackedRecord};
 use strokes::mesh::link_table::{REVERSED, SURFACE_CUT, SURFACE_END};
-use strokes::style::drawing_style::{MAX_DRAWS, MAX_LAYERS, Visibility};
+use strokes::style::drawing_style::{MAX_LAYERS, MAX_STROKE_SETS, Visibility};
 use strokes::style::link_style::{End, Join, MITRE_LIMIT};
 use strokes::view::detect::DetectUniform;
 use strokes::view::frame::{FrameUniform, MAX_CLIP_PLANES, ObjectUniform};
 use strokes::view::live_lists::{DrawArguments, RunState, Tally};
 use viewer::pass_graph::material::MaterialUniform;
-use viewer::pass_graph::surface::SurfacePart;
+use viewer::pass_graph::surface::SurfaceRange;
 
 use crate::shaders::shader_files;
 
@@ -57,7 +57,7 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
     layouts.extend(mesh_layouts());
     layouts.extend(view_layouts());
     layouts.extend(graph_layouts());
-    layouts.extend(path_layouts());
+    layouts.extend(link_style_layouts());
     layouts
 }
 
@@ -96,7 +96,7 @@ fn scene_layouts() -> BTreeMap<String, Layout> {
             world_from_object,
             world_from_normal
         }),
-        layout!(SurfacePart {
+        layout!(SurfaceRange {
             material,
             object_region,
             material_region,
@@ -124,7 +124,7 @@ fn mesh_layouts() -> BTreeMap<String, Layout> {
         }),
         layout!(FacePlane { normal, point }),
         layout!(NormalCone { center, radius, axis, cosine }),
-        layout!(EdgeRecord { v0, v1, face_a, face_b, flags }),
+        layout!(PackedRecord { v0, v1, face_a, face_b, word }),
         layout!(StrokeUniform {
             color,
             fade,
@@ -135,7 +135,7 @@ fn mesh_layouts() -> BTreeMap<String, Layout> {
             parameterization,
             is_world_width,
             layer,
-            draw_index,
+            set_index,
             index_count,
             shows_hidden,
             classes
@@ -146,29 +146,9 @@ fn mesh_layouts() -> BTreeMap<String, Layout> {
 /// What detection makes of a view.
 fn view_layouts() -> BTreeMap<String, Layout> {
     BTreeMap::from([
-        layout!(DetectUniform {
-            layers,
-            drawn,
-            ridge_steps,
-            valley_steps,
-            keeps_hidden,
-            layer_count,
-            draw_count,
-            padding,
-            draws
-        }),
-        layout!(RunState { marked, solid, live, contour, has_clash, padding }),
-        layout!(Tally {
-            contour,
-            stroke_count,
-            ridge,
-            valley,
-            boundary,
-            marked,
-            material,
-            smoothing,
-            layer_first
-        }),
+        layout!(DetectUniform { classes, layer_count, set_count, padding, sets }),
+        layout!(RunState { static_edges, solid, live, contour, has_clash, padding }),
+        layout!(Tally { stroke_count, features, layer_first }),
         layout!(DrawArguments {
             index_count,
             instance_count,
@@ -194,25 +174,25 @@ fn graph_layouts() -> BTreeMap<String, Layout> {
     BTreeMap::from([
         layout!(GraphUniform {
             chunk_count,
-            draw_count,
-            path_capacity,
+            set_count,
+            joint_capacity,
             point_capacity,
             draws_contours,
-            draws_a_layer,
+            sets_per_layer,
             padding,
-            draws
+            sets
         }),
         layout!(GraphHeader {
             node_count,
-            path_count,
+            joint_count,
             point_count,
             stroke_count,
             chain_count,
             total_px,
             point_capacity,
-            draws_a_layer,
+            sets_per_layer,
             layer_first,
-            draw_first,
+            set_first,
             changed
         }),
         layout!(LinkNode { s0, s1, z0, z1, edge, next }),
@@ -220,7 +200,7 @@ fn graph_layouts() -> BTreeMap<String, Layout> {
         layout!(Chain { first, count }),
         layout!(Element { s0, s1, z0, z1, edge, next, first, count, arc, node }),
         layout!(Joint { cosine, kind, point_count, first_point }),
-        layout!(PathPoint { position, offset, depth, arc, path, flags, cut, stroke, padding }),
+        layout!(PathPoint { position, offset, depth, arc, joint, flags, cut, stroke, padding }),
         layout!(Stroke { first, last, start_arc, end_arc }),
         layout!(Ribbon {
             a,
@@ -240,9 +220,9 @@ fn graph_layouts() -> BTreeMap<String, Layout> {
 }
 
 /// How linked strokes look.
-fn path_layouts() -> BTreeMap<String, Layout> {
+fn link_style_layouts() -> BTreeMap<String, Layout> {
     BTreeMap::from([
-        layout!(PathUniform {
+        layout!(LinkStyleUniform {
             layer,
             visibility,
             placement,
@@ -327,7 +307,7 @@ fn structs_in_buffers_are_laid_out_alike_and_found_on_both_sides() {
 }
 
 /// Constants of one side only: how the shader works inside.
-const OF_SHADERS: [&str; 51] = [
+const OF_SHADERS: [&str; 43] = [
     "CROSS",
     "DIAGONALS",
     "NOWHERE",
@@ -339,14 +319,6 @@ const OF_SHADERS: [&str; 51] = [
     "START_PX",
     "OWN_REACH",
     "GROUP",
-    "NODE_GROUPS",
-    "NODE_SUM_GROUPS",
-    "PATH_GROUPS",
-    "PATH_SUM_GROUPS",
-    "POINT_GROUPS",
-    "POINT_SUM_GROUPS",
-    "CHUNK_GROUPS",
-    "RIBBON_DRAWS",
     "BREAK",
     "CORNER",
     "SPLIT",
@@ -356,7 +328,7 @@ const OF_SHADERS: [&str; 51] = [
     "POINT_IS_VISIBLE",
     "POINT_ON_CONTOUR",
     "POINT_ON_SEAM",
-    "DRAW_SHIFT",
+    "SET_SHIFT",
     "IS_INSIDE",
     "KEPT_COSINE",
     "MOST_ELEMENTS",
@@ -381,6 +353,25 @@ const OF_SHADERS: [&str; 51] = [
     "INSIDE_PX",
 ];
 
+/// The value of a constant expression: a literal, or sums and products of whole numbers.
+fn number(module: &naga::Module, at: naga::Handle<naga::Expression>) -> Option<naga::Literal> {
+    use naga::{BinaryOperator, Expression, Literal};
+    match module.global_expressions[at] {
+        Expression::Literal(literal) => Some(literal),
+        Expression::Constant(constant) => number(module, module.constants[constant].init),
+        Expression::Binary { op, left, right } => {
+            let sides = (number(module, left)?, number(module, right)?);
+            let (Literal::U32(left), Literal::U32(right)) = sides else { return None };
+            match op {
+                BinaryOperator::Add => Some(Literal::U32(left + right)),
+                BinaryOperator::Multiply => Some(Literal::U32(left * right)),
+                _ => None,
+            }
+        }
+        _ => None,
+    }
+}
+
 /// The constants that both sides should have, as the shaders have them.
 fn constants_of_shaders() -> BTreeMap<String, u64> {
     let float = |value: f32| u64::from(value.to_bits());
@@ -391,15 +382,9 @@ fn constants_of_shaders() -> BTreeMap<String, u64> {
             if OF_SHADERS.contains(&name.as_str()) {
                 continue;
             }
-            let literal = match module.global_expressions[constant.init] {
-                naga::Expression::Literal(literal) => literal,
-                // DISK_VERTICES is a sum.
-                _ if name == "DISK_VERTICES" => naga::Literal::U32(DISK_VERTICES),
-                _ => panic!("{path}: {name} is no number"),
-            };
-            let value = match literal {
-                naga::Literal::U32(value) => u64::from(value),
-                naga::Literal::F32(value) => float(value),
+            let value = match number(&module, constant.init) {
+                Some(naga::Literal::U32(value)) => u64::from(value),
+                Some(naga::Literal::F32(value)) => float(value),
                 other => panic!("{path}: {name} is {other:?}"),
             };
             found.insert(name, value);
@@ -418,7 +403,16 @@ fn graph_constants() -> BTreeMap<&'static str, u64> {
         ("NO_NODE", NO_NODE.into()),
         ("CUT_START", CUT_START.into()),
         ("CUT_END", CUT_END.into()),
-        ("UNSEEN", UNSEEN.into()),
+        ("CUT_WHOLE", CUT_WHOLE.into()),
+        ("MAX_LINK_ROUNDS", MAX_LINK_ROUNDS as u64),
+        ("NODE_GROUPS", arguments::NODE_GROUPS.into()),
+        ("NODE_SUM_GROUPS", arguments::NODE_SUM_GROUPS.into()),
+        ("JOINT_GROUPS", arguments::JOINT_GROUPS.into()),
+        ("JOINT_SUM_GROUPS", arguments::JOINT_SUM_GROUPS.into()),
+        ("POINT_GROUPS", arguments::POINT_GROUPS.into()),
+        ("POINT_SUM_GROUPS", arguments::POINT_SUM_GROUPS.into()),
+        ("RIBBON_DRAWS", arguments::RIBBON_DRAWS.into()),
+        ("CHUNK_GROUPS", arguments::CHUNK_GROUPS.into()),
         ("ON_LOOP", ON_LOOP.into()),
         ("ARC_PER_PX", float(ARC_PER_PX)),
         ("MITRE_LIMIT", float(MITRE_LIMIT)),
@@ -438,13 +432,15 @@ fn graph_constants() -> BTreeMap<&'static str, u64> {
 #[test]
 fn constants_are_equal_and_found_on_both_sides() {
     let float = |value: f32| u64::from(value.to_bits());
-    let mut expected = BTreeMap::from([
+    let mut expected: BTreeMap<&str, u64> = BTreeMap::from([
         ("NONE", u64::from(edgemesh::index::NONE)),
         ("EDGES_PER_RUN", EDGES_PER_RUN.into()),
         ("MAX_CLIP_PLANES", MAX_CLIP_PLANES as u64),
         ("MAX_LAYERS", MAX_LAYERS as u64),
-        ("MAX_DRAWS", MAX_DRAWS as u64),
+        ("MAX_STROKE_SETS", MAX_STROKE_SETS as u64),
         ("NO_LAYER", NO_LAYER.into()),
+        ("LINE_CLASS_COUNT", LineClass::COUNT as u64),
+        ("MAX_LINE_CLASSES", MAX_LINE_CLASSES as u64),
         ("NO_OBJECT", NO_OBJECT.into()),
         ("MIN_LENGTH_PX", float(MIN_LENGTH_PX)),
         ("EDGE_ON_FACING", float(EDGE_ON_FACING)),
@@ -473,6 +469,9 @@ fn constants_are_equal_and_found_on_both_sides() {
         ("EDGE_INDEX_MASK", u64::from(!LineBits::all().bits() | LineBits::DRAWN.bits())),
     ]);
     expected.extend(graph_constants());
+    let classes = LineClass::ALL
+        .map(|class| (format!("CLASS_{}", class.name().to_uppercase()), u64::from(class as u32)));
+    expected.extend(classes.iter().map(|(name, number)| (&**name, *number)));
     let facing = [ConeFacing::Mixed, ConeFacing::AllFace, ConeFacing::AllAway];
     expected.extend(["MIXED", "ALL_FACE", "ALL_AWAY"].into_iter().zip(facing.map(|f| f as u64)));
     expected.extend(EdgeFlags::all().iter_names().map(|(name, bits)| (name, bits.bits().into())));
@@ -481,17 +480,6 @@ fn constants_are_equal_and_found_on_both_sides() {
     // EdgeFlags and LineBits overlap with nothing else by name.
     let found: BTreeMap<&str, u64> = found.iter().map(|(name, value)| (&**name, *value)).collect();
     assert_eq!(found, expected);
-}
-
-#[test]
-fn classes_have_the_bits_that_the_shader_writes_down() {
-    let text = &shader_files()["common/feature.wgsl"];
-    for class in LineClass::ALL.into_iter().skip(1) {
-        let bit = 1_u32 << class as u32;
-        let line = format!("{} {}", class as u32, class.name());
-        assert!(text.contains(&line) && text.contains(&format!("select(0u, {bit}u,")), "{line}");
-    }
-    assert_eq!(size_of::<ClassTable>(), 20, "in the uniform of a style");
 }
 
 /// The words at which shaders find what vertices and records hold.

@@ -8,6 +8,7 @@ use std::path::Path;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
+use edgemesh::line::class::LineClass;
 use edgemesh::view::camera::Camera;
 use edgemesh::view::feature_counts::count_features;
 use glam::{DVec3, Vec3};
@@ -166,7 +167,8 @@ fn contours_are_right_all_around() {
                 DVec3::new(start.x * cos + start.z * sin, start.y, start.z * cos - start.x * sin);
             let camera =
                 Camera { eye: target + turned, target, ..Camera::default_view(&mesh.bounds) };
-            let found = count_features(&mesh, camera.view(&mesh.bounds, 1.0).eye).contour;
+            let found =
+                count_features(&mesh, camera.view(&mesh.bounds, 1.0).eye)[LineClass::Contour];
             let (contours, doubtful) = plain.contours(target + turned);
             assert!(
                 found.abs_diff(contours) <= doubtful,

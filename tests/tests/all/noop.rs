@@ -8,7 +8,7 @@ use edgemesh::report::Report;
 use strokes::gpu::device::Gpu;
 use strokes::mesh::buffers::MeshBuffers;
 use strokes::mesh::layout::Layout;
-use strokes::renderer::DetectionPath;
+use strokes::render::pipelines::DetectionStage;
 use viewer::picture::renderer::{PictureOptions, PictureRenderer};
 use viewer::scene::models::Scene;
 use viewer::technique::core::CoreComponent;
@@ -22,10 +22,11 @@ fn scene_of(mesh: &EdgeMesh) -> Scene {
 }
 
 /// All ways in which edges lie in memory and are detected.
-pub(crate) fn layouts_and_paths() -> [(Layout, DetectionPath); 6] {
+pub(crate) fn layouts_and_stages() -> [(Layout, DetectionStage); 6] {
     let layouts = [Layout::Indexed, Layout::Replicated, Layout::Replicated16];
-    let both = layouts
-        .map(|layout| [DetectionPath::Compute, DetectionPath::Vertex].map(|path| (layout, path)));
+    let both = layouts.map(|layout| {
+        [DetectionStage::Compute, DetectionStage::Vertex].map(|stage| (layout, stage))
+    });
     let [[a, b], [c, d], [e, f]] = both;
     [a, b, c, d, e, f]
 }
@@ -61,11 +62,11 @@ fn every_technique_builds_its_pipelines_within_the_default_limits() {
                     technique.set(setting).unwrap();
                 }
             }
-            let fins = (Layout::FaceNormals, DetectionPath::Vertex);
-            for (layout, path) in layouts_and_paths().into_iter().chain([fins]) {
+            let fins = (Layout::FaceNormals, DetectionStage::Vertex);
+            for (layout, stage) in layouts_and_stages().into_iter().chain([fins]) {
                 let size = [64, 32];
                 let options =
-                    PictureOptions { size, samples, layout, path, ..PictureOptions::default() };
+                    PictureOptions { size, samples, layout, stage, ..PictureOptions::default() };
                 PictureRenderer::new(&gpu, &scene, &technique, &[], &options)
                     .unwrap_or_else(|failure| panic!("{name}: {}", failure.message));
             }
@@ -127,7 +128,7 @@ fn every_component_builds_its_pipelines() {
 #[test]
 fn a_mesh_without_faces_is_uploaded_too() {
     let gpu = noop(wgpu::Limits::default());
-    for (layout, _) in layouts_and_paths() {
+    for (layout, _) in layouts_and_stages() {
         assert!(MeshBuffers::new(&gpu.device, &EdgeMesh::default(), layout).is_ok());
     }
 }

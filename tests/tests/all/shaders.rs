@@ -50,3 +50,20 @@ fn every_shader_is_valid_and_common_files_have_no_entry_points() {
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
+
+/// Comments that name a twin name a file that is there.
+#[test]
+fn files_that_comments_name_exist() {
+    let root = workspace_root();
+    let mut missing = Vec::new();
+    for (path, text) in shader_files() {
+        let words = text.split(|letter: char| letter.is_whitespace() || ",;()".contains(letter));
+        for word in words.filter(|word| word.starts_with("crates/") && word.contains(".rs")) {
+            let named = &word[..word.find(".rs").unwrap_or(0) + 3];
+            if !root.join(named).is_file() {
+                missing.push(format!("{path}: {named}"));
+            }
+        }
+    }
+    assert!(missing.is_empty(), "{}", missing.join("\n"));
+}

@@ -121,7 +121,8 @@ fn a_slider_sets_its_variable() {
 #[test]
 fn classes_have_counts_and_go_off() {
     let mut session = session("");
-    let tally = strokes::view::live_lists::Tally { contour: 1234, ..Default::default() };
+    let mut tally = strokes::view::live_lists::Tally::default();
+    tally.features[0] = 1234;
     session.keep(FrameStatistics { tally: Some(tally), passes: Vec::new(), frame_ms: 1.0 });
     let mut harness = side(Tab::Lines, session);
     assert!(harness.query_by_label("1\u{202f}234").is_some(), "contours are counted");

@@ -11,6 +11,7 @@ use super::input::{InputOptions, Loaded};
 use super::options::CameraOptions;
 use super::{Failure, print_to_stdout, print_warnings, to_json};
 use crate::edge_mesh::{EdgeMesh, LayoutBytes};
+use crate::line::class::LineClass;
 use crate::report::{RepairKind, Report, place_in};
 use crate::view::feature_counts::{FeatureCounts, count_features};
 
@@ -237,13 +238,17 @@ impl Info {
             ("  inconsistent", self.inconsistent_edges, "two faces that wind two ways"),
             ("components", self.components, ""),
             ("records", self.records, "edge records"),
-            ("contour", self.features.contour as usize, "in this view"),
-            ("ridge", self.features.ridge as usize, ""),
-            ("valley", self.features.valley as usize, ""),
-            ("boundary", self.features.boundary as usize, ""),
-            ("marked", self.features.marked as usize, ""),
-            ("material", self.features.material as usize, "between two materials"),
-            ("smoothing", self.features.smoothing as usize, "between two smoothing groups"),
+            ("contour", self.features[LineClass::Contour] as usize, "in this view"),
+            ("ridge", self.features[LineClass::Ridge] as usize, ""),
+            ("valley", self.features[LineClass::Valley] as usize, ""),
+            ("boundary", self.features[LineClass::Boundary] as usize, ""),
+            ("marked", self.features[LineClass::Marked] as usize, ""),
+            ("material", self.features[LineClass::Material] as usize, "between two materials"),
+            (
+                "smoothing",
+                self.features[LineClass::Smoothing] as usize,
+                "between two smoothing groups",
+            ),
         ];
         let _ = writeln!(text, "{}", self.file);
         for (name, count, note) in rows {

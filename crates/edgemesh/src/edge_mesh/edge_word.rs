@@ -15,6 +15,7 @@
 //!   concave     angle in steps      EdgeFlags
 //! ```
 
+use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -36,7 +37,8 @@ pub const CREASE_STEPS: u32 = 0x1fff;
 pub const CONCAVE: u32 = 1 << 23;
 
 /// The classes of an edge and the angle of its crease.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
+#[repr(transparent)]
 pub struct EdgeWord(pub u32);
 
 impl EdgeWord {

@@ -1,19 +1,26 @@
-//! Classes of lines, and the table that says which of them a drawing has.
+//! Line classes: one table that everything else is indexed by.
 //!
-//! WGSL twin: `shaders/common/feature.wgsl`.
+//! The number of a class is its place in [`LineClass::ALL`], the strongest first: a line of
+//! several classes is drawn as the strongest that is drawn at all. Counts, layers and bit
+//! masks are indexed by it, in Rust and in WGSL, so a class is added in two places: a row of
+//! [`CLASSES`] with its variant, and its constant in the WGSL twin.
+//!
+//! WGSL twin: `shaders/common/line_class.wgsl`.
 
 use bytemuck::{Pod, Zeroable};
 
-/// The classes of edges, the strongest first: an edge of several is drawn as the
-/// first of them that is drawn at all.
+use crate::edge_mesh::record::EdgeFlags;
+
+/// A class of lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[repr(u32)]
+#[non_exhaustive]
 pub enum LineClass {
     /// Between a face toward the eye and one away from it.
     Contour,
-    /// Chosen by the artist.
+    /// Marked by the artist.
     Marked,
-    /// Of one face, or of more than two.
+    /// Edges of one face, or of more than two.
     Boundary,
     /// Between two materials.
     Material,
@@ -25,63 +32,115 @@ pub enum LineClass {
     Valley,
 }
 
-impl LineClass {
-    /// All classes, the strongest first.
-    pub const ALL: [Self; 7] = [
-        Self::Contour,
-        Self::Marked,
-        Self::Boundary,
-        Self::Material,
-        Self::Smoothing,
-        Self::Ridge,
-        Self::Valley,
-    ];
+/// A row of the table.
+struct ClassRow {
+    class: LineClass,
+    /// The word in techniques, JSON and statistics.
+    name: &'static str,
+    /// Edges with any of these flags are of the class, whatever the view.
+    drawn_by: EdgeFlags,
+    /// Edges with this flag are counted as of the class.
+    counted_by: EdgeFlags,
+}
 
-    /// The word for it.
+const fn row(class: LineClass, name: &'static str, flag: EdgeFlags) -> ClassRow {
+    ClassRow { class, name, drawn_by: flag, counted_by: flag }
+}
+
+/// The table, the strongest class first.
+const CLASSES: [ClassRow; LineClass::COUNT] = [
+    row(LineClass::Contour, "contour", EdgeFlags::empty()),
+    row(LineClass::Marked, "marked", EdgeFlags::MARKED),
+    ClassRow {
+        drawn_by: EdgeFlags::BOUNDARY.union(EdgeFlags::NON_MANIFOLD),
+        ..row(LineClass::Boundary, "boundary", EdgeFlags::BOUNDARY)
+    },
+    row(LineClass::Material, "material", EdgeFlags::MATERIAL),
+    row(LineClass::Smoothing, "smoothing", EdgeFlags::SMOOTHING),
+    row(LineClass::Ridge, "ridge", EdgeFlags::RIDGE),
+    row(LineClass::Valley, "valley", EdgeFlags::VALLEY),
+];
+
+impl LineClass {
+    /// How many classes there are. WGSL twin: `LINE_CLASS_COUNT`.
+    pub const COUNT: usize = 7;
+
+    /// All classes, the strongest first.
+    pub const ALL: [Self; Self::COUNT] = {
+        let mut all = [Self::Contour; Self::COUNT];
+        let mut at = 0;
+        while at < Self::COUNT {
+            all[at] = CLASSES[at].class;
+            assert!(all[at] as usize == at, "rows are in the order of the variants");
+            at += 1;
+        }
+        all
+    };
+
+    const fn row(self) -> &'static ClassRow {
+        &CLASSES[self as usize]
+    }
+
+    /// Its name in techniques, JSON and statistics.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Contour => "contour",
-            Self::Marked => "marked",
-            Self::Boundary => "boundary",
-            Self::Material => "material",
-            Self::Smoothing => "smoothing",
-            Self::Ridge => "ridge",
-            Self::Valley => "valley",
-        }
+        self.row().name
+    }
+
+    /// Edges with any of these flags are of the class in every view; empty for classes that
+    /// depend on the view.
+    #[must_use]
+    pub const fn drawn_by(self) -> EdgeFlags {
+        self.row().drawn_by
+    }
+
+    /// Edges with this flag count as of the class; empty for classes that depend on the view.
+    #[must_use]
+    pub const fn counted_by(self) -> EdgeFlags {
+        self.row().counted_by
+    }
+
+    /// The bit of the class in masks of classes.
+    #[must_use]
+    pub const fn bit(self) -> u32 {
+        1 << self as u32
     }
 }
 
-/// The layer of a class that is not drawn. WGSL twin: the constant of this name.
-pub const NO_LAYER: u32 = 15;
+/// Classes that a [`ClassTable`] has room for. WGSL twin: the constant of this name.
+pub const MAX_LINE_CLASSES: usize = 32;
 
-/// Which classes are drawn, in which layer, and from which angle on an edge is a
-/// crease. WGSL twin: `shaders/common/feature.wgsl`.
+/// The layer of a class that is not drawn. WGSL twin: the constant of this name.
+pub const NO_LAYER: u32 = 255;
+
+/// Which classes are drawn, in which layer, and from which angle on an edge is a crease.
+/// WGSL twin: `shaders/common/line_class.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct ClassTable {
-    /// Four bits a class, the strongest lowest: its layer, or [`NO_LAYER`].
-    pub layers: u32,
-    /// One bit a class that is drawn.
+    /// Eight bits per class, class 0 lowest in the first word: its layer, or [`NO_LAYER`].
+    pub layers: [u32; MAX_LINE_CLASSES / 4],
+    /// One bit per class that is drawn.
     pub drawn: u32,
-    /// From this many steps on a convex edge is a ridge; 0 for as built.
+    /// From this many steps on a convex edge is a ridge; 0 for the ridges as built.
     pub ridge_steps: u32,
-    /// From this many steps on a concave edge is a valley; 0 for as built.
+    /// From this many steps on a concave edge is a valley; 0 for the valleys as built.
     pub valley_steps: u32,
-    /// 1 where edges that their own solid hides are drawn too, as hidden lines.
+    /// 1 if edges that their own solid hides are kept, to be drawn as hidden lines.
     pub keeps_hidden: u32,
 }
 
 impl ClassTable {
-    /// The table with each class in the layer that `layer_of` gives, from 0 to
-    /// 14; classes without a layer are not drawn.
+    /// The table with each class in the layer that `layer_of` returns, from 0 to 254; classes
+    /// without a layer are not drawn.
     #[must_use]
     pub fn new(layer_of: impl Fn(LineClass) -> Option<u32>) -> Self {
-        let mut table = Self::zeroed();
+        let mut table = Self { layers: [u32::MAX; MAX_LINE_CLASSES / 4], ..Self::zeroed() };
         for class in LineClass::ALL {
-            let layer = layer_of(class).unwrap_or(NO_LAYER);
-            table.layers |= layer << (4 * class as u32);
-            table.drawn |= u32::from(layer != NO_LAYER) << class as u32;
+            let Some(layer) = layer_of(class).filter(|&layer| layer < NO_LAYER) else { continue };
+            let (word, shift) = (class as usize / 4, 8 * (class as u32 % 4));
+            table.layers[word] &= !(0xff << shift) | layer << shift;
+            table.drawn |= class.bit();
         }
         table
     }
@@ -90,5 +149,32 @@ impl ClassTable {
     #[must_use]
     pub fn all_in_one() -> Self {
         Self::new(|_| Some(0))
+    }
+
+    /// The layer of the class with this number, or [`NO_LAYER`].
+    #[must_use]
+    pub const fn layer(&self, class_index: u32) -> u32 {
+        self.layers[class_index as usize / 4] >> (8 * (class_index % 4)) & 0xff
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_gives_back_the_layers_that_it_was_made_from() {
+        let layer_of = |class: LineClass| match class {
+            LineClass::Marked => None,
+            _ => Some(3 * class as u32 + 1),
+        };
+        let table = ClassTable::new(layer_of);
+        for class in LineClass::ALL {
+            assert_eq!(table.layer(class as u32), layer_of(class).unwrap_or(NO_LAYER));
+            assert_eq!(table.drawn & class.bit() != 0, layer_of(class).is_some());
+        }
+        for unused in LineClass::COUNT..MAX_LINE_CLASSES {
+            assert_eq!(table.layer(u32::try_from(unused).unwrap()), NO_LAYER);
+        }
     }
 }

@@ -20,7 +20,7 @@
 
 use glam::{Vec2, Vec4};
 
-use crate::view::projection::{GUARD_BAND, to_pixels};
+use crate::view::projection::to_pixels;
 
 /// An edge shorter than this on the screen, in pixels, has no direction; it is
 /// seen along its length and not drawn.
@@ -46,19 +46,18 @@ pub struct Spine {
     pub t1: f32,
 }
 
-/// Clips the segment from `c0` to `c1`, in clip space with depth 1 at the near
-/// plane, against the near plane and the guard band.
+/// Clips the segment from `c0` to `c1`, in clip space with depth 1 at the near plane, against
+/// the near plane and the guard band: left, right, bottom and top, at w = 1.
 ///
-/// Returns the parameters of what is left, `t0 <= t1`, or `t0 > t1` where
-/// nothing is.
+/// Returns the parameters of what is left, `t0 <= t1`, or `t0 > t1` if nothing is.
 #[must_use]
-pub fn clip_segment(c0: Vec4, c1: Vec4) -> Vec2 {
+pub fn clip_segment(c0: Vec4, c1: Vec4, band: Vec4) -> Vec2 {
     let mut range = Vec2::new(0.0, 1.0);
     range = clip_by_plane(range, c0.w - c0.z, c1.w - c1.z);
-    range = clip_by_plane(range, GUARD_BAND * c0.w - c0.x, GUARD_BAND * c1.w - c1.x);
-    range = clip_by_plane(range, GUARD_BAND * c0.w + c0.x, GUARD_BAND * c1.w + c1.x);
-    range = clip_by_plane(range, GUARD_BAND * c0.w - c0.y, GUARD_BAND * c1.w - c1.y);
-    clip_by_plane(range, GUARD_BAND * c0.w + c0.y, GUARD_BAND * c1.w + c1.y)
+    range = clip_by_plane(range, band.y * c0.w - c0.x, band.y * c1.w - c1.x);
+    range = clip_by_plane(range, c0.x - band.x * c0.w, c1.x - band.x * c1.w);
+    range = clip_by_plane(range, band.w * c0.w - c0.y, band.w * c1.w - c1.y);
+    clip_by_plane(range, c0.y - band.z * c0.w, c1.y - band.z * c1.w)
 }
 
 /// Narrows `range` to where the distance, `d0` at 0 and `d1` at 1, is not
@@ -78,10 +77,10 @@ fn clip_by_plane(range: Vec2, d0: f32, d1: f32) -> Vec2 {
 }
 
 /// Projects the edge from `c0` to `c1` (clip space) to a picture of
-/// `viewport_px` pixels.
+/// `viewport_px` pixels; `band` as in [`clip_segment`].
 #[must_use]
-pub fn project_spine(c0: Vec4, c1: Vec4, viewport_px: Vec2) -> Spine {
-    let range = clip_segment(c0, c1);
+pub fn project_spine(c0: Vec4, c1: Vec4, viewport_px: Vec2, band: Vec4) -> Spine {
+    let range = clip_segment(c0, c1, band);
     let mut spine = Spine { t0: range.x, t1: range.y, ..Spine::default() };
     if range.x >= range.y {
         return spine;
@@ -130,13 +129,18 @@ pub fn screen_normal(clip: Vec4, normal_clip: Vec4, viewport_px: Vec2) -> Vec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::view::projection::{GUARD_BAND, WHOLE_BAND};
 
     const VIEWPORT: Vec2 = Vec2::new(200.0, 100.0);
 
     #[test]
     fn pixels_are_square_on_a_wide_picture() {
-        let spine =
-            project_spine(Vec4::new(0.0, 0.0, 0.5, 1.0), Vec4::new(0.2, 0.4, 0.5, 1.0), VIEWPORT);
+        let spine = project_spine(
+            Vec4::new(0.0, 0.0, 0.5, 1.0),
+            Vec4::new(0.2, 0.4, 0.5, 1.0),
+            VIEWPORT,
+            WHOLE_BAND,
+        );
         assert_eq!(spine.s1, Vec2::new(20.0, 20.0));
         let root = 0.5_f32.sqrt();
         assert!(spine.p.abs_diff_eq(Vec2::new(-root, root), 1e-6), "left, and of unit length");
@@ -147,7 +151,7 @@ mod tests {
         // w runs from -1 to 1; the near plane is at w = z, here 0.1.
         let c0 = Vec4::new(0.0, 0.0, 0.1, -1.0);
         let c1 = Vec4::new(0.2, 0.0, 0.1, 1.0);
-        let spine = project_spine(c0, c1, VIEWPORT);
+        let spine = project_spine(c0, c1, VIEWPORT, WHOLE_BAND);
         assert!((spine.t0 - 0.55).abs() < 1e-6, "{}", spine.t0);
         assert!((spine.z0 - 1.0).abs() < 1e-5, "{}", spine.z0);
         assert!((spine.t1 - 1.0).abs() < f32::EPSILON);
@@ -156,15 +160,18 @@ mod tests {
     #[test]
     fn what_lies_behind_or_points_at_the_eye_is_not_drawn() {
         let behind = Vec4::new(0.0, 0.0, 0.1, -1.0);
-        assert_eq!(project_spine(behind, behind * 2.0, VIEWPORT).p, Vec2::ZERO);
+        assert_eq!(project_spine(behind, behind * 2.0, VIEWPORT, WHOLE_BAND).p, Vec2::ZERO);
         let near = Vec4::new(0.1, 0.1, 0.1, 1.0);
-        assert_eq!(project_spine(near, near * Vec4::new(2., 2., 1., 2.), VIEWPORT).p, Vec2::ZERO);
+        assert_eq!(
+            project_spine(near, near * Vec4::new(2., 2., 1., 2.), VIEWPORT, WHOLE_BAND).p,
+            Vec2::ZERO
+        );
     }
 
     #[test]
     fn far_ends_stay_in_the_guard_band() {
         let c1 = Vec4::new(1e6, 0.0, 0.5, 1.0);
-        let spine = project_spine(Vec4::new(0.0, 0.0, 0.5, 1.0), c1, VIEWPORT);
+        let spine = project_spine(Vec4::new(0.0, 0.0, 0.5, 1.0), c1, VIEWPORT, WHOLE_BAND);
         assert!(spine.s1.x <= 1.01 * GUARD_BAND * 100.0, "{}", spine.s1.x);
     }
 

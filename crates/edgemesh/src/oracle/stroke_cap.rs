@@ -26,7 +26,7 @@ use std::cmp::Ordering;
 
 use glam::Vec2;
 
-use super::stroke_quad::sign;
+use super::stroke_quad::stroke_sign;
 use crate::line::kind::DISK_STEPS;
 
 /// The paper's corner number j for corner `i` (0 to 2): the triangle is walked
@@ -46,7 +46,7 @@ pub fn stroke_cap(s: Vec2, p: Vec2, m: Vec2, outside: f32, reach_px: f32, j: u32
     match j {
         0 => s,
         1 => s + p * (outside * reach_px),
-        _ => s + m * (sign(m.dot(p)) * outside * reach_px),
+        _ => s + m * (stroke_sign(m.dot(p)) * outside * reach_px),
     }
 }
 
@@ -55,7 +55,7 @@ pub fn stroke_cap(s: Vec2, p: Vec2, m: Vec2, outside: f32, reach_px: f32, j: u32
 #[must_use]
 pub fn cap_fills_gap(p: Vec2, m: Vec2, outside: f32, forward: f32) -> bool {
     let beyond = Vec2::new(p.y, -p.x) * forward;
-    m.dot(beyond) * sign(m.dot(p)) * outside > 0.0
+    m.dot(beyond) * stroke_sign(m.dot(p)) * outside > 0.0
 }
 
 /// Where step `k` (0 to [`DISK_STEPS`]) of the half disk lies, from the end of

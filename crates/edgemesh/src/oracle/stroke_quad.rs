@@ -32,7 +32,7 @@ pub fn quad_offsets(placement: Placement, outside: f32, width_px: f32) -> Vec2 {
 
 /// The paper's sign: -1 for a negative argument and +1 for any other.
 #[must_use]
-pub fn sign(value: f32) -> f32 {
+pub fn stroke_sign(value: f32) -> f32 {
     if value < 0.0 { -1.0 } else { 1.0 }
 }
 
@@ -54,6 +54,6 @@ mod tests {
 
     #[test]
     fn zero_counts_as_positive() {
-        assert_eq!([-0.5, 0.0, 2.0].map(sign), [-1.0, 1.0, 1.0]);
+        assert_eq!([-0.5, 0.0, 2.0].map(stroke_sign), [-1.0, 1.0, 1.0]);
     }
 }

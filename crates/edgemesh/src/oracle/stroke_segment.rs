@@ -35,7 +35,7 @@ use glam::{Vec2, Vec4};
 
 use super::spine::{MIN_LENGTH_PX, Spine, lerp, project_spine, screen_normal};
 use super::stroke_cap::{cap_fills_gap, stroke_cap};
-use super::stroke_quad::{quad_offsets, sign};
+use super::stroke_quad::{quad_offsets, stroke_sign};
 use crate::line::kind::LineKind;
 use crate::line::placement::{Parameterization, Placement};
 use crate::view::feature::LineBits;
@@ -99,6 +99,8 @@ pub struct StrokeShape {
     pub parameterization: Parameterization,
     /// Whether the width is in units of the world, else in pixels.
     pub is_world_width: bool,
+    /// Where edges are clipped at the sides: left, right, bottom, top, at w = 1.
+    pub guard_band: Vec4,
 }
 
 /// A stroke on the screen. Its near side has the paper's corners 0 and 1, its far
@@ -143,7 +145,7 @@ pub struct Segment {
 /// The stroke along `edge`.
 #[must_use]
 pub fn stroke_segment(edge: &ClipEdge, shape: &StrokeShape, bits: LineBits) -> Segment {
-    let spine = project_spine(edge.c0, edge.c1, shape.viewport_px);
+    let spine = project_spine(edge.c0, edge.c1, shape.viewport_px, shape.guard_band);
     let mut segment = Segment { spine, is_drawn: spine.p != Vec2::ZERO, ..Segment::default() };
     if !segment.is_drawn {
         return segment;
@@ -167,14 +169,14 @@ pub fn stroke_segment(edge: &ClipEdge, shape: &StrokeShape, bits: LineBits) -> S
         segment.v_far = 0.5 - 0.5 * side;
         segment.v_near = 1.0 - segment.v_far;
         segment.v_spine = 0.5;
-        let side_of = |m: Vec2| sign(m.dot(spine.p));
+        let side_of = |m: Vec2| stroke_sign(m.dot(spine.p));
         segment.cap_side = Vec2::new(side_of(segment.m0), side_of(segment.m1));
         segment.near_rise = quad_rise(edge, &spine, shape.viewport_px, segment.near_px);
     } else {
         segment.v_far = if placement == Placement::Inside { 1.0 } else { 0.0 };
         segment.v_near = 1.0 - segment.v_far;
         segment.v_spine = segment.v_near;
-        segment.cap_side = Vec2::splat(sign(end_px.y));
+        segment.cap_side = Vec2::splat(stroke_sign(end_px.y));
         if shape.kind == LineKind::QuadAndCaps {
             segment.u_far = stretched_u(&segment);
         }
@@ -193,7 +195,7 @@ fn outside_of(segment: &Segment, shape: &StrokeShape, bits: LineBits) -> f32 {
         let side = if bits.contains(LineBits::A_FACES) { -1.0 } else { 1.0 };
         return side * shape.mirror;
     }
-    sign(segment.m0.dot(segment.spine.p))
+    stroke_sign(segment.m0.dot(segment.spine.p))
 }
 
 fn placement_of(shape: &StrokeShape, bits: LineBits) -> Placement {
@@ -262,7 +264,7 @@ fn stretched_u(segment: &Segment) -> Vec2 {
 
 /// From the rim of the quad to the tip of its cap, where it has one.
 fn cap_length(p: Vec2, m: Vec2, far_px: f32, forward: f32) -> f32 {
-    let side = sign(far_px);
+    let side = stroke_sign(far_px);
     if !cap_fills_gap(p, m, side, forward) {
         return 0.0;
     }
@@ -273,7 +275,7 @@ fn cap_length(p: Vec2, m: Vec2, far_px: f32, forward: f32) -> f32 {
 /// How much nearer than the edge, in depth, the side of a stroke must lie that is
 /// `side_px` along p at start and end: as much as the higher of the two faces.
 fn quad_rise(edge: &ClipEdge, spine: &Spine, viewport_px: Vec2, side_px: Vec2) -> f32 {
-    let side = sign(side_px.x + side_px.y);
+    let side = stroke_sign(side_px.x + side_px.y);
     let reach_px = side_px.abs().max_element();
     let middle = lerp(edge.c0, edge.c1, (spine.t0 + spine.t1) * 0.5);
     let rise = |apex: Vec4, facing: f32| {

@@ -24,7 +24,7 @@ use glam::{Vec2, Vec3, Vec4};
 
 use super::spine::{MIN_LENGTH_PX, lerp, project_spine, screen_normal};
 use super::stroke_cap::{cap_corner, cap_fills_gap, half_disk, stroke_cap};
-use super::stroke_quad::sign;
+use super::stroke_quad::stroke_sign;
 use super::stroke_segment::{
     ClipEdge, Segment, StrokeShape, opacity_at, stroke_segment, stroke_u, width_at,
 };
@@ -60,7 +60,8 @@ pub struct StrokeVertex {
     pub over_px: f32,
 }
 
-const HIDDEN: StrokeVertex =
+/// A vertex where nothing is drawn. WGSL twin: `culled_vertex`.
+const CULLED: StrokeVertex =
     StrokeVertex { position: BEHIND, u: 0.0, v: 0.0, opacity: 0.0, foot: Vec3::ZERO, over_px: 0.0 };
 
 /// Vertex `corner` of the stroke along `edge`.
@@ -82,7 +83,7 @@ pub fn stroke_vertex(
 pub fn segment_vertex(segment: &Segment, shape: &StrokeShape, corner: u32) -> StrokeVertex {
     let spine = &segment.spine;
     if !segment.is_drawn {
-        return HIDDEN;
+        return CULLED;
     }
     if shape.kind == LineKind::Thin {
         return at_end(segment, shape, corner == 1, Vec2::ZERO, 0.0, 0.5);
@@ -102,7 +103,7 @@ pub fn segment_vertex(segment: &Segment, shape: &StrokeShape, corner: u32) -> St
     let is_end = corner >= 4 + per_end;
     // A clipped end is no vertex of the mesh, and nobody meets it there.
     if if is_end { spine.t1 < 1.0 } else { spine.t0 > 0.0 } {
-        return HIDDEN;
+        return CULLED;
     }
     let i = (corner - 4) % per_end;
     if has_caps {
@@ -177,20 +178,20 @@ fn of_end(values: Vec2, is_end: bool) -> f32 {
 
 /// Corner `corner` (0 to 3) of a fin: 2 and 3 are pushed out.
 fn fin_vertex(edge: &ClipEdge, shape: &StrokeShape, corner: u32) -> StrokeVertex {
-    let spine = project_spine(edge.c0, edge.c1, shape.viewport_px);
+    let spine = project_spine(edge.c0, edge.c1, shape.viewport_px, shape.guard_band);
     if spine.p == Vec2::ZERO {
-        return HIDDEN;
+        return CULLED;
     }
     let [start, end] = [spine.t0, spine.t1].map(|t| lerp(edge.c0, edge.c1, t));
     let tip = |foot: Vec4, t: f32| foot + lerp(edge.n0, edge.n1, t) * fin_height(foot, shape);
     let (start_tip, end_tip) = (tip(start, spine.t0), tip(end, spine.t1));
     // A fin that reaches behind the near plane has no place on the screen.
     if [start_tip, end_tip].iter().any(|tip| tip.w - tip.z <= 0.0) {
-        return HIDDEN;
+        return CULLED;
     }
     let clip = [start, end, end_tip, start_tip][corner as usize % 4];
     let is_end = corner == 1 || corner == 2;
-    let side = sign(screen_normal(start, edge.n0, shape.viewport_px).dot(spine.p));
+    let side = stroke_sign(screen_normal(start, edge.n0, shape.viewport_px).dot(spine.p));
     let width_px = width_at(start, shape).max(MIN_LENGTH_PX);
     let t = if is_end { spine.t1 } else { spine.t0 };
     StrokeVertex {
@@ -198,7 +199,7 @@ fn fin_vertex(edge: &ClipEdge, shape: &StrokeShape, corner: u32) -> StrokeVertex
         u: of_end(stroke_u(&spine, shape, side, width_px, edge.r), is_end),
         v: if corner >= 2 { 0.0 } else { 1.0 },
         opacity: opacity_at(edge.distance.x * (1.0 - t) + edge.distance.y * t, shape),
-        ..HIDDEN
+        ..CULLED
     }
 }
 
@@ -227,6 +228,7 @@ mod tests {
         placement: Placement::Automatic,
         parameterization: Parameterization::ObjectSpace,
         is_world_width: false,
+        guard_band: crate::view::projection::WHOLE_BAND,
     };
 
     fn edge() -> ClipEdge {

@@ -53,6 +53,23 @@ pub struct View {
     pub distance: Vec4,
 }
 
+impl View {
+    /// The view of a program that has its own camera: `clip_from_world` with depth 1 at the
+    /// near plane and 0 at the far one, and the eye with w = 1, or the direction to the viewer
+    /// with w = 0.
+    #[must_use]
+    pub fn from_matrix(clip_from_world: Mat4, eye: Vec4) -> Self {
+        // In perspective w is the distance along the line of sight, times a constant.
+        let forward = match eye.w {
+            0.0 => -eye.truncate(),
+            _ => clip_from_world.row(3).truncate(),
+        };
+        let forward = forward.normalize_or_zero();
+        let distance = forward.extend(-forward.dot(eye.truncate()) * eye.w);
+        Self { clip_from_world, eye, distance }
+    }
+}
+
 impl Camera {
     /// The view that every command uses where none is given: from the direction
     /// (1, 0.6, 1.2), at 3 bounding radii, up +Y, 40 degrees.

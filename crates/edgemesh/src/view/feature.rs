@@ -59,24 +59,20 @@ pub struct Line {
     pub layer: u32,
 }
 
-/// One bit for each class, but that of contours, that the edge is of.
+/// The bits of the classes that an edge is of in every view.
 #[must_use]
 pub fn static_classes(word: EdgeWord, table: &ClassTable) -> u32 {
     let flags = word.flags();
-    let is_crease = |flag: EdgeFlags, steps: u32, is_concave: bool| {
-        if steps == 0 {
-            flags.contains(flag)
-        } else {
-            word.is_concave() == is_concave && word.crease_steps() >= steps
-        }
+    let is_crease = |steps: u32, is_concave: bool| {
+        word.is_concave() == is_concave && word.crease_steps() >= steps
     };
-    let bit = |class: LineClass, is_set: bool| u32::from(is_set) << class as u32;
-    bit(LineClass::Marked, flags.contains(EdgeFlags::MARKED))
-        | bit(LineClass::Boundary, flags.intersects(EdgeFlags::BOUNDARY | EdgeFlags::NON_MANIFOLD))
-        | bit(LineClass::Material, flags.contains(EdgeFlags::MATERIAL))
-        | bit(LineClass::Smoothing, flags.contains(EdgeFlags::SMOOTHING))
-        | bit(LineClass::Ridge, is_crease(EdgeFlags::RIDGE, table.ridge_steps, false))
-        | bit(LineClass::Valley, is_crease(EdgeFlags::VALLEY, table.valley_steps, true))
+    let is_of = |class: LineClass| match class {
+        LineClass::Ridge if table.ridge_steps > 0 => is_crease(table.ridge_steps, false),
+        LineClass::Valley if table.valley_steps > 0 => is_crease(table.valley_steps, true),
+        _ => flags.intersects(class.drawn_by()),
+    };
+    let bits = LineClass::ALL.into_iter().filter(|&class| is_of(class)).map(LineClass::bit);
+    bits.fold(0, |classes, bit| classes | bit)
 }
 
 /// Decides what a view makes of one edge.
@@ -113,7 +109,7 @@ pub fn classify_edge(
     bits.set(LineBits::BEHIND_SOLID, is_behind_solid);
     bits.set(LineBits::DRAWN, is_drawn);
     let class = classes.trailing_zeros();
-    let layer = if is_drawn { table.layers >> (4 * class) & NO_LAYER } else { NO_LAYER };
+    let layer = if is_drawn { table.layer(class) } else { NO_LAYER };
     Line { bits, layer }
 }
 

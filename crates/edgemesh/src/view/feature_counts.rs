@@ -1,6 +1,9 @@
 //! Which edges of a mesh are features of a view, all at once, and how many of each class.
 
+use std::ops::{Index, IndexMut};
+
 use glam::Vec4;
+use serde::{Serialize, Serializer};
 
 use crate::edge_mesh::EdgeMesh;
 use crate::edge_mesh::edge_word::{EdgeWord, edge_words};
@@ -10,40 +13,41 @@ use crate::line::class::{ClassTable, LineClass};
 use crate::view::facing::faces_eye;
 use crate::view::feature::{EdgeFaces, Line, LineBits, classify_edge, eye_is_outside};
 
-/// How many edges belong to each class in a view; an edge can be in several.
-/// Edges that more than two faces share are in none.
+/// How many edges are of each class in a view; an edge can be of several. Edges that more
+/// than two faces share are of none.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "command", derive(serde::Serialize))]
-pub struct FeatureCounts {
-    /// One face toward the eye, the other away.
-    pub contour: u32,
-    /// Convex creases.
-    pub ridge: u32,
-    /// Concave creases.
-    pub valley: u32,
-    /// Edges of one face.
-    pub boundary: u32,
-    /// Edges that the artist chose.
-    pub marked: u32,
-    /// Edges between two materials.
-    pub material: u32,
-    /// Edges between two smoothing groups.
-    pub smoothing: u32,
-}
+pub struct FeatureCounts(pub [u32; LineClass::COUNT]);
 
 impl FeatureCounts {
-    /// The count of a class.
-    #[must_use]
-    pub const fn of(&self, class: LineClass) -> u32 {
-        match class {
-            LineClass::Contour => self.contour,
-            LineClass::Marked => self.marked,
-            LineClass::Boundary => self.boundary,
-            LineClass::Material => self.material,
-            LineClass::Smoothing => self.smoothing,
-            LineClass::Ridge => self.ridge,
-            LineClass::Valley => self.valley,
-        }
+    /// The classes in the order of reports.
+    pub const IN_REPORTS: [LineClass; LineClass::COUNT] = [
+        LineClass::Contour,
+        LineClass::Ridge,
+        LineClass::Valley,
+        LineClass::Boundary,
+        LineClass::Marked,
+        LineClass::Material,
+        LineClass::Smoothing,
+    ];
+}
+
+impl Index<LineClass> for FeatureCounts {
+    type Output = u32;
+
+    fn index(&self, class: LineClass) -> &u32 {
+        &self.0[class as usize]
+    }
+}
+
+impl IndexMut<LineClass> for FeatureCounts {
+    fn index_mut(&mut self, class: LineClass) -> &mut u32 {
+        &mut self.0[class as usize]
+    }
+}
+
+impl Serialize for FeatureCounts {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(Self::IN_REPORTS.map(|class| (class.name(), self[class])))
     }
 }
 
@@ -92,14 +96,10 @@ pub fn count_features(mesh: &EdgeMesh, eye: Vec4) -> FeatureCounts {
         if record.flags.contains(EdgeFlags::NON_MANIFOLD) {
             continue;
         }
-        let has = |class: EdgeFlags| u32::from(record.flags.contains(class));
-        counts.contour += u32::from(bits.contains(LineBits::CONTOUR));
-        counts.ridge += has(EdgeFlags::RIDGE);
-        counts.valley += has(EdgeFlags::VALLEY);
-        counts.boundary += has(EdgeFlags::BOUNDARY);
-        counts.marked += has(EdgeFlags::MARKED);
-        counts.material += has(EdgeFlags::MATERIAL);
-        counts.smoothing += has(EdgeFlags::SMOOTHING);
+        counts[LineClass::Contour] += u32::from(bits.contains(LineBits::CONTOUR));
+        for class in LineClass::ALL {
+            counts[class] += u32::from(record.flags.intersects(class.counted_by()));
+        }
     }
     counts
 }

@@ -6,6 +6,9 @@ use glam::{Vec2, Vec4};
 /// enough out that no cut end of a stroke can be seen.
 pub const GUARD_BAND: f32 = 4.0;
 
+/// The guard band of a whole picture: left, right, bottom and top, at w = 1.
+pub const WHOLE_BAND: Vec4 = Vec4::new(-GUARD_BAND, GUARD_BAND, -GUARD_BAND, GUARD_BAND);
+
 /// A clip-space point in front of the eye, in pixels from the middle, y up.
 #[must_use]
 pub fn to_pixels(clip: Vec4, viewport_px: Vec2) -> Vec2 {

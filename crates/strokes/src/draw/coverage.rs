@@ -17,7 +17,7 @@ use edgemesh_shaders::ShaderError;
 use wgpu::{BlendComponent, BlendFactor, BlendOperation, BlendState, ShaderStages};
 
 use crate::draw::stroke_layouts::StrokeLayouts;
-use crate::gpu::bind::{bind_layout, storage_entry, uniform_buffer, uniform_entry};
+use crate::gpu::bind::{bind_buffers, bind_layout, storage_entry, uniform_buffer, uniform_entry};
 use crate::gpu::shader::embedded_module;
 use crate::gpu::target_formats::{COVERAGE_FORMAT, TargetFormats};
 
@@ -84,8 +84,8 @@ impl CoveragePipeline {
     }
 
     /// `@group(3)` of an object's ribbons.
-    pub(crate) fn draw(&self, device: &wgpu::Device, ribbons: &wgpu::Buffer) -> wgpu::BindGroup {
-        crate::gpu::bind::bind_buffers(device, "ribbons", &self.ribbons_layout, &[(0, ribbons)])
+    pub(crate) fn bind(&self, device: &wgpu::Device, ribbons: &wgpu::Buffer) -> wgpu::BindGroup {
+        bind_buffers(device, "ribbons", &self.ribbons_layout, &[(0, ribbons)])
     }
 
     pub(crate) fn set_ribbons(

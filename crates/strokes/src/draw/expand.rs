@@ -5,7 +5,7 @@
 //! times; here it is once, and the vertex shader only hands on. Software drivers,
 //! which run vertex shaders on one thread and compute shaders on all, gain most.
 //!
-//! There is room for a part of the edges only ([`crate::mesh::buffers`]); in a view
+//! There is room for a part of the edges only (`mesh/capacity.rs`); in a view
 //! with more strokes than that the rest is drawn from the live list, after them
 //! and with the same vertices, so no view costs memory for the worst one.
 //!
@@ -18,13 +18,7 @@ use edgemesh_shaders::ShaderError;
 use crate::draw::stroke_layouts::StrokeLayouts;
 use crate::gpu::bind::compute_pipeline;
 use crate::mesh::layout::Layout;
-use crate::view::live_lists::{DrawArguments, GROUPS_OFFSET, ViewBuffers};
-
-/// Bytes of an expanded vertex: position, u, and v and opacity at 16 bits each.
-pub(crate) const BYTES_PER_VERTEX: u32 = 20;
-
-/// Bytes of the largest expanded stroke.
-pub(crate) const BYTES_PER_STROKE: u32 = LineKind::QuadAndDisks.vertex_count() * BYTES_PER_VERTEX;
+use crate::view::live_lists::{ChunkLists, DrawArguments, GROUPS_OFFSET};
 
 /// The compute pipeline for one kind of line in one layout.
 #[derive(Debug)]
@@ -43,18 +37,18 @@ impl ExpandPipeline {
         Ok(Self(compute_pipeline(device, &module, "expand_strokes", &groups, &constants)))
     }
 
-    /// Records the expansion for the draw with this number; `@group(0)` must be
+    /// Records the expansion for the stroke set with this number; `@group(0)` must be
     /// the frame, `@group(1)` the style, `@group(2)` the edges.
     pub(crate) fn record(
         &self,
         pass: &mut wgpu::ComputePass,
-        lists: &wgpu::BindGroup,
-        view: &ViewBuffers,
-        draw_index: usize,
+        group: &wgpu::BindGroup,
+        lists: &ChunkLists,
+        set_index: usize,
     ) {
         pass.set_pipeline(&self.0);
-        pass.set_bind_group(3, lists, &[]);
-        let offset = (draw_index * size_of::<DrawArguments>()) as u64 + GROUPS_OFFSET;
-        pass.dispatch_workgroups_indirect(&view.draws, offset);
+        pass.set_bind_group(3, group, &[]);
+        let offset = (set_index * size_of::<DrawArguments>()) as u64 + GROUPS_OFFSET;
+        pass.dispatch_workgroups_indirect(&lists.arguments, offset);
     }
 }

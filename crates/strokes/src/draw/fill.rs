@@ -17,7 +17,7 @@ use wgpu::{CompareFunction, ShaderStages, StencilFaceState, StencilOperation};
 use crate::gpu::bind::{bind_buffers, uniform_buffer, uniform_entry};
 use crate::gpu::shader::embedded_module;
 use crate::gpu::target_formats::TargetFormats;
-use crate::mesh::buffers::MeshBuffers;
+use crate::mesh::instance::MeshInstance;
 
 /// The constant part of the push, in steps of the depth buffer.
 const PUSH_STEPS: i32 = 8;
@@ -38,7 +38,7 @@ pub(crate) enum FillKind {
     /// Depth and stencil: what lies behind shows through.
     Clear,
     /// The stencil alone, where the surface is what one sees.
-    Mark,
+    Stencil,
 }
 
 /// The pipelines of the fill.
@@ -47,9 +47,9 @@ pub(crate) struct FillPipeline {
     /// Without clip planes, and with some.
     whole: [wgpu::RenderPipeline; 2],
     clear: [wgpu::RenderPipeline; 2],
-    mark: [wgpu::RenderPipeline; 2],
+    stencil: [wgpu::RenderPipeline; 2],
     pass_layout: wgpu::BindGroupLayout,
-    draw_layout: wgpu::BindGroupLayout,
+    object_layout: wgpu::BindGroupLayout,
 }
 
 impl FillPipeline {
@@ -65,10 +65,10 @@ impl FillPipeline {
             })
         };
         let pass_layout = layout("fill", ShaderStages::FRAGMENT);
-        let draw_layout = layout("fill object", ShaderStages::VERTEX_FRAGMENT);
+        let object_layout = layout("fill object", ShaderStages::VERTEX_FRAGMENT);
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("fill"),
-            bind_group_layouts: &[Some(frame_layout), Some(&pass_layout), Some(&draw_layout)],
+            bind_group_layouts: &[Some(frame_layout), Some(&pass_layout), Some(&object_layout)],
             immediate_size: 0,
         });
         let module = embedded_module(device, "fill.wgsl")?;
@@ -79,9 +79,9 @@ impl FillPipeline {
         Ok(Self {
             whole: pipeline(FillKind::Whole),
             clear: pipeline(FillKind::Clear),
-            mark: pipeline(FillKind::Mark),
+            stencil: pipeline(FillKind::Stencil),
             pass_layout,
-            draw_layout,
+            object_layout,
         })
     }
 
@@ -92,24 +92,25 @@ impl FillPipeline {
     }
 
     /// The group of an object.
-    pub(crate) fn draw(&self, device: &wgpu::Device, object: &wgpu::Buffer) -> wgpu::BindGroup {
-        bind_buffers(device, "fill object", &self.draw_layout, &[(0, object)])
+    pub(crate) fn bind(&self, device: &wgpu::Device, object: &wgpu::Buffer) -> wgpu::BindGroup {
+        bind_buffers(device, "fill object", &self.object_layout, &[(0, object)])
     }
 
     pub(crate) fn set(&self, pass: &mut wgpu::RenderPass, kind: FillKind, clips: bool) {
         let pipelines = match kind {
             FillKind::Whole => &self.whole,
             FillKind::Clear => &self.clear,
-            FillKind::Mark => &self.mark,
+            FillKind::Stencil => &self.stencil,
         };
         pass.set_pipeline(&pipelines[usize::from(clips)]);
     }
 
-    /// Draws one mesh; after [`Self::set`], `@group(0)` must be the frame,
-    /// `@group(1)` the colour, `@group(2)` the object.
-    pub(crate) fn record(pass: &mut wgpu::RenderPass, mesh: &MeshBuffers) {
-        for part in mesh.fill.iter().filter(|part| part.index_count > 0) {
-            pass.set_vertex_buffer(0, part.positions.slice(..));
+    /// Draws one instance; after [`Self::set`], `@group(0)` must be the frame, `@group(1)` the
+    /// color, `@group(2)` the object.
+    pub(crate) fn record(pass: &mut wgpu::RenderPass, instance: &MeshInstance) {
+        let parts = instance.mesh().fill.iter().zip(&instance.geometry().fill);
+        for (part, positions) in parts.filter(|(part, _)| part.index_count > 0) {
+            pass.set_vertex_buffer(0, positions.slice(..));
             pass.set_index_buffer(part.triangles.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed(0..part.index_count, 0, 0..1);
         }
@@ -126,7 +127,7 @@ fn pipeline(
     let constants = [("CLIPS", f64::from(u8::from(clips)))];
     let write_mask = match kind {
         FillKind::Whole => wgpu::ColorWrites::ALL,
-        FillKind::Clear | FillKind::Mark => wgpu::ColorWrites::empty(),
+        FillKind::Clear | FillKind::Stencil => wgpu::ColorWrites::empty(),
     };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("fill"),
@@ -163,10 +164,10 @@ fn pipeline(
 }
 
 fn depth_stencil(formats: &TargetFormats, kind: FillKind) -> wgpu::DepthStencilState {
-    // Marking comes after all fills, and finds the depth of its own.
+    // The stencil alone comes after all fills, and finds the depth of its own.
     let depth_compare = match kind {
         FillKind::Whole | FillKind::Clear => CompareFunction::Greater,
-        FillKind::Mark => CompareFunction::Equal,
+        FillKind::Stencil => CompareFunction::Equal,
     };
     let face = StencilFaceState {
         compare: CompareFunction::Always,
@@ -181,7 +182,7 @@ fn depth_stencil(formats: &TargetFormats, kind: FillKind) -> wgpu::DepthStencilS
     };
     wgpu::DepthStencilState {
         format: formats.depth,
-        depth_write_enabled: Some(kind != FillKind::Mark),
+        depth_write_enabled: Some(kind != FillKind::Stencil),
         depth_compare: Some(depth_compare),
         stencil,
         bias: push_away(),

@@ -35,9 +35,10 @@ use crate::gpu::bind::uniform_buffer;
 use crate::gpu::device::Gpu;
 use crate::gpu::shader::embedded_module;
 use crate::gpu::target_formats::TargetFormats;
+use crate::mesh::capacity::BYTES_PER_VERTEX;
 use crate::mesh::layout::Layout;
 use crate::style::brush::{Brush, BrushTextures};
-use crate::style::drawing_style::{StyledDraw, Visibility, Width};
+use crate::style::drawing_style::{StrokeSet, Visibility, Width};
 
 /// What all strokes of a draw share. WGSL twin:
 /// `shaders/common/stroke_style.wgsl`.
@@ -63,22 +64,20 @@ pub struct StrokeUniform {
     pub is_world_width: u32,
     /// The layer whose edges are drawn.
     pub layer: u32,
-    /// The draw's place among all.
-    pub draw_index: u32,
-    /// Indices an edge.
+    /// The place of the stroke set in the order of drawing.
+    pub set_index: u32,
+    /// Indices per edge.
     pub index_count: u32,
     /// 1 where edges that their own solid hides are drawn.
     pub shows_hidden: u32,
     /// The classes, for vertex shaders that detect.
     pub classes: ClassTable,
-    /// Unused.
-    pub padding: [u32; 3],
 }
 
 impl StrokeUniform {
     /// The uniform of the draw with this number.
-    pub(crate) fn new(draw: &StyledDraw, draw_index: usize, table: &ClassTable) -> Self {
-        let style = &draw.style;
+    pub(crate) fn new(set: &StrokeSet, set_index: usize, table: &ClassTable) -> Self {
+        let style = &set.style;
         let (width, is_world_width) = match style.width {
             Width::Pixels(width) => (width, 0),
             Width::World(width) => (width, 1),
@@ -92,12 +91,11 @@ impl StrokeUniform {
             placement: style.placement as u32,
             parameterization: style.parameterization as u32,
             is_world_width,
-            layer: draw.layer,
-            draw_index: to_u32(draw_index),
+            layer: set.layer,
+            set_index: to_u32(set_index),
             index_count: to_u32(style.kind.indices().len()),
-            shows_hidden: u32::from(draw.visibility == Visibility::Hidden),
+            shows_hidden: u32::from(set.visibility == Visibility::Hidden),
             classes: *table,
-            padding: [0; 3],
         }
     }
 }
@@ -107,16 +105,16 @@ pub(crate) fn style_group(
     gpu: &Gpu,
     layouts: &StrokeLayouts,
     brushes: &mut BrushTextures,
-    draw: &StyledDraw,
-    draw_index: usize,
+    set: &StrokeSet,
+    set_index: usize,
     table: &ClassTable,
 ) -> wgpu::BindGroup {
     let device = &gpu.device;
     let solid = Brush::solid();
-    let brush = draw.style.brush.as_ref().unwrap_or(&solid);
+    let brush = set.style.brush.as_ref().unwrap_or(&solid);
     let texture = brushes.texture(gpu, brush);
     let sampler = &brushes.sampler;
-    let uniform = StrokeUniform::new(draw, draw_index, table);
+    let uniform = StrokeUniform::new(set, set_index, table);
     let uniform = uniform_buffer(device, "stroke style", &uniform);
     let resources = [
         uniform.as_entire_binding(),
@@ -150,18 +148,18 @@ pub(crate) struct StrokeVariant {
     pub(crate) visibility: Visibility,
     pub(crate) is_thin: bool,
     pub(crate) is_textured: bool,
-    /// See [`StyledDraw::lies_over_surface`].
+    /// See [`StrokeSet::lies_over_surface`].
     pub(crate) is_over_surface: bool,
 }
 
 impl StrokeVariant {
-    pub(crate) fn new(source: VertexSource, draw: &StyledDraw) -> Self {
+    pub(crate) fn new(source: VertexSource, set: &StrokeSet) -> Self {
         Self {
             source,
-            visibility: draw.visibility,
-            is_thin: draw.style.kind == LineKind::Thin,
-            is_textured: draw.style.brush.is_some(),
-            is_over_surface: draw.lies_over_surface(),
+            visibility: set.visibility,
+            is_thin: set.style.kind == LineKind::Thin,
+            is_textured: set.style.brush.is_some(),
+            is_over_surface: set.lies_over_surface(),
         }
     }
 
@@ -204,9 +202,7 @@ impl StrokeVariant {
     const fn vertex_buffer(self, layout: Layout) -> Option<wgpu::VertexBufferLayout<'static>> {
         let (array_stride, attributes): (u64, &[wgpu::VertexAttribute]) =
             match (self.source, layout) {
-                (VertexSource::Expanded, _) => {
-                    (crate::draw::expand::BYTES_PER_VERTEX as u64, &EXPANDED)
-                }
+                (VertexSource::Expanded, _) => (BYTES_PER_VERTEX as u64, &EXPANDED),
                 (VertexSource::Attributes, Layout::Replicated16) => (40, &REPLICATED_16),
                 (VertexSource::Attributes, Layout::FaceNormals) => (48, &FACE_NORMALS),
                 (VertexSource::Attributes, _) => (80, &REPLICATED),

@@ -3,8 +3,6 @@
 use edgemesh::line::kind::LineKind;
 use wgpu::util::DeviceExt as _;
 
-use crate::renderer::{DrawVertices, PreparedDraw};
-
 /// Index buffers that all meshes share.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum IndexKey {
@@ -19,15 +17,6 @@ pub(crate) enum IndexKey {
 }
 
 impl IndexKey {
-    pub(crate) fn of(draw: &PreparedDraw) -> Vec<Self> {
-        match &draw.vertices {
-            DrawVertices::Lists { expanded: None, .. } => Vec::new(),
-            DrawVertices::Lists { .. } => vec![Self::Expanded(draw.kind)],
-            DrawVertices::All(_) => Vec::new(),
-            DrawVertices::Attributes(_) => vec![Self::Lines, Self::Quads, Self::Ends],
-        }
-    }
-
     /// The indices of the first edge, and how many vertices an edge has.
     pub(crate) fn pattern(self) -> (Vec<u32>, u32) {
         match self {

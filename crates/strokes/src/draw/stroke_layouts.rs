@@ -5,10 +5,10 @@
 
 use wgpu::ShaderStages;
 
+use crate::draw::targets::frame_fill_layout;
 use crate::gpu::bind::{bind_layout, storage_entry, uniform_entry};
 use crate::gpu::target_formats::TargetFormats;
 use crate::mesh::layout::Layout;
-use crate::view::frame::frame_fill_layout;
 
 /// The bind group layouts of strokes in one layout of edges.
 #[derive(Debug)]

@@ -7,9 +7,12 @@
 use std::sync::{Mutex, PoisonError};
 
 use glam::Vec2;
+use thiserror::Error;
 
 use crate::draw::silhouette::NO_OBJECT;
+use crate::gpu::bind::uniform_entry;
 use crate::gpu::target_formats::{COVERAGE_FORMAT, TargetFormats};
+use crate::view::frame::FrameBinding;
 
 /// Colour and depth of one size and sample count.
 #[derive(Debug)]
@@ -30,6 +33,49 @@ pub struct Targets {
     coverage: Mutex<Vec<wgpu::TextureView>>,
 }
 
+/// Textures of a program that strokes are drawn into.
+#[derive(Debug, Clone)]
+pub struct TargetTextures {
+    /// The picture, of one sample per pixel; with `samples`, they are averaged into it.
+    pub color: wgpu::Texture,
+    /// Four samples per pixel of the same format, if the program draws with several.
+    pub samples: Option<wgpu::Texture>,
+    /// Depth, with or without a stencil, of as many samples; it is read as a texture too.
+    pub depth: wgpu::Texture,
+}
+
+/// Textures of a program do not fit together.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum TargetError {
+    /// A texture is of another size than the color.
+    #[error("the texture '{name}' is of another size than the color")]
+    Size {
+        /// The field of [`TargetTextures`].
+        name: &'static str,
+    },
+    /// A texture has the wrong number of samples.
+    #[error("the texture '{name}' has another number of samples than the others")]
+    Samples {
+        /// The field of [`TargetTextures`].
+        name: &'static str,
+    },
+    /// A texture lacks a usage.
+    #[error("the texture '{name}' needs the usage {usage:?}")]
+    Usage {
+        /// The field of [`TargetTextures`].
+        name: &'static str,
+        /// What it must be usable for.
+        usage: wgpu::TextureUsages,
+    },
+    /// The depth texture has no depth.
+    #[error("the format {format:?} has no depth")]
+    NoDepth {
+        /// Its format.
+        format: wgpu::TextureFormat,
+    },
+}
+
 impl Targets {
     /// Makes the textures; `size` must not be zero nor beyond the device's limit.
     #[must_use]
@@ -47,14 +93,67 @@ impl Targets {
                 view_formats: &[],
             })
         };
-        let view =
-            |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let read = wgpu::TextureUsages::TEXTURE_BINDING;
         let picture =
             texture("picture", formats.color, 1, attachment | read | wgpu::TextureUsages::COPY_SRC);
         let sampled = (samples > 1).then(|| texture("samples", formats.color, samples, attachment));
         let depth = texture("depth", formats.depth, samples, attachment | read);
+        Self::of(size, formats, picture, sampled.as_ref(), &depth)
+    }
+
+    /// Targets that are textures of the program: strokes are drawn into what is there.
+    ///
+    /// Depth is reversed, 1 near and 0 far, and surfaces are drawn to it with
+    /// [`push_away`](crate::draw::fill::push_away), so that they do not swallow strokes along
+    /// their edges.
+    ///
+    /// # Errors
+    /// [`TargetError`], if the textures do not fit together or lack a usage.
+    pub fn from_textures(textures: TargetTextures) -> Result<Self, TargetError> {
+        let TargetTextures { color, samples, depth } = textures;
+        let size = [color.width(), color.height()];
+        let sample_count = samples.as_ref().map_or(1, wgpu::Texture::sample_count);
+        let formats =
+            TargetFormats { color: color.format(), depth: depth.format(), samples: sample_count };
+        let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
+        let needs = [
+            ("color", Some(&color), 1, attachment),
+            ("samples", samples.as_ref(), sample_count, attachment),
+            (
+                "depth",
+                Some(&depth),
+                sample_count,
+                attachment | wgpu::TextureUsages::TEXTURE_BINDING,
+            ),
+        ];
+        for (name, texture, samples, usage) in needs {
+            let Some(texture) = texture else { continue };
+            if [texture.width(), texture.height()] != size {
+                return Err(TargetError::Size { name });
+            }
+            if texture.sample_count() != samples {
+                return Err(TargetError::Samples { name });
+            }
+            if !texture.usage().contains(usage) {
+                return Err(TargetError::Usage { name, usage });
+            }
+        }
+        if !depth.format().has_depth_aspect() {
+            return Err(TargetError::NoDepth { format: depth.format() });
+        }
+        Ok(Self::of(size, formats, color, samples.as_ref(), &depth))
+    }
+
+    fn of(
+        size: [u32; 2],
+        formats: TargetFormats,
+        picture: wgpu::Texture,
+        samples: Option<&wgpu::Texture>,
+        depth: &wgpu::Texture,
+    ) -> Self {
+        let view =
+            |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         let alone = |aspect| {
             let descriptor = wgpu::TextureViewDescriptor { aspect, ..Default::default() };
             depth.create_view(&descriptor)
@@ -63,13 +162,37 @@ impl Targets {
             size,
             formats,
             picture_view: view(&picture),
-            sampled_view: sampled.as_ref().map(view),
-            depth_view: view(&depth),
+            sampled_view: samples.map(view),
+            depth_view: view(depth),
             depth_texture: alone(wgpu::TextureAspect::DepthOnly),
             object_texture: formats.has_stencil().then(|| alone(wgpu::TextureAspect::StencilOnly)),
             picture,
             coverage: Mutex::default(),
         }
+    }
+
+    /// The frame with what these targets hold of the fill, in a [`frame_fill_layout`].
+    pub(crate) fn bind_with_frame(
+        &self,
+        device: &wgpu::Device,
+        layout: &wgpu::BindGroupLayout,
+        frame: &FrameBinding,
+    ) -> wgpu::BindGroup {
+        let [depth, objects] = fill_bindings(self.formats.samples);
+        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
+        let mut entries = vec![
+            entry(0, frame.buffer().as_entire_binding()),
+            entry(depth, wgpu::BindingResource::TextureView(&self.depth_texture)),
+        ];
+        let stencil = self.object_texture.as_ref();
+        entries.extend(
+            stencil.map(|texture| entry(objects, wgpu::BindingResource::TextureView(texture))),
+        );
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("frame and fill"),
+            layout,
+            entries: &entries,
+        })
     }
 
     /// The first `count` textures for the coverage of linked strokes.
@@ -228,4 +351,40 @@ impl Targets {
             stencil_ops: self.formats.has_stencil().then_some(stencil_ops),
         }
     }
+}
+
+/// `@group(0)` of strokes that ask what was filled: the frame, the depth as a
+/// texture of one sample a pixel (binding 1) or of several (2), and, for targets
+/// with a stencil, the objects in the same way (3 or 4).
+#[must_use]
+pub(crate) fn frame_fill_layout(
+    device: &wgpu::Device,
+    formats: &TargetFormats,
+) -> wgpu::BindGroupLayout {
+    let visibility = wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE;
+    let texture = |binding, sample_type| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Texture {
+            sample_type,
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: formats.samples > 1,
+        },
+        count: None,
+    };
+    let [depth, objects] = fill_bindings(formats.samples);
+    let mut entries =
+        vec![uniform_entry(0, visibility), texture(depth, wgpu::TextureSampleType::Depth)];
+    if formats.has_stencil() {
+        entries.push(texture(objects, wgpu::TextureSampleType::Uint));
+    }
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("frame and fill"),
+        entries: &entries,
+    })
+}
+
+/// The bindings of the depth and of the objects.
+const fn fill_bindings(samples: u32) -> [u32; 2] {
+    if samples > 1 { [2, 4] } else { [1, 3] }
 }

@@ -68,6 +68,33 @@ pub enum ResourceError {
 }
 
 impl Gpu {
+    /// Opens the adapter whose name contains `name` (ignoring case), or else the best one.
+    ///
+    /// # Errors
+    /// [`GpuError`] with what was tried and what was found.
+    pub async fn open(name: Option<&str>) -> Result<Self, GpuError> {
+        open(name).await
+    }
+
+    /// Takes a device that the program has already, with its queue.
+    ///
+    /// Pipelines need the limits of [`device_descriptor`]; timestamps and the most exact depth
+    /// with a stencil need its features, if they are wanted.
+    ///
+    /// # Errors
+    /// [`GpuError::Unsuitable`], if the device has lower limits than WebGPU's defaults.
+    pub fn from_device(device: wgpu::Device, queue: wgpu::Queue) -> Result<Self, GpuError> {
+        let info = device.adapter_info();
+        let mut lacks = Vec::new();
+        Limits::default().check_limits_with_fail_fn(&device.limits(), false, |name, need, has| {
+            lacks.push(format!("{name} of {need} (it has {has})"));
+        });
+        match lacks.is_empty() {
+            true => Ok(Self { info, device, queue }),
+            false => Err(GpuError::Unsuitable { name: info.name, lacks }),
+        }
+    }
+
     /// Runs `body`, which makes buffers and textures, and catches what goes wrong
     /// in it on the device.
     ///

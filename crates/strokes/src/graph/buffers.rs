@@ -10,11 +10,17 @@
 //! | points, strokes, ribbons | 48, 16 and 80 a point (two for each edge that can be linked, and up to 65,536) |
 
 use bytemuck::{Pod, Zeroable};
+use edgemesh::index::to_u32;
 use wgpu::BufferUsages;
 use wgpu::util::DeviceExt as _;
 
+use crate::mesh::capacity::BYTES_PER_NODE;
 use crate::mesh::layout::ChunkUniform;
-use crate::style::drawing_style::{MAX_DRAWS, MAX_LAYERS};
+use crate::style::drawing_style::{MAX_LAYERS, MAX_STROKE_SETS};
+
+/// Rounds of linking, at most: each looks four times as far, and 4 to this power is the number
+/// of all indices. WGSL twin: the constant of this name.
+pub const MAX_LINK_ROUNDS: usize = 16;
 
 /// Items that one invocation sums up before a scan. WGSL twin: the constant of this
 /// name.
@@ -34,7 +40,7 @@ pub const CUT_START: u32 = 1 << 31;
 pub const CUT_END: u32 = 1 << 30;
 
 /// In [`LinkNode::next`]: clipped as a whole. WGSL twin: as above.
-pub const UNSEEN: u32 = 1 << 29;
+pub const CUT_WHOLE: u32 = 1 << 29;
 
 /// In [`Element::count`]: the last element is followed by the first. WGSL twin: as
 /// above.
@@ -50,20 +56,32 @@ pub const ARC_PER_PX: f32 = 1024.0;
 pub struct GraphUniform {
     /// Chunks of the mesh.
     pub chunk_count: u32,
-    /// Draws of the look.
-    pub draw_count: u32,
-    /// Elements of all draws that there is room for.
-    pub path_capacity: u32,
+    /// Stroke sets of the style.
+    pub set_count: u32,
+    /// Joints of all stroke sets that there is room for.
+    pub joint_capacity: u32,
     /// Points of all paths that there is room for.
     pub point_capacity: u32,
-    /// 1 where contours are in a layer as such, else 0.
+    /// 1 if contours are in a layer as such, else 0.
     pub draws_contours: u32,
-    /// Linked draws of one layer, at most.
-    pub draws_a_layer: u32,
+    /// The most linked stroke sets of one layer.
+    pub sets_per_layer: u32,
     /// Unused.
     pub padding: [u32; 2],
-    /// Layer of each draw, and 1 where its strokes are linked.
-    pub draws: [[u32; 4]; MAX_DRAWS],
+    /// The stroke sets in the order of drawing.
+    pub sets: [LinkedSet; MAX_STROKE_SETS],
+}
+
+/// What linking must know of a stroke set.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct LinkedSet {
+    /// Its layer.
+    pub layer: u32,
+    /// 1 if its strokes are linked.
+    pub is_linked: u32,
+    /// Unused.
+    pub padding: [u32; 2],
 }
 
 /// How much of everything there is in a view.
@@ -72,8 +90,8 @@ pub struct GraphUniform {
 pub struct GraphHeader {
     /// Edges that are linked.
     pub node_count: u32,
-    /// Elements of all linked draws together.
-    pub path_count: u32,
+    /// Elements of all linked stroke sets together: one joint each.
+    pub joint_count: u32,
     /// Points along them.
     pub point_count: u32,
     /// Strokes along them.
@@ -84,14 +102,14 @@ pub struct GraphHeader {
     pub total_px: f32,
     /// Points that there is room for.
     pub point_capacity: u32,
-    /// Linked draws of one layer, at most.
-    pub draws_a_layer: u32,
+    /// The most linked stroke sets of one layer.
+    pub sets_per_layer: u32,
     /// Where the nodes of each layer begin; the last is their number.
     pub layer_first: [u32; MAX_LAYERS + 1],
-    /// Where the elements of each draw begin among all, and their number.
-    pub draw_first: [u32; 20],
+    /// Where the joints of each stroke set begin, and their number.
+    pub set_first: [u32; MAX_STROKE_SETS + 1],
     /// 1 for each round of linking that changed anything.
-    pub changed: [u32; 16],
+    pub changed: [u32; MAX_LINK_ROUNDS],
 }
 
 /// One drawn edge, in the direction of its chain.
@@ -164,7 +182,7 @@ pub struct Element {
     pub node: u32,
 }
 
-/// The beginning of an element in a draw's path.
+/// The beginning of an element in the path of a stroke set.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Joint {
@@ -191,9 +209,9 @@ pub struct PathPoint {
     /// Arc length up to here along the points, in [`ARC_PER_PX`] of a pixel, from
     /// anywhere.
     pub arc: u32,
-    /// The element it is on, among those of all draws.
-    pub path: u32,
-    /// See the shader; the draw is above the lowest eight bits.
+    /// The joint of the element that it is on.
+    pub joint: u32,
+    /// See the shader; the stroke set is above the lowest eight bits.
     pub flags: u32,
     /// What of its segment is drawn, as fractions.
     pub cut: [f32; 2],
@@ -264,19 +282,35 @@ pub const NOT_DRAWN: u32 = 15;
 pub(crate) enum Groups {
     /// One workgroup.
     One,
-    /// As many as the arguments say, so many bytes from their start.
-    By(u64),
+    /// As many as the arguments say, at one of the places in [`arguments`].
+    By(u32),
 }
 
-/// Words of the arguments before the draws of ribbons. WGSL twin: `RIBBON_DRAWS`.
-pub(crate) const RIBBON_DRAWS: usize = 18;
+/// Where the arguments of each kind of dispatch and draw begin, in words. WGSL twins: the
+/// constants of these names.
+pub mod arguments {
+    use crate::style::drawing_style::MAX_STROKE_SETS;
 
-/// Words of the arguments before those of the chunks. WGSL twin: `CHUNK_GROUPS`.
-pub(crate) const CHUNK_GROUPS: usize = RIBBON_DRAWS + 5 * MAX_DRAWS;
+    /// Dispatches over nodes.
+    pub const NODE_GROUPS: u32 = 0;
+    /// Dispatches over sums of nodes.
+    pub const NODE_SUM_GROUPS: u32 = 3;
+    /// Dispatches over joints.
+    pub const JOINT_GROUPS: u32 = 6;
+    /// Dispatches over sums of joints.
+    pub const JOINT_SUM_GROUPS: u32 = 9;
+    /// Dispatches over points.
+    pub const POINT_GROUPS: u32 = 12;
+    /// Dispatches over sums of points.
+    pub const POINT_SUM_GROUPS: u32 = 15;
+    /// Draws of ribbons: five words per stroke set.
+    pub const RIBBON_DRAWS: u32 = 18;
+    /// Dispatches over the nodes of each chunk: three words per chunk.
+    #[expect(clippy::cast_possible_truncation, reason = "16")]
+    pub const CHUNK_GROUPS: u32 = RIBBON_DRAWS + 5 * MAX_STROKE_SETS as u32;
+}
 
-/// Bytes of the largest binding for each edge that can be linked: two points at least,
-/// as many again for the even grid, twice for layers with hidden strokes too.
-pub(crate) const BYTES_PER_NODE: u64 = 8 * size_of::<Ribbon>() as u64;
+const _: () = assert!(BYTES_PER_NODE == 8 * size_of::<Ribbon>() as u64, "as the mesh reckons");
 
 /// Points of the even grid along paths that there is room for, besides two for each
 /// element: a quarter of a million pixels of lines at four pixels a point. Where that
@@ -289,22 +323,22 @@ const GRID_POINTS_A_NODE: u32 = 1 << 8;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct GraphSize {
     pub(crate) nodes: u32,
-    /// Elements of all linked draws.
-    pub(crate) paths: u32,
+    /// Elements of all linked stroke sets.
+    pub(crate) joints: u32,
     pub(crate) points: u32,
 }
 
 impl GraphSize {
-    /// For draws of which at most `draws_a_layer` are of one layer.
-    pub(crate) fn new(device: &wgpu::Device, chunks: &[ChunkUniform], draws_a_layer: u32) -> Self {
+    /// For stroke sets of which at most `sets_per_layer` are of one layer.
+    pub(crate) fn new(device: &wgpu::Device, chunks: &[ChunkUniform], sets_per_layer: u32) -> Self {
         let nodes = chunks.iter().map(|chunk| chunk.node_capacity).sum::<u32>().max(1);
         let limit = device.limits().max_storage_buffer_binding_size;
         let most = u32::try_from(limit / size_of::<Ribbon>() as u64).unwrap_or(u32::MAX);
-        let paths = nodes.saturating_mul(draws_a_layer).min(most);
+        let joints = nodes.saturating_mul(sets_per_layer).min(most);
         let grid = LEAST_GRID_POINTS + nodes.min(GRID_POINTS) * GRID_POINTS_A_NODE;
         let grid = grid.min(GRID_POINTS);
-        let points = paths.saturating_mul(2).saturating_add(grid).min(most);
-        Self { nodes, paths, points }
+        let points = joints.saturating_mul(2).saturating_add(grid).min(most);
+        Self { nodes, joints, points }
     }
 
     /// Rounds that link the longest chain there can be: each looks four times as far.
@@ -334,8 +368,8 @@ pub(crate) struct GraphBuffers {
 }
 
 impl GraphBuffers {
-    pub(crate) fn new(device: &wgpu::Device, chunks: &[ChunkUniform], draws_a_layer: u32) -> Self {
-        let size = GraphSize::new(device, chunks, draws_a_layer);
+    pub(crate) fn new(device: &wgpu::Device, chunks: &[ChunkUniform], sets_per_layer: u32) -> Self {
+        let size = GraphSize::new(device, chunks, sets_per_layer);
         let buffer = |label: &str, count: u32, bytes: usize, usage: BufferUsages| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
@@ -350,9 +384,9 @@ impl GraphBuffers {
         let state = || buffer("chain states", nodes, size_of::<ChainState>(), none);
         // Of each chunk what it may have, and room for where its layers begin.
         let mut bases: Vec<u32> = chunks.iter().map(|chunk| chunk.node_capacity).collect();
-        bases.resize(9 * chunks.len().max(1), 0);
-        let chunk_count = edgemesh::index::to_u32(chunks.len());
-        let arguments = edgemesh::index::to_u32(CHUNK_GROUPS) + 3 * chunk_count;
+        bases.resize((MAX_LAYERS + 2) * chunks.len().max(1), 0);
+        let chunk_count = to_u32(chunks.len());
+        let arguments = arguments::CHUNK_GROUPS + 3 * chunk_count;
         Self {
             header: buffer("graph header", 1, size_of::<GraphHeader>(), read_back),
             bases: device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
@@ -367,12 +401,18 @@ impl GraphBuffers {
             sums: buffer("sums", size.points.max(nodes).div_ceil(ITEMS_PER_SUM), 8, none),
             states: [state(), state()],
             chains: buffer("chains", nodes, size_of::<Chain>(), none),
-            joints: buffer("joints", size.paths, size_of::<Joint>(), none),
+            joints: buffer("joints", size.joints, size_of::<Joint>(), none),
             points: buffer("path points", size.points, size_of::<PathPoint>(), read_back),
             // A stroke has a segment at least.
             strokes: buffer("graph strokes", size.points, size_of::<Stroke>(), read_back),
             ribbons: buffer("ribbons", size.points, size_of::<Ribbon>(), read_back),
             size,
         }
+    }
+
+    /// Dispatches as many workgroups as the arguments say at `at`, one of the places in
+    /// [`arguments`].
+    pub(crate) fn dispatch(&self, pass: &mut wgpu::ComputePass, at: u32) {
+        pass.dispatch_workgroups_indirect(&self.arguments, 4 * u64::from(at));
     }
 }

@@ -5,6 +5,7 @@
 //! the first of them writes; rounds are as many as the longest chain could need, and
 //! cost next to nothing once nothing changes.
 
+use edgemesh::index::to_u32;
 use edgemesh_shaders::ShaderError;
 use wgpu::ShaderStages;
 
@@ -12,18 +13,12 @@ use crate::gpu::bind::{
     bind_buffers, bind_layout, compute_pipeline, storage_entry, uniform_buffer, uniform_entry,
 };
 use crate::gpu::shader::embedded_module;
-use crate::graph::buffers::{CHUNK_GROUPS, GraphBuffers, Groups};
-use crate::mesh::buffers::{ChunkBuffers, EdgeSource};
+use crate::graph::buffers::arguments::{CHUNK_GROUPS, NODE_GROUPS, NODE_SUM_GROUPS};
+use crate::graph::buffers::{GraphBuffers, Groups, MAX_LINK_ROUNDS};
+use crate::mesh::buffers::ChunkBuffers;
+use crate::mesh::geometry::{ChunkGeometry, EdgeGeometry};
 use crate::mesh::layout::Layout;
-use crate::view::live_lists::{ObjectBuffers, ViewBuffers};
-
-/// More rounds than any mesh needs: 4 to this power is the number of all indices.
-const MAX_ROUNDS: u32 = 16;
-
-/// Bytes of the arguments where those of a kind of dispatch begin; in words the
-/// constants of these names in `shaders/common/stroke_graph.wgsl`.
-const NODE_GROUPS: u64 = 0;
-const NODE_SUM_GROUPS: u64 = 4 * 3;
+use crate::view::live_lists::{ChunkLists, ObjectRuns};
 
 /// The compute pipelines of one layout.
 #[derive(Debug)]
@@ -49,13 +44,21 @@ struct Layouts {
 
 /// What linking needs of one object.
 #[derive(Debug)]
-pub(crate) struct LinkDraw {
+pub(crate) struct LinkBindings {
     bases: wgpu::BindGroup,
     /// Edges and lists, one a chunk.
     chunks: Vec<[wgpu::BindGroup; 2]>,
     /// Reading one state and writing the other, and the other way round.
     chains: [wgpu::BindGroup; 2],
     rounds: usize,
+}
+
+/// A chunk whose edges are linked.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LinkedChunk<'a> {
+    pub(crate) buffers: &'a ChunkBuffers,
+    pub(crate) geometry: &'a ChunkGeometry,
+    pub(crate) lists: &'a ChunkLists,
 }
 
 impl LinkPipeline {
@@ -98,7 +101,7 @@ impl LinkPipeline {
             resolve: chain("resolve_links"),
             jump: chain("jump_chains"),
             chains: steps.map(|(entry, groups)| (chain(entry), groups)).into(),
-            rounds: (0..MAX_ROUNDS).map(round).collect(),
+            rounds: (0..to_u32(MAX_LINK_ROUNDS)).map(round).collect(),
             layouts,
         })
     }
@@ -108,30 +111,31 @@ impl LinkPipeline {
         &self.layouts.graph
     }
 
-    /// What an object needs; nothing where a chunk has no links.
-    pub(crate) fn draw(
+    /// The bindings of an object with the uniform `object`; `None` if its mesh was uploaded
+    /// without links.
+    pub(crate) fn bind(
         &self,
         device: &wgpu::Device,
         object: &wgpu::Buffer,
-        whole: &ObjectBuffers,
-        chunks: &[(&ChunkBuffers, &ViewBuffers)],
+        runs: &ObjectRuns,
+        chunks: &[LinkedChunk],
         graph: &GraphBuffers,
-    ) -> Option<LinkDraw> {
+    ) -> Option<LinkBindings> {
         let bases =
-            [(0, &graph.header), (1, &whole.tallies), (2, &graph.bases), (3, &graph.arguments)];
-        let chunk = |(chunk, view): &(&ChunkBuffers, &ViewBuffers)| {
-            let mut edges = vec![(0, object), (1, &chunk.uniform)];
-            match &chunk.source {
-                EdgeSource::Indexed { records, positions, .. } => {
+            [(0, &graph.header), (1, &runs.tallies), (2, &graph.bases), (3, &graph.arguments)];
+        let chunk = |LinkedChunk { buffers, geometry, lists }: &LinkedChunk| {
+            let mut edges = vec![(0, object), (1, &buffers.uniform)];
+            match &geometry.edges {
+                EdgeGeometry::Indexed { records, positions, .. } => {
                     edges.extend([(2, records), (3, positions)]);
                 }
-                EdgeSource::Replicated { vertices } => edges.push((2, vertices)),
+                EdgeGeometry::Replicated { vertices } => edges.push((2, vertices)),
             }
             let lists = [
-                (0, &view.live),
-                (1, &whole.runs),
-                (2, chunk.links.as_ref()?),
-                (3, &whole.tallies),
+                (0, &lists.live),
+                (1, &runs.runs),
+                (2, buffers.links.as_ref()?),
+                (3, &runs.tallies),
                 (4, &graph.bases),
                 (5, &graph.nodes),
             ];
@@ -153,7 +157,7 @@ impl LinkPipeline {
             ];
             bind_buffers(device, "chains", &self.layouts.chains, &buffers)
         };
-        Some(LinkDraw {
+        Some(LinkBindings {
             bases: bind_buffers(device, "link bases", &self.layouts.bases, &bases),
             chunks: chunks.iter().map(chunk).collect::<Option<_>>()?,
             chains: [[0, 1], [1, 0]].map(chains),
@@ -172,36 +176,33 @@ impl LinkPipeline {
         &self,
         pass: &mut wgpu::ComputePass,
         graph: &GraphBuffers,
-        draw: &LinkDraw,
+        bindings: &LinkBindings,
     ) {
         pass.set_pipeline(&self.bases);
-        pass.set_bind_group(3, &draw.bases, &[]);
+        pass.set_bind_group(3, &bindings.bases, &[]);
         pass.dispatch_workgroups(1, 1, 1);
         pass.set_pipeline(&self.elements);
-        for (chunk, [edges, lists]) in (0_u64..).zip(&draw.chunks) {
+        for (chunk, [edges, lists]) in (0..).zip(&bindings.chunks) {
             pass.set_bind_group(2, edges, &[]);
             pass.set_bind_group(3, lists, &[]);
-            let at = 4 * (CHUNK_GROUPS as u64 + 3 * chunk);
-            pass.dispatch_workgroups_indirect(&graph.arguments, at);
+            graph.dispatch(pass, CHUNK_GROUPS + 3 * chunk);
         }
         pass.set_bind_group(1, &self.rounds[0], &[]);
-        pass.set_bind_group(3, &draw.chains[0], &[]);
+        pass.set_bind_group(3, &bindings.chains[0], &[]);
         pass.set_pipeline(&self.resolve);
-        pass.dispatch_workgroups_indirect(&graph.arguments, NODE_GROUPS);
+        graph.dispatch(pass, NODE_GROUPS);
         pass.set_pipeline(&self.jump);
-        for (round, number) in self.rounds[..draw.rounds].iter().enumerate() {
+        for (round, number) in self.rounds[..bindings.rounds].iter().enumerate() {
             pass.set_bind_group(1, number, &[]);
-            pass.set_bind_group(3, &draw.chains[round % 2], &[]);
-            pass.dispatch_workgroups_indirect(&graph.arguments, NODE_GROUPS);
+            pass.set_bind_group(3, &bindings.chains[round % 2], &[]);
+            graph.dispatch(pass, NODE_GROUPS);
         }
-        pass.set_bind_group(3, &draw.chains[draw.rounds % 2], &[]);
+        pass.set_bind_group(3, &bindings.chains[bindings.rounds % 2], &[]);
         for (pipeline, groups) in &self.chains {
             pass.set_pipeline(pipeline);
             match groups {
                 Groups::One => pass.dispatch_workgroups(1, 1, 1),
-                Groups::By(offset) => {
-                    pass.dispatch_workgroups_indirect(&graph.arguments, *offset);
-                }
+                Groups::By(at) => graph.dispatch(pass, *at),
             }
         }
     }

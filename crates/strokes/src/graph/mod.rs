@@ -18,3 +18,4 @@
 pub mod buffers;
 pub(crate) mod link;
 pub mod path;
+pub mod readback;

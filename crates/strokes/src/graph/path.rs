@@ -12,15 +12,18 @@ use crate::gpu::bind::{
     bind_buffers, bind_layout, compute_pipeline, storage_entry, uniform_buffer, uniform_entry,
 };
 use crate::gpu::target_formats::TargetFormats;
+use crate::graph::buffers::arguments::{
+    JOINT_GROUPS, JOINT_SUM_GROUPS, POINT_GROUPS, POINT_SUM_GROUPS,
+};
 use crate::graph::buffers::{GraphBuffers, Groups};
 use crate::style::brush::Brush;
-use crate::style::drawing_style::{Look, MAX_DRAWS, StyledDraw, Width};
-use crate::style::link_style::{BrushFit, CURVE_LENGTH, PathStyle};
+use crate::style::drawing_style::{DrawingStyle, MAX_STROKE_SETS, StrokeSet, Width};
+use crate::style::link_style::{BrushFit, CURVE_LENGTH, LinkStyle};
 
-/// How the strokes of a linked draw look. WGSL twin: `shaders/common/path_style.wgsl`.
+/// How the strokes of a linked draw look. WGSL twin: `shaders/common/link_style.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
-pub struct PathUniform {
+pub struct LinkStyleUniform {
     /// The layer.
     pub layer: u32,
     /// A [`crate::style::drawing_style::Visibility`].
@@ -31,7 +34,7 @@ pub struct PathUniform {
     pub is_world_width: u32,
     /// The width.
     pub width: f32,
-    /// Pixels between points along a path.
+    /// Pixels between points along a link.
     pub step_px: f32,
     /// Strokes are cut where they turn more than this cosine says.
     pub corner_cosine: f32,
@@ -55,7 +58,7 @@ pub struct PathUniform {
     pub taper_px: [f32; 2],
     /// Pixels beyond both ends.
     pub overshoot_px: f32,
-    /// How far lines leave their path.
+    /// How far lines leave their link.
     pub wobble_px: f32,
     /// At which wavelength.
     pub wobble_length_px: f32,
@@ -77,9 +80,9 @@ pub struct PathUniform {
 /// few pixels, sampled lines show the mesh and not the shape.
 const LEAST_STEP_PX: f32 = 4.0;
 
-impl PathUniform {
-    fn new(draw: &StyledDraw, path: &PathStyle) -> Self {
-        let style = &draw.style;
+impl LinkStyleUniform {
+    fn new(set: &StrokeSet, link: &LinkStyle) -> Self {
+        let style = &set.style;
         let (width, is_world_width) = match style.width {
             Width::Pixels(width) => (width, 0),
             Width::World(width) => (width, 1),
@@ -89,54 +92,47 @@ impl PathUniform {
             Width::World(_) => LEAST_STEP_PX,
         };
         Self {
-            layer: draw.layer,
-            visibility: draw.visibility as u32,
+            layer: set.layer,
+            visibility: set.visibility as u32,
             placement: style.placement as u32,
             is_world_width,
             width,
             step_px,
-            corner_cosine: path.corner_rad.min(std::f32::consts::PI).cos(),
+            corner_cosine: link.corner_rad.min(std::f32::consts::PI).cos(),
             // Dashes go on behind what hides them.
-            is_cut_where_hidden: u32::from(path.is_cut_where_hidden && path.dash_px.is_none()),
-            join: path.join as u32,
-            end: path.end as u32,
-            min_length_px: path.min_length_px.unwrap_or(-1.0),
-            max_length_px: path.max_length_px,
+            is_cut_where_hidden: u32::from(link.is_cut_where_hidden && link.dash_px.is_none()),
+            join: link.join as u32,
+            end: link.end as u32,
+            min_length_px: link.min_length_px.unwrap_or(-1.0),
+            max_length_px: link.max_length_px,
             brush_aspect: style.brush.as_ref().map_or(1.0, Brush::aspect),
-            is_stretched: u32::from(path.brush_fit == BrushFit::Stretched),
+            is_stretched: u32::from(link.brush_fit == BrushFit::Stretched),
             fade: style.fade.unwrap_or_default(),
-            taper_px: path.taper_px,
-            overshoot_px: path.overshoot_px,
-            wobble_px: path.wobble_px,
-            wobble_length_px: path.wobble_length_px,
-            jitter_px: path.jitter_px,
-            width_curve: path.width_curve,
-            opacity_curve: path.opacity_curve,
-            dash_px: path.dash_px.unwrap_or_default(),
-            seed: f32::from(path.seed),
+            taper_px: link.taper_px,
+            overshoot_px: link.overshoot_px,
+            wobble_px: link.wobble_px,
+            wobble_length_px: link.wobble_length_px,
+            jitter_px: link.jitter_px,
+            width_curve: link.width_curve,
+            opacity_curve: link.opacity_curve,
+            dash_px: link.dash_px.unwrap_or_default(),
+            seed: f32::from(link.seed),
             padding: [0.0; 3],
         }
     }
 
-    /// Those of all draws of a look; zero for those that are not linked.
+    /// The uniforms of all stroke sets of a style; zero for sets that are not linked.
     #[must_use]
-    pub fn of(look: &Look) -> [Self; MAX_DRAWS] {
-        let mut uniforms = [Self::zeroed(); MAX_DRAWS];
-        for (uniform, draw) in uniforms.iter_mut().zip(&look.draws()) {
-            if let Some(path) = draw.style.path.as_ref().filter(|_| draw.style.is_linked()) {
-                *uniform = Self::new(draw, path);
+    pub fn of(style: &DrawingStyle) -> [Self; MAX_STROKE_SETS] {
+        let mut uniforms = [Self::zeroed(); MAX_STROKE_SETS];
+        for (uniform, set) in uniforms.iter_mut().zip(&style.stroke_sets()) {
+            if let Some(link) = set.style.link.as_ref().filter(|_| set.style.is_linked()) {
+                *uniform = Self::new(set, link);
             }
         }
         uniforms
     }
 }
-
-/// Bytes of the arguments where those of a kind of dispatch begin; in words the
-/// constants of these names in `shaders/common/stroke_graph.wgsl`.
-const PATH_GROUPS: u64 = 4 * 6;
-const PATH_SUM_GROUPS: u64 = 4 * 9;
-const POINT_GROUPS: u64 = 4 * 12;
-const POINT_SUM_GROUPS: u64 = 4 * 15;
 
 /// The run: files with their entry points, and how large each dispatch is. What is one
 /// workgroup scans sums.
@@ -144,11 +140,11 @@ const STEPS: &[(&str, &[(&str, Groups)])] = &[
     (
         "graph/path_joints.wgsl",
         &[
-            ("measure_turns", Groups::By(PATH_GROUPS)),
-            ("find_corners", Groups::By(PATH_GROUPS)),
-            ("sum_points", Groups::By(PATH_SUM_GROUPS)),
+            ("measure_turns", Groups::By(JOINT_GROUPS)),
+            ("find_corners", Groups::By(JOINT_GROUPS)),
+            ("sum_points", Groups::By(JOINT_SUM_GROUPS)),
             ("scan_points", Groups::One),
-            ("write_points", Groups::By(PATH_SUM_GROUPS)),
+            ("write_points", Groups::By(JOINT_SUM_GROUPS)),
             ("finish_points", Groups::One),
         ],
     ),
@@ -176,7 +172,7 @@ pub(crate) struct PathPipeline {
 
 /// What they need of one object.
 #[derive(Debug)]
-pub(crate) struct PathDraw {
+pub(crate) struct PathBindings {
     object: wgpu::BindGroup,
     paths: wgpu::BindGroup,
     sums: wgpu::BindGroup,
@@ -194,7 +190,7 @@ impl PathPipeline {
             bind_layout(device, label, entries)
         };
         let write = |binding| storage_entry(binding, compute, false);
-        let pass = make("path style", &[uniform_entry(0, compute)]);
+        let pass = make("link styles", &[uniform_entry(0, compute)]);
         let object = make("path object", &[uniform_entry(0, compute)]);
         let paths = make("paths", &[0, 2, 3, 4, 5, 6, 7].map(write));
         let sums = make("path sums", &[0, 3, 4, 8].map(write));
@@ -214,18 +210,18 @@ impl PathPipeline {
         Ok(Self { pass, object, paths, sums, steps })
     }
 
-    /// `@group(1)` of a look.
-    pub(crate) fn pass(&self, device: &wgpu::Device, look: &Look) -> wgpu::BindGroup {
-        let uniform = uniform_buffer(device, "path style", &PathUniform::of(look));
-        bind_buffers(device, "path style", &self.pass, &[(0, &uniform)])
+    /// `@group(1)` of a style.
+    pub(crate) fn pass(&self, device: &wgpu::Device, style: &DrawingStyle) -> wgpu::BindGroup {
+        let uniform = uniform_buffer(device, "link styles", &LinkStyleUniform::of(style));
+        bind_buffers(device, "link styles", &self.pass, &[(0, &uniform)])
     }
 
-    pub(crate) fn draw(
+    pub(crate) fn bind(
         &self,
         device: &wgpu::Device,
         object: &wgpu::Buffer,
         graph: &GraphBuffers,
-    ) -> PathDraw {
+    ) -> PathBindings {
         let paths = [
             (0, &graph.header),
             (2, &graph.elements),
@@ -237,7 +233,7 @@ impl PathPipeline {
         ];
         let sums =
             [(0, &graph.header), (3, &graph.joints), (4, &graph.sums), (8, &graph.arguments)];
-        PathDraw {
+        PathBindings {
             object: bind_buffers(device, "path object", &self.object, &[(0, object)]),
             paths: bind_buffers(device, "paths", &self.paths, &paths),
             sums: bind_buffers(device, "path sums", &self.sums, &sums),
@@ -250,19 +246,19 @@ impl PathPipeline {
         &self,
         pass: &mut wgpu::ComputePass,
         graph: &GraphBuffers,
-        draw: &PathDraw,
+        bindings: &PathBindings,
     ) {
-        pass.set_bind_group(2, &draw.object, &[]);
+        pass.set_bind_group(2, &bindings.object, &[]);
         for (pipeline, groups) in &self.steps {
             pass.set_pipeline(pipeline);
             match groups {
                 Groups::One => {
-                    pass.set_bind_group(3, &draw.sums, &[]);
+                    pass.set_bind_group(3, &bindings.sums, &[]);
                     pass.dispatch_workgroups(1, 1, 1);
                 }
-                Groups::By(offset) => {
-                    pass.set_bind_group(3, &draw.paths, &[]);
-                    pass.dispatch_workgroups_indirect(&graph.arguments, *offset);
+                Groups::By(at) => {
+                    pass.set_bind_group(3, &bindings.paths, &[]);
+                    graph.dispatch(pass, *at);
                 }
             }
         }

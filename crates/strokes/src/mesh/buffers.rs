@@ -16,7 +16,8 @@
 //! In the indexed layout the fill and the strokes share positions and triangles.
 //! What a view makes of a chunk is in [`crate::view::live_lists`].
 
-use std::ops::Range;
+use std::cell::Cell;
+use std::sync::Arc;
 
 use bytemuck::Pod;
 use edgemesh::edge_mesh::edge_word::edge_words;
@@ -32,20 +33,15 @@ use wgpu::BufferUsages;
 use wgpu::util::DeviceExt as _;
 
 use crate::gpu::bind::uniform_buffer;
-use crate::graph::buffers::BYTES_PER_NODE;
+use crate::mesh::capacity::{node_capacity, stroke_capacity};
 use crate::mesh::chunk::{Chunk, ChunkLimits, chunks};
-use crate::mesh::layout::{ChunkUniform, EDGES_PER_RUN, FACES_PER_WORD, Layout};
+use crate::mesh::geometry::{ChunkGeometry, EdgeGeometry, Geometry, SurfaceGeometry};
+use crate::mesh::layout::{ChunkUniform, EDGES_PER_RUN, FACES_PER_WORD, Layout, PackedRecord};
 use crate::mesh::link_table::LinkTable;
-use crate::view::live_lists::{MAX_EXPANDED_BYTES, RunState};
+use crate::mesh::surface::{SurfaceArrays, SurfaceBuffers};
 
-/// Of this many edges one has room between expansion and drawing; small meshes
-/// have room for all. What finds none is drawn straight from the list.
-const EDGES_PER_EXPANDED: usize = 16;
-const MIN_EXPANDED: usize = 1 << 14;
-
-/// Of this many edges one can be linked into strokes; of small meshes all.
-const EDGES_PER_NODE: usize = 8;
-const MIN_NODES: usize = 1 << 16;
+/// Bytes of what a view knows of a run of edges: `RunState` in [`crate::view::live_lists`].
+pub(crate) const RUN_STATE_BYTES: usize = 40;
 
 /// The mesh does not fit the device.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -62,37 +58,36 @@ pub struct MeshTooLarge {
     pub limit: u64,
 }
 
-/// The edges of a chunk.
-#[derive(Debug)]
-pub(crate) enum EdgeSource {
-    Indexed {
-        records: wgpu::Buffer,
-        positions: wgpu::Buffer,
-        normals: wgpu::Buffer,
-        triangles: wgpu::Buffer,
-        planes: wgpu::Buffer,
-        face_cones: wgpu::Buffer,
-    },
-    Replicated {
-        vertices: wgpu::Buffer,
-    },
+/// What a mesh is uploaded for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct MeshOptions {
+    /// How its edges lie in memory.
+    pub layout: Layout,
+    /// Whether its edges can be linked into strokes: 12 bytes more per edge.
+    pub links: bool,
+    /// Whether its surface can be shaded: 32 bytes per corner with attributes of its own.
+    pub surface: bool,
 }
 
-/// A chunk.
+impl From<Layout> for MeshOptions {
+    /// Edges drawn one by one, without a surface.
+    fn from(layout: Layout) -> Self {
+        Self { layout, ..Self::default() }
+    }
+}
+
+/// What no pose changes of a chunk.
 #[derive(Debug)]
 pub(crate) struct ChunkBuffers {
     pub(crate) size: ChunkUniform,
     pub(crate) uniform: wgpu::Buffer,
-    pub(crate) source: EdgeSource,
-    pub(crate) run_cones: wgpu::Buffer,
-    /// Which edge follows which, where strokes can be linked.
+    /// Which edge follows which, if edges can be linked.
     pub(crate) links: Option<wgpu::Buffer>,
 }
 
-/// Triangles to fill.
+/// Triangles that hide strokes.
 #[derive(Debug)]
-pub(crate) struct FillBuffers {
-    pub(crate) positions: wgpu::Buffer,
+pub(crate) struct FillTriangles {
     pub(crate) triangles: wgpu::Buffer,
     pub(crate) index_count: u32,
 }
@@ -100,103 +95,114 @@ pub(crate) struct FillBuffers {
 /// The buffers of one mesh.
 #[derive(Debug)]
 pub struct MeshBuffers {
-    pub(crate) layout: Layout,
+    options: MeshOptions,
     pub(crate) chunks: Vec<ChunkBuffers>,
-    pub(crate) fill: Vec<FillBuffers>,
-    pub(crate) bounds: Bounds,
+    /// As many as there are [`Geometry::fill`] buffers.
+    pub(crate) fill: Vec<FillTriangles>,
+    surface: Option<SurfaceBuffers>,
+    rest: Arc<Geometry>,
+    bounds: Bounds,
     byte_count: u64,
 }
 
 impl MeshBuffers {
-    /// Uploads `mesh`, to draw each edge by itself.
+    /// Uploads `mesh`.
     ///
     /// # Errors
-    /// [`MeshTooLarge`], before anything is uploaded: where the adapter cannot
-    /// bind even what a run of edges needs.
+    /// [`MeshTooLarge`], before anything is uploaded, if the adapter cannot bind even what a
+    /// run of edges needs, or cannot hold the surface.
     pub fn new(
         device: &wgpu::Device,
         mesh: &EdgeMesh,
-        layout: Layout,
+        options: impl Into<MeshOptions>,
     ) -> Result<Self, MeshTooLarge> {
-        Self::upload(device, mesh, layout, None)
-    }
-
-    /// Uploads `mesh`, to draw it in linked strokes too: 12 bytes an edge more.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn with_links(
-        device: &wgpu::Device,
-        mesh: &EdgeMesh,
-        layout: Layout,
-    ) -> Result<Self, MeshTooLarge> {
-        Self::upload(device, mesh, layout, Some(LinkTable::of(mesh)))
-    }
-
-    fn upload(
-        device: &wgpu::Device,
-        mesh: &EdgeMesh,
-        layout: Layout,
-        links: Option<LinkTable>,
-    ) -> Result<Self, MeshTooLarge> {
+        let options = options.into();
+        let layout = options.layout;
         let limits = chunk_limits(device, layout, mesh.records.len())?;
+        let surface = options.surface.then(|| surface_arrays(device, mesh, layout)).transpose()?;
+        let links = options.links.then(|| LinkTable::of(mesh));
         let words = edge_words(mesh);
-        let parts = chunks(mesh, &words, &limits);
-        let byte_count = std::cell::Cell::new(0);
-        let upload = Upload { device, edge_count: mesh.records.len(), byte_count };
-        let quantization = Quantization::of(&mesh.bounds);
-        let replicated = match layout {
-            Layout::Indexed => Vec::new(),
-            Layout::Replicated => bytemuck::pod_collect_to_vec(&replicate(mesh)),
-            Layout::Replicated16 => bytemuck::pod_collect_to_vec::<_, u32>(&replicate_16(mesh)),
-            Layout::FaceNormals => bytemuck::pod_collect_to_vec(&fins(mesh)),
+        let chunks = chunks(mesh, &words, &limits);
+        let upload = Upload {
+            device,
+            layout,
+            mesh,
+            quantization: Quantization::of(&mesh.bounds),
+            replicated: replicated_words(mesh, layout),
+            shared_positions: surface
+                .as_ref()
+                .map(|arrays| &arrays.positions[..])
+                .filter(|positions| chunks.len() == 1 && fits_binding(device, positions)),
+            byte_count: Cell::new(0),
         };
-        let words_per_edge = replicated.len() / mesh.records.len().max(1);
-        let chunk_buffers = |(index, part): (usize, &Chunk)| {
-            let words = |edges: &Range<usize>| {
-                &replicated[edges.start * words_per_edge..edges.end * words_per_edge]
-            };
-            let source = match layout {
-                Layout::Indexed => upload.indexed(part),
-                _ => EdgeSource::Replicated {
-                    vertices: upload.items(
-                        "edge vertices",
-                        words(&part.edges),
-                        BufferUsages::STORAGE | BufferUsages::VERTEX,
-                    ),
-                },
-            };
-            let cones = match layout {
-                Layout::Replicated16 => run_cones(part, &rounded_planes(part, &quantization)),
-                _ => run_cones(part, &part.planes),
-            };
-            upload.chunk(index, part, source, &cones, links.as_ref())
-        };
-        let chunks: Vec<ChunkBuffers> = parts.iter().enumerate().map(chunk_buffers).collect();
-        let fill = match &chunks[..] {
-            [ChunkBuffers { source: EdgeSource::Indexed { positions, triangles, .. }, .. }] => {
-                vec![FillBuffers {
-                    positions: positions.clone(),
-                    triangles: triangles.clone(),
-                    index_count: to_u32(3 * mesh.triangles.len()),
-                }]
+        let mut geometry = Geometry { chunks: Vec::new(), fill: Vec::new(), surface: None };
+        let mut chunk_buffers = Vec::new();
+        for (index, chunk) in chunks.iter().enumerate() {
+            let (buffers, of_chunk) = upload.chunk(index, chunk, links.as_ref());
+            chunk_buffers.push(buffers);
+            geometry.chunks.push(of_chunk);
+        }
+        // One chunk in the indexed layout shares its positions with the fill and the surface.
+        let shared = match &geometry.chunks[..] {
+            [ChunkGeometry { edges: EdgeGeometry::Indexed { positions, triangles, .. }, .. }] => {
+                Some((positions.clone(), triangles.clone()))
             }
-            _ => upload.fill(mesh, layout, &quantization),
+            _ => None,
         };
-        let byte_count = upload.byte_count.get();
-        Ok(Self { layout, chunks, fill, bounds: mesh.bounds, byte_count })
+        let fill = match &shared {
+            Some((positions, triangles)) => {
+                geometry.fill.push(positions.clone());
+                let (triangles, index_count) =
+                    (triangles.clone(), to_u32(3 * mesh.triangles.len()));
+                vec![FillTriangles { triangles, index_count }]
+            }
+            None => upload.fill(&mut geometry.fill),
+        };
+        let surface = surface.as_ref().map(|arrays| {
+            let is_shared = upload.shared_positions.is_some();
+            let positions = shared.map(|(positions, _)| positions).filter(|_| is_shared);
+            let (buffers, of_surface) = upload.surface(arrays, positions);
+            geometry.surface = Some(of_surface);
+            buffers
+        });
+        Ok(Self {
+            options,
+            chunks: chunk_buffers,
+            fill,
+            surface,
+            rest: Arc::new(geometry),
+            bounds: mesh.bounds,
+            byte_count: upload.byte_count.get(),
+        })
+    }
+
+    /// What the mesh was uploaded for.
+    #[must_use]
+    pub const fn options(&self) -> MeshOptions {
+        self.options
+    }
+
+    /// The box around the mesh.
+    #[must_use]
+    pub const fn bounds(&self) -> &Bounds {
+        &self.bounds
+    }
+
+    /// The geometry as the mesh has it, without a pose.
+    pub(crate) const fn rest(&self) -> &Arc<Geometry> {
+        &self.rest
+    }
+
+    /// The triangles of the surface; `None` if the mesh was uploaded without it.
+    #[must_use]
+    pub const fn surface(&self) -> Option<&SurfaceBuffers> {
+        self.surface.as_ref()
     }
 
     /// Bytes of all buffers that no view changes.
     #[must_use]
     pub const fn byte_count(&self) -> u64 {
         self.byte_count
-    }
-
-    /// Whether its edges can be linked into strokes.
-    #[must_use]
-    pub fn has_links(&self) -> bool {
-        self.chunks.iter().all(|chunk| chunk.links.is_some())
     }
 
     /// How many chunks the mesh is in.
@@ -227,7 +233,7 @@ fn chunk_limits(
         ("edges", run * bytes_per_edge),
         ("face planes", 2 * run * size_of::<FacePlane>()),
         // All of them are one buffer.
-        ("run states", edge_count.div_ceil(run).max(1) * size_of::<RunState>()),
+        ("run states", edge_count.div_ceil(run).max(1) * RUN_STATE_BYTES),
     ];
     for (what, need) in needs {
         if need > bytes {
@@ -239,20 +245,56 @@ fn chunk_limits(
     Ok(ChunkLimits { edges, faces: bytes / size_of::<FacePlane>(), vertices: bytes / 12 })
 }
 
-/// Edges of a chunk that can be linked into strokes: of small meshes all, and its share
-/// of what one binding can hold of the whole mesh.
-fn node_capacity(device: &wgpu::Device, edge_count: usize, of_mesh: usize) -> u32 {
-    let limit = device.limits().max_storage_buffer_binding_size / BYTES_PER_NODE;
-    let most = u128::from(limit) * edge_count as u128 / of_mesh.max(1) as u128;
-    let most = usize::try_from(most).unwrap_or(usize::MAX);
-    to_u32(edge_count.min(MIN_NODES.max(edge_count / EDGES_PER_NODE)).min(most))
+fn fits_binding(device: &wgpu::Device, positions: &[[f32; 3]]) -> bool {
+    size_of_val(positions) as u64 <= device.limits().max_storage_buffer_binding_size
+}
+
+/// The words of all edge vertices of a replicated layout; none in the indexed layout.
+fn replicated_words(mesh: &EdgeMesh, layout: Layout) -> Vec<u32> {
+    match layout {
+        Layout::Indexed => Vec::new(),
+        Layout::Replicated => bytemuck::pod_collect_to_vec(&replicate(mesh)),
+        Layout::Replicated16 => bytemuck::pod_collect_to_vec::<_, u32>(&replicate_16(mesh)),
+        Layout::FaceNormals => bytemuck::pod_collect_to_vec(&fins(mesh)),
+    }
+}
+
+/// The surface of `mesh`, with the positions of `layout`.
+fn surface_arrays(
+    device: &wgpu::Device,
+    mesh: &EdgeMesh,
+    layout: Layout,
+) -> Result<SurfaceArrays, MeshTooLarge> {
+    let mut arrays = SurfaceArrays::of(mesh);
+    let limit = device.limits().max_buffer_size;
+    for (what, need) in [
+        ("surface vertices", size_of_val(&*arrays.positions) as u64),
+        ("surface triangles", size_of_val(&*arrays.indices) as u64),
+    ] {
+        if need > limit {
+            return Err(MeshTooLarge { what, need, limit });
+        }
+    }
+    if layout == Layout::Replicated16 {
+        let steps = Quantization::of(&mesh.bounds);
+        for position in &mut arrays.positions {
+            *position = steps.dequantize(steps.quantize(*position));
+        }
+    }
+    Ok(arrays)
 }
 
 struct Upload<'a> {
     device: &'a wgpu::Device,
-    /// Of the whole mesh.
-    edge_count: usize,
-    byte_count: std::cell::Cell<u64>,
+    layout: Layout,
+    mesh: &'a EdgeMesh,
+    quantization: Quantization,
+    /// See [`replicated_words`].
+    replicated: Vec<u32>,
+    /// Positions of the surface, which begin with those of the mesh, if the only chunk can
+    /// bind them.
+    shared_positions: Option<&'a [[f32; 3]]>,
+    byte_count: Cell<u64>,
 }
 
 impl Upload<'_> {
@@ -266,111 +308,138 @@ impl Upload<'_> {
         self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label, contents, usage })
     }
 
-    fn indexed(&self, part: &Chunk) -> EdgeSource {
+    fn chunk(
+        &self,
+        index: usize,
+        chunk: &Chunk,
+        links: Option<&LinkTable>,
+    ) -> (ChunkBuffers, ChunkGeometry) {
+        let edge_count = chunk.records.len();
+        let size = ChunkUniform {
+            face_count: to_u32(chunk.triangles.len()),
+            edge_count: to_u32(edge_count),
+            run_count: to_u32(edge_count).div_ceil(EDGES_PER_RUN),
+            capacity: stroke_capacity(self.device, edge_count),
+            first_run: to_u32(chunk.edges.start) / EDGES_PER_RUN,
+            chunk_index: to_u32(index),
+            node_capacity: node_capacity(self.device, edge_count, self.mesh.records.len()),
+            padding: 0,
+        };
         let storage = BufferUsages::STORAGE;
-        let cones: Vec<NormalCone> = part
+        let cones = match self.layout {
+            Layout::Replicated16 => run_cones(chunk, &rounded_planes(chunk, &self.quantization)),
+            _ => run_cones(chunk, &chunk.planes),
+        };
+        let geometry = ChunkGeometry {
+            edges: self.edges(chunk),
+            run_cones: self.items("run cones", &cones, storage),
+        };
+        let buffers = ChunkBuffers {
+            size,
+            uniform: uniform_buffer(self.device, "chunk", &size),
+            links: links.map(|links| self.items("links", &links.chunk(&chunk.edges), storage)),
+        };
+        (buffers, geometry)
+    }
+
+    fn edges(&self, chunk: &Chunk) -> EdgeGeometry {
+        let storage = BufferUsages::STORAGE;
+        if self.layout != Layout::Indexed {
+            let words_per_edge = self.replicated.len() / self.mesh.records.len().max(1);
+            let range = chunk.edges.start * words_per_edge..chunk.edges.end * words_per_edge;
+            let usage = storage | BufferUsages::VERTEX;
+            let vertices = self.items("edge vertices", &self.replicated[range], usage);
+            return EdgeGeometry::Replicated { vertices };
+        }
+        let cones: Vec<NormalCone> = chunk
             .planes
             .par_chunks(FACES_PER_WORD)
             .map(|planes| NormalCone::of(planes.iter()))
             .collect();
-        EdgeSource::Indexed {
-            records: self.items("edge records", &part.records, storage),
-            positions: self.items("positions", &part.positions, storage | BufferUsages::VERTEX),
-            normals: self.items("vertex normals", &part.normals, storage),
-            triangles: self.items("triangles", &part.triangles, storage | BufferUsages::INDEX),
-            planes: self.items("face planes", &part.planes, storage),
+        let positions = self.shared_positions.unwrap_or(&chunk.positions);
+        EdgeGeometry::Indexed {
+            records: self.items("edge records", &chunk.records, storage),
+            triangles: self.items("triangles", &chunk.triangles, storage | BufferUsages::INDEX),
+            positions: self.items("positions", positions, storage | BufferUsages::VERTEX),
+            normals: self.items("vertex normals", &chunk.normals, storage),
+            planes: self.items("face planes", &chunk.planes, storage),
             face_cones: self.items("face cones", &cones, storage),
         }
     }
 
-    fn chunk(
-        &self,
-        index: usize,
-        part: &Chunk,
-        source: EdgeSource,
-        cones: &[NormalCone],
-        links: Option<&LinkTable>,
-    ) -> ChunkBuffers {
-        let edge_count = part.records.len();
-        let most = MAX_EXPANDED_BYTES.min(self.device.limits().max_storage_buffer_binding_size);
-        let most = most / u64::from(crate::draw::expand::BYTES_PER_STROKE);
-        let most = usize::try_from(most).unwrap_or(usize::MAX);
-        let size = ChunkUniform {
-            face_count: to_u32(part.triangles.len()),
-            edge_count: to_u32(edge_count),
-            run_count: to_u32(edge_count).div_ceil(EDGES_PER_RUN),
-            capacity: to_u32(
-                edge_count.min(MIN_EXPANDED.max(edge_count / EDGES_PER_EXPANDED)).min(most),
-            ),
-            first_run: to_u32(part.edges.start) / EDGES_PER_RUN,
-            chunk_index: to_u32(index),
-            node_capacity: node_capacity(self.device, edge_count, self.edge_count),
-            padding: 0,
-        };
-        ChunkBuffers {
-            size,
-            uniform: uniform_buffer(self.device, "chunk", &size),
-            source,
-            run_cones: self.items("run cones", cones, BufferUsages::STORAGE),
-            links: links
-                .map(|links| self.items("links", &links.chunk(&part.edges), BufferUsages::STORAGE)),
-        }
-    }
-
-    /// Triangles for the fill alone, in parts that fit a buffer.
-    fn fill(
-        &self,
-        mesh: &EdgeMesh,
-        layout: Layout,
-        quantization: &Quantization,
-    ) -> Vec<FillBuffers> {
+    /// Triangles for the fill alone, in parts that fit a buffer; their positions go to
+    /// `positions`.
+    fn fill(&self, positions: &mut Vec<wgpu::Buffer>) -> Vec<FillTriangles> {
+        let mesh = self.mesh;
+        let (layout, steps) = (self.layout, &self.quantization);
         let position = |position: [f32; 3]| match layout {
-            Layout::Replicated16 => quantization.dequantize(quantization.quantize(position)),
+            Layout::Replicated16 => steps.dequantize(steps.quantize(position)),
             _ => position,
         };
         let most = usize::try_from(self.device.limits().max_buffer_size).unwrap_or(usize::MAX) / 12;
-        let buffers = |positions: &[[f32; 3]], triangles: &[[u32; 3]]| FillBuffers {
-            positions: self.items("fill positions", positions, BufferUsages::VERTEX),
-            triangles: self.items("fill triangles", triangles, BufferUsages::INDEX),
-            index_count: to_u32(3 * triangles.len()),
+        let mut buffers = |corners: &[[f32; 3]], triangles: &[[u32; 3]]| {
+            positions.push(self.items("fill positions", corners, BufferUsages::VERTEX));
+            FillTriangles {
+                triangles: self.items("fill triangles", triangles, BufferUsages::INDEX),
+                index_count: to_u32(3 * triangles.len()),
+            }
         };
         if mesh.positions.len() <= most && mesh.triangles.len() <= most {
-            let positions: Vec<[f32; 3]> =
-                mesh.positions.par_iter().map(|&p| position(p)).collect();
-            return vec![buffers(&positions, &mesh.triangles)];
+            let corners: Vec<[f32; 3]> = mesh.positions.par_iter().map(|&p| position(p)).collect();
+            return vec![buffers(&corners, &mesh.triangles)];
         }
-        // Each triangle with corners of its own: no part has more than it can hold.
-        let corners = |part: &[[u32; 3]]| {
-            let positions: Vec<[f32; 3]> = part
+        // Each triangle has corners of its own: no part has more than it can hold.
+        let mut part = |triangles: &[[u32; 3]]| {
+            let corners: Vec<[f32; 3]> = triangles
                 .iter()
                 .flatten()
                 .map(|&vertex| position(mesh.positions[vertex as usize]))
                 .collect();
-            let triangles: Vec<[u32; 3]> = (0..to_u32(part.len()))
+            let triangles: Vec<[u32; 3]> = (0..to_u32(triangles.len()))
                 .map(|face| [3 * face, 3 * face + 1, 3 * face + 2])
                 .collect();
-            buffers(&positions, &triangles)
+            buffers(&corners, &triangles)
         };
-        mesh.triangles.chunks((most / 3).max(1)).map(corners).collect()
+        mesh.triangles.chunks((most / 3).max(1)).map(&mut part).collect()
+    }
+
+    /// The surface; `positions` if they are on the GPU already.
+    fn surface(
+        &self,
+        arrays: &SurfaceArrays,
+        positions: Option<wgpu::Buffer>,
+    ) -> (SurfaceBuffers, SurfaceGeometry) {
+        let vertex = BufferUsages::VERTEX;
+        let own = || self.items("surface positions", &arrays.positions, vertex);
+        let geometry = SurfaceGeometry {
+            positions: positions.unwrap_or_else(own),
+            normals: self.items("surface normals", &arrays.normals, vertex),
+        };
+        let buffers = SurfaceBuffers {
+            texcoords: self.items("texture coordinates", &arrays.texcoords, vertex),
+            indices: self.items("surface triangles", &arrays.indices, BufferUsages::INDEX),
+            ranges: arrays.ranges.clone(),
+        };
+        (buffers, geometry)
     }
 }
 
 /// The cones around the faces of each run of edges.
-fn run_cones(part: &Chunk, planes: &[FacePlane]) -> Vec<NormalCone> {
-    let of_run = |run: &[[u32; 5]]| {
-        let faces = run.iter().flat_map(|&[_, _, face_a, face_b, _]| [face_a, face_b]);
+fn run_cones(chunk: &Chunk, planes: &[FacePlane]) -> Vec<NormalCone> {
+    let of_run = |run: &[PackedRecord]| {
+        let faces = run.iter().flat_map(|record| [record.face_a, record.face_b]);
         NormalCone::of(faces.filter(|&face| face != NONE).map(|face| &planes[face as usize]))
     };
-    part.records.par_chunks(EDGES_PER_RUN as usize).map(of_run).collect()
+    chunk.records.par_chunks(EDGES_PER_RUN as usize).map(of_run).collect()
 }
 
 /// The planes of a chunk's faces as they are at 16 bits. A face whose rounded
 /// corners say nothing of where it looks has none, and no cluster answers for it:
 /// one without area, which stands in its neighbour's plane in the vertices.
-fn rounded_planes(part: &Chunk, quantization: &Quantization) -> Vec<FacePlane> {
+fn rounded_planes(chunk: &Chunk, quantization: &Quantization) -> Vec<FacePlane> {
     let plane = |(triangle, plane): (&[u32; 3], &FacePlane)| {
         let corners = triangle.map(|vertex| {
-            let steps = quantization.quantize(part.positions[vertex as usize]);
+            let steps = quantization.quantize(chunk.positions[vertex as usize]);
             Vec3::from(quantization.dequantize(steps)).as_dvec3()
         });
         let [a, b, c] = corners;
@@ -379,5 +448,5 @@ fn rounded_planes(part: &Chunk, quantization: &Quantization) -> Vec<FacePlane> {
         let normal = if is_told { normal } else { Vec3::ZERO };
         FacePlane { normal: normal.extend(0.0).into(), point: a.as_vec3().extend(1.0).into() }
     };
-    part.triangles.par_iter().zip(&part.planes[..]).map(plane).collect()
+    chunk.triangles.par_iter().zip(&chunk.planes[..]).map(plane).collect()
 }

@@ -18,15 +18,14 @@ use edgemesh::edge_mesh::record::EdgeRecord;
 use edgemesh::edge_mesh::{EdgeMesh, FacePlane};
 use edgemesh::index::{NONE, to_u32};
 
-use crate::mesh::layout::EDGES_PER_RUN;
+use crate::mesh::layout::{EDGES_PER_RUN, PackedRecord};
 
 /// A part of a mesh.
 #[derive(Debug)]
 pub(crate) struct Chunk<'a> {
     /// Its records among those of the mesh.
     pub(crate) edges: Range<usize>,
-    /// `v0, v1, face_a, face_b` and the edge's word.
-    pub(crate) records: Vec<[u32; 5]>,
+    pub(crate) records: Vec<PackedRecord>,
     pub(crate) positions: Cow<'a, [[f32; 3]]>,
     pub(crate) normals: Cow<'a, [[f32; 3]]>,
     pub(crate) triangles: Cow<'a, [[u32; 3]]>,
@@ -60,7 +59,7 @@ pub(crate) fn chunks<'a>(
         let edges = mesh.records.iter().zip(words);
         return vec![Chunk {
             edges: 0..mesh.records.len(),
-            records: edges.map(|(record, &word)| record_words(record, word)).collect(),
+            records: edges.map(|(record, &word)| packed(record, word)).collect(),
             positions: (&mesh.positions).into(),
             normals: (&mesh.vertex_normals).into(),
             triangles: (&mesh.triangles).into(),
@@ -85,8 +84,9 @@ pub(crate) fn chunks<'a>(
     cutter.chunks
 }
 
-fn record_words(record: &EdgeRecord, word: EdgeWord) -> [u32; 5] {
-    [record.v0, record.v1, record.face_a, record.face_b, word.0]
+fn packed(record: &EdgeRecord, word: EdgeWord) -> PackedRecord {
+    let EdgeRecord { v0, v1, face_a, face_b, .. } = *record;
+    PackedRecord { v0, v1, face_a, face_b, word }
 }
 
 /// What a chunk has of the faces or vertices, in the order in which they came.
@@ -190,7 +190,7 @@ impl<'a> Cutter<'a> {
             records: self.mesh.records[edges.clone()]
                 .iter()
                 .zip(&words[edges.clone()])
-                .map(|(record, &word)| record_words(&renumber(record), word))
+                .map(|(record, &word)| packed(&renumber(record), word))
                 .collect(),
             positions: self.vertices.pick(&self.mesh.positions).into(),
             normals: self.vertices.pick(&self.mesh.vertex_normals).into(),
@@ -242,9 +242,10 @@ mod tests {
             for (local, edge) in chunk.records.iter().zip(chunk.edges.clone()) {
                 let record = &mesh.records[edge];
                 let corner = |vertex: u32| mesh.positions[vertex as usize];
-                assert_eq!(chunk.positions[local[0] as usize], corner(record.v0));
-                assert_eq!(chunk.positions[local[1] as usize], corner(record.v1));
-                for (local, face) in [(local[2], record.face_a), (local[3], record.face_b)] {
+                assert_eq!(chunk.positions[local.v0 as usize], corner(record.v0));
+                assert_eq!(chunk.positions[local.v1 as usize], corner(record.v1));
+                for (local, face) in [(local.face_a, record.face_a), (local.face_b, record.face_b)]
+                {
                     assert_eq!(local == NONE, face == NONE);
                     if face != NONE {
                         let corners = chunk.triangles[local as usize]

@@ -1,6 +1,7 @@
 //! How edges lie in memory on the GPU.
 
 use bytemuck::{Pod, Zeroable};
+use edgemesh::edge_mesh::edge_word::EdgeWord;
 use edgemesh_shaders::{ShaderError, ShaderSource};
 
 use crate::gpu::shader::shader_module;
@@ -78,4 +79,20 @@ pub struct ChunkUniform {
     pub node_capacity: u32,
     /// Unused.
     pub padding: u32,
+}
+
+/// An edge record as shaders read it: 20 bytes. WGSL twin: `shaders/common/mesh.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct PackedRecord {
+    /// Start vertex in the chunk.
+    pub v0: u32,
+    /// End vertex.
+    pub v1: u32,
+    /// The face that traverses the edge from `v0` to `v1`, or `NONE`.
+    pub face_a: u32,
+    /// The face across, or `NONE`.
+    pub face_b: u32,
+    /// Static flags and the angle of the crease.
+    pub word: EdgeWord,
 }

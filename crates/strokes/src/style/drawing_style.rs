@@ -1,9 +1,9 @@
-//! How an object looks: its fill, and the strokes of each class of edge.
+//! Drawing styles: the strokes of each line class, and the fill under them.
 //!
-//! Classes that look alike are one *layer*; a layer is one list of edges and one
-//! draw. Each layer can have a second style for what is hidden (paper, section
-//! 3.5), and the one with the contours a third for the silhouette, which is
-//! drawn over the contours where they border on other things (section 3.4).
+//! Classes that are drawn alike are one *layer*: one list of edges. The strokes of a layer
+//! with one visibility are a *stroke set*: what is visible, what is hidden (paper, section
+//! 3.5), and for the layer with the contours the silhouette, which is drawn over the contours
+//! where they border on other things (section 3.4).
 //!
 //! ```text
 //!   classes --ClassTable--> layers --+--> visible strokes
@@ -17,17 +17,14 @@ use edgemesh::line::kind::LineKind;
 use edgemesh::line::placement::{Parameterization, Placement};
 
 use crate::style::brush::Brush;
-use crate::style::link_style::MITRE_LIMIT;
-pub use crate::style::link_style::PathStyle;
+use crate::style::link_style::{LinkStyle, MITRE_LIMIT};
 
-/// Layers that one object can have: one a class. WGSL twin: the constant of this
-/// name.
-pub const MAX_LAYERS: usize = LineClass::ALL.len();
+/// Layers that one object can have: one per class. WGSL twin: the constant of this name.
+pub const MAX_LAYERS: usize = LineClass::COUNT;
 
-/// Draws of strokes that one object can have: of each layer the visible and the
-/// hidden strokes, and the silhouettes of both kinds. WGSL twin: the constant of
-/// this name.
-pub const MAX_DRAWS: usize = 2 * MAX_LAYERS + 2;
+/// Stroke sets that one object can have: the visible and the hidden strokes of each layer, and
+/// the silhouettes of both kinds. WGSL twin: the constant of this name.
+pub const MAX_STROKE_SETS: usize = 2 * MAX_LAYERS + 2;
 
 /// How wide a stroke is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,7 +35,7 @@ pub enum Width {
     World(f32),
 }
 
-/// How one kind of stroke looks.
+/// How the strokes of a set are drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StrokeStyle {
     /// Premultiplied colour.
@@ -58,7 +55,7 @@ pub struct StrokeStyle {
     pub fade: Option<[f32; 2]>,
     /// How edges are linked into strokes; `None` draws each edge by itself, as the
     /// paper does. Where compute shaders detect; thin lines and fins are never linked.
-    pub path: Option<PathStyle>,
+    pub link: Option<LinkStyle>,
 }
 
 impl Default for StrokeStyle {
@@ -72,7 +69,7 @@ impl Default for StrokeStyle {
             parameterization: Parameterization::default(),
             brush: None,
             fade: None,
-            path: None,
+            link: None,
         }
     }
 }
@@ -81,20 +78,20 @@ impl StrokeStyle {
     /// How far linked strokes lie from their lines at most, in pixels.
     pub(crate) fn reach_px(&self) -> Option<f32> {
         let Width::Pixels(width) = self.width else { return None };
-        let path = self.path.as_ref()?;
-        let widest = width * path.width_curve.into_iter().fold(0.0, f32::max);
+        let link = self.link.as_ref()?;
+        let widest = width * link.width_curve.into_iter().fold(0.0, f32::max);
         // Mitres and points go beyond the width.
-        let beyond = path.overshoot_px + path.wobble_px + path.jitter_px;
+        let beyond = link.overshoot_px + link.wobble_px + link.jitter_px;
         Some(MITRE_LIMIT * widest + beyond + 2.0)
     }
 
     /// Whether edges are linked into strokes.
     pub(crate) const fn is_linked(&self) -> bool {
-        self.path.is_some() && !matches!(self.kind, LineKind::Thin | LineKind::Fin)
+        self.link.is_some() && !matches!(self.kind, LineKind::Thin | LineKind::Fin)
     }
 }
 
-/// The classes that look alike, and how.
+/// Line classes that are drawn alike.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
     /// The classes.
@@ -105,9 +102,17 @@ pub struct Layer {
     pub hidden: Option<StrokeStyle>,
 }
 
-/// How an object looks.
+impl Layer {
+    /// A layer of `classes` whose visible strokes are drawn in `style`.
+    #[must_use]
+    pub fn visible(classes: impl Into<Vec<LineClass>>, style: StrokeStyle) -> Self {
+        Self { classes: classes.into(), visible: Some(style), hidden: None }
+    }
+}
+
+/// How the lines of an object are drawn.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Look {
+pub struct DrawingStyle {
     /// Premultiplied colour of the surface; `None` fills only the depth, so that
     /// what lies behind shows through and lines are still hidden.
     pub fill_color: Option<[f32; 4]>,
@@ -122,7 +127,7 @@ pub struct Look {
     pub thresholds: Option<[f64; 2]>,
 }
 
-/// Which strokes of a layer a draw draws.
+/// Which strokes of a layer a set has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[repr(u32)]
 pub enum Visibility {
@@ -134,16 +139,16 @@ pub enum Visibility {
     Silhouette = 2,
 }
 
-/// One draw of strokes.
+/// The strokes of one layer with one visibility.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct StyledDraw {
+pub(crate) struct StrokeSet {
     pub(crate) layer: u32,
     pub(crate) visibility: Visibility,
     pub(crate) style: StrokeStyle,
     pub(crate) has_contours: bool,
 }
 
-impl StyledDraw {
+impl StrokeSet {
     /// Whether it draws contours over the surface that they bound, which would
     /// swallow them: their fragments ask at the edge whether they are visible.
     pub(crate) const fn lies_over_surface(&self) -> bool {
@@ -153,7 +158,7 @@ impl StyledDraw {
     }
 }
 
-impl Look {
+impl DrawingStyle {
     /// Whether any strokes are linked, where compute shaders detect.
     pub(crate) fn is_linked(&self) -> bool {
         let of_layers = self.layers.iter().flat_map(|layer| [&layer.visible, &layer.hidden]);
@@ -178,16 +183,16 @@ impl Look {
         table
     }
 
-    /// The draws of strokes in order: what is hidden, then what is visible, each
+    /// The stroke sets in the order of drawing: what is hidden, then what is visible, each
     /// from the last layer to the first, then the silhouette.
-    pub(crate) fn draws(&self) -> Vec<StyledDraw> {
+    pub(crate) fn stroke_sets(&self) -> Vec<StrokeSet> {
         let has_contours = |layer: &Layer| layer.classes.contains(&LineClass::Contour);
         let of_layers = |visibility, style: fn(&Layer) -> Option<&StrokeStyle>| {
             self.layers.iter().enumerate().rev().filter_map(move |(layer, of_layer)| {
                 let layer = edgemesh::index::to_u32(layer);
                 let has_contours = has_contours(of_layer);
                 let style = style(of_layer).cloned();
-                style.map(|style| StyledDraw { layer, visibility, style, has_contours })
+                style.map(|style| StrokeSet { layer, visibility, style, has_contours })
             })
         };
         let hidden = of_layers(Visibility::Hidden, |layer| layer.hidden.as_ref());
@@ -195,7 +200,7 @@ impl Look {
         let silhouette = self.silhouette.iter().filter_map(|style| {
             let layer = edgemesh::index::to_u32(self.layers.iter().position(has_contours)?);
             let visibility = Visibility::Silhouette;
-            Some(StyledDraw { layer, visibility, style: style.clone(), has_contours: true })
+            Some(StrokeSet { layer, visibility, style: style.clone(), has_contours: true })
         });
         hidden.chain(visible).chain(silhouette).collect()
     }

@@ -44,7 +44,7 @@ pub enum BrushFit {
 
 /// How edges are linked into strokes.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PathStyle {
+pub struct LinkStyle {
     /// How segments meet.
     pub join: Join,
     /// How strokes end.
@@ -84,7 +84,7 @@ pub struct PathStyle {
     pub dash_px: Option<[f32; 2]>,
 }
 
-impl Default for PathStyle {
+impl Default for LinkStyle {
     /// Round joins and ends, cut at corners of 60 degrees and where hidden.
     fn default() -> Self {
         Self {

@@ -3,7 +3,7 @@
 //! Small dispatches: `detect_faces` packs 32 facing bits an invocation, most of
 //! them by one look at a cone of normals; `count_runs`, `scan_runs` and
 //! `write_runs` list the edges to draw without any race, so that the same view
-//! always gives the same list. `mark_static` goes before them when the classes
+//! always gives the same list. `find_static` goes before them when the classes
 //! change, and works out what no view does.
 //!
 //! Rejected: appending with one atomic counter, which is as fast but gives another
@@ -11,6 +11,8 @@
 //! is in [`crate::draw::stroke`], to compare with.
 
 use bytemuck::{Pod, Zeroable};
+use edgemesh::index::to_u32;
+use edgemesh::line::class::ClassTable;
 use edgemesh_shaders::ShaderError;
 use wgpu::ShaderStages;
 
@@ -18,62 +20,66 @@ use crate::gpu::bind::{
     bind_buffers, bind_layout, compute_pipeline, storage_entry, uniform_buffer, uniform_entry,
 };
 use crate::gpu::shader::embedded_module;
-use crate::mesh::buffers::{ChunkBuffers, EdgeSource};
+use crate::mesh::buffers::ChunkBuffers;
+use crate::mesh::geometry::{ChunkGeometry, EdgeGeometry};
 use crate::mesh::layout::{FACES_PER_WORD, Layout};
-use crate::style::drawing_style::{Look, MAX_DRAWS};
-use crate::view::live_lists::{ObjectBuffers, Tally, ViewBuffers};
+use crate::style::drawing_style::{DrawingStyle, MAX_STROKE_SETS};
+use crate::view::live_lists::{ChunkLists, ObjectRuns, Tally};
 
 /// Invocations a workgroup, as in the shaders.
 const WORKGROUP: u32 = 64;
 
-/// What detection must know of a look. WGSL twin: `shaders/detect_edges.wgsl`.
+/// What detection must know of a drawing style. WGSL twin: `shaders/detect_edges.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct DetectUniform {
-    /// The fields of a [`edgemesh::line::class::ClassTable`].
-    pub layers: u32,
-    /// As there.
-    pub drawn: u32,
-    /// As there.
-    pub ridge_steps: u32,
-    /// As there.
-    pub valley_steps: u32,
-    /// As there.
-    pub keeps_hidden: u32,
-    /// Layers of the look.
+    /// Which classes are drawn, in which layer.
+    pub classes: ClassTable,
+    /// Layers of the style.
     pub layer_count: u32,
-    /// Draws of the look.
-    pub draw_count: u32,
+    /// Stroke sets of the style.
+    pub set_count: u32,
     /// Unused.
-    pub padding: u32,
-    /// Layer and indices an edge of each draw, 1 where none of its strokes is
-    /// expanded, 1 where they are linked.
-    pub draws: [[u32; 4]; MAX_DRAWS],
+    pub padding: [u32; 2],
+    /// The stroke sets in the order of drawing.
+    pub sets: [DetectedSet; MAX_STROKE_SETS],
+}
+
+/// What detection must know of a stroke set. WGSL twin: the struct of this name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct DetectedSet {
+    /// Its layer.
+    pub layer: u32,
+    /// Indices per edge.
+    pub indices_per_edge: u32,
+    /// 1 if none of its strokes is expanded.
+    pub is_listed: u32,
+    /// 1 if its strokes are linked.
+    pub is_linked: u32,
 }
 
 impl DetectUniform {
-    /// The uniform of a look.
+    /// The uniform of a style.
     #[must_use]
-    pub fn new(look: &Look) -> Self {
-        let table = look.class_table();
-        let mut draws = [[0; 4]; MAX_DRAWS];
-        let styled = look.draws();
-        for (draw, styled) in draws.iter_mut().zip(&styled) {
-            let index_count = edgemesh::index::to_u32(styled.style.kind.indices().len());
-            let is_linked = styled.style.is_linked();
-            let is_listed = styled.lies_over_surface() || is_linked;
-            *draw = [styled.layer, index_count, u32::from(is_listed), u32::from(is_linked)];
+    pub fn new(style: &DrawingStyle) -> Self {
+        let mut sets = [DetectedSet::zeroed(); MAX_STROKE_SETS];
+        let stroke_sets = style.stroke_sets();
+        for (detected, set) in sets.iter_mut().zip(&stroke_sets) {
+            let is_linked = set.style.is_linked();
+            *detected = DetectedSet {
+                layer: set.layer,
+                indices_per_edge: to_u32(set.style.kind.indices().len()),
+                is_listed: u32::from(set.lies_over_surface() || is_linked),
+                is_linked: u32::from(is_linked),
+            };
         }
         Self {
-            layers: table.layers,
-            drawn: table.drawn,
-            ridge_steps: table.ridge_steps,
-            valley_steps: table.valley_steps,
-            keeps_hidden: table.keeps_hidden,
-            layer_count: edgemesh::index::to_u32(look.layers.len()).max(1),
-            draw_count: edgemesh::index::to_u32(styled.len()),
-            padding: 0,
-            draws,
+            classes: style.class_table(),
+            layer_count: to_u32(style.layers.len()).max(1),
+            set_count: to_u32(stroke_sets.len()),
+            padding: [0; 2],
+            sets,
         }
     }
 }
@@ -83,7 +89,7 @@ impl DetectUniform {
 pub(crate) struct DetectPipeline {
     layouts: Layouts,
     faces: Option<wgpu::ComputePipeline>,
-    mark_static: wgpu::ComputePipeline,
+    find_static: wgpu::ComputePipeline,
     count_runs: wgpu::ComputePipeline,
     scan_runs: wgpu::ComputePipeline,
     write_runs: wgpu::ComputePipeline,
@@ -92,15 +98,15 @@ pub(crate) struct DetectPipeline {
 #[derive(Debug)]
 struct Layouts {
     pass: wgpu::BindGroupLayout,
-    faces_draw: wgpu::BindGroupLayout,
+    faces_chunk: wgpu::BindGroupLayout,
     faces_view: wgpu::BindGroupLayout,
-    edges_draw: wgpu::BindGroupLayout,
+    edges_chunk: wgpu::BindGroupLayout,
     edges_view: wgpu::BindGroupLayout,
 }
 
 /// What detection needs of one chunk of one object.
 #[derive(Debug)]
-pub(crate) struct DetectDraw {
+pub(crate) struct DetectBindings {
     faces: Option<[wgpu::BindGroup; 2]>,
     edges: [wgpu::BindGroup; 2],
     face_groups: u32,
@@ -121,7 +127,7 @@ impl DetectPipeline {
         let faces = if layout == Layout::Indexed {
             let module = embedded_module(device, "detect_faces.wgsl")?;
             let groups =
-                [Some(frame_layout), None, Some(&layouts.faces_draw), Some(&layouts.faces_view)];
+                [Some(frame_layout), None, Some(&layouts.faces_chunk), Some(&layouts.faces_view)];
             Some(pipeline(&module, "detect_faces", &groups))
         } else {
             None
@@ -130,12 +136,12 @@ impl DetectPipeline {
         let groups = [
             Some(frame_layout),
             Some(&layouts.pass),
-            Some(&layouts.edges_draw),
+            Some(&layouts.edges_chunk),
             Some(&layouts.edges_view),
         ];
         Ok(Self {
             faces,
-            mark_static: pipeline(&module, "mark_static", &groups),
+            find_static: pipeline(&module, "find_static", &groups),
             count_runs: pipeline(&module, "count_runs", &groups),
             scan_runs: pipeline(&module, "scan_runs", &groups),
             write_runs: pipeline(&module, "write_runs", &groups),
@@ -143,50 +149,52 @@ impl DetectPipeline {
         })
     }
 
-    /// The group of a look.
-    pub(crate) fn pass(&self, device: &wgpu::Device, look: &Look) -> wgpu::BindGroup {
-        let uniform = uniform_buffer(device, "detect", &DetectUniform::new(look));
+    /// `@group(1)` of a style.
+    pub(crate) fn pass(&self, device: &wgpu::Device, style: &DrawingStyle) -> wgpu::BindGroup {
+        let uniform = uniform_buffer(device, "detect", &DetectUniform::new(style));
         bind_buffers(device, "detect", &self.layouts.pass, &[(0, &uniform)])
     }
 
-    pub(crate) fn draw(
+    /// The bindings of one chunk of an object with the uniform `object`.
+    pub(crate) fn bind(
         &self,
         device: &wgpu::Device,
         object: &wgpu::Buffer,
         chunk: &ChunkBuffers,
-        whole: &ObjectBuffers,
-        view: &ViewBuffers,
-    ) -> DetectDraw {
+        geometry: &ChunkGeometry,
+        runs: &ObjectRuns,
+        lists: &ChunkLists,
+    ) -> DetectBindings {
         let bind = |label, layout, buffers: &[(u32, &wgpu::Buffer)]| {
             bind_buffers(device, label, layout, buffers)
         };
         let uniform = &chunk.uniform;
-        let (faces, edges) = match &chunk.source {
-            EdgeSource::Indexed { planes, face_cones, records, .. } => {
-                let draw = [(0, object), (1, uniform), (2, planes), (3, face_cones)];
-                let draw = bind("detect faces", &self.layouts.faces_draw, &draw);
-                let view = [(0, &view.facing)];
+        let (faces, edges) = match &geometry.edges {
+            EdgeGeometry::Indexed { planes, face_cones, records, .. } => {
+                let chunk = [(0, object), (1, uniform), (2, planes), (3, face_cones)];
+                let chunk = bind("detect faces", &self.layouts.faces_chunk, &chunk);
+                let view = [(0, &lists.facing)];
                 let view = bind("detect faces", &self.layouts.faces_view, &view);
-                (Some([draw, view]), records)
+                (Some([chunk, view]), records)
             }
-            EdgeSource::Replicated { vertices } => (None, vertices),
+            EdgeGeometry::Replicated { vertices } => (None, vertices),
         };
-        let draw = [(0, object), (1, uniform), (2, edges), (6, &chunk.run_cones)];
-        let mut lists = vec![
-            (1, &whole.runs),
-            (2, &view.counts),
-            (3, &view.live),
-            (4, &whole.tallies),
-            (5, &view.draws),
+        let chunk_edges = [(0, object), (1, uniform), (2, edges), (6, &geometry.run_cones)];
+        let mut view = vec![
+            (1, &runs.runs),
+            (2, &lists.counts),
+            (3, &lists.live),
+            (4, &runs.tallies),
+            (5, &lists.arguments),
         ];
         if faces.is_some() {
-            lists.push((0, &view.facing));
+            view.push((0, &lists.facing));
         }
-        DetectDraw {
+        DetectBindings {
             faces,
             edges: [
-                bind("detect edges", &self.layouts.edges_draw, &draw),
-                bind("detect edges", &self.layouts.edges_view, &lists),
+                bind("detect edges", &self.layouts.edges_chunk, &chunk_edges),
+                bind("detect edges", &self.layouts.edges_view, &view),
             ],
             face_groups: groups(chunk.size.face_count as usize, FACES_PER_WORD),
             run_groups: groups(chunk.size.run_count as usize, 1),
@@ -210,21 +218,26 @@ impl DetectPipeline {
 
     /// Records the detection of one chunk; `@group(0)` must be the frame and
     /// `@group(1)` the look.
-    pub(crate) fn record(&self, pass: &mut wgpu::ComputePass, draw: &DetectDraw, is_stale: bool) {
-        if let (Some(pipeline), Some([faces, view])) = (&self.faces, &draw.faces) {
+    pub(crate) fn record(
+        &self,
+        pass: &mut wgpu::ComputePass,
+        bindings: &DetectBindings,
+        is_stale: bool,
+    ) {
+        if let (Some(pipeline), Some([faces, view])) = (&self.faces, &bindings.faces) {
             pass.set_pipeline(pipeline);
             pass.set_bind_group(2, faces, &[]);
             pass.set_bind_group(3, view, &[]);
-            pass.dispatch_workgroups(draw.face_groups, 1, 1);
+            pass.dispatch_workgroups(bindings.face_groups, 1, 1);
         }
-        for (group, edges) in (2..).zip(&draw.edges) {
+        for (group, edges) in (2..).zip(&bindings.edges) {
             pass.set_bind_group(group, edges, &[]);
         }
         let steps = [
-            (&self.mark_static, if is_stale { draw.run_groups } else { 0 }),
-            (&self.count_runs, draw.run_groups),
+            (&self.find_static, if is_stale { bindings.run_groups } else { 0 }),
+            (&self.count_runs, bindings.run_groups),
             (&self.scan_runs, 1),
-            (&self.write_runs, draw.run_groups),
+            (&self.write_runs, bindings.run_groups),
         ];
         for (pipeline, groups) in steps.into_iter().filter(|step| step.1 > 0) {
             pass.set_pipeline(pipeline);
@@ -248,9 +261,9 @@ impl Layouts {
         }
         Self {
             pass: make("detect", &[uniform(0)]),
-            faces_draw: make("detect faces", &[uniform(0), uniform(1), read(2), read(3)]),
+            faces_chunk: make("detect faces", &[uniform(0), uniform(1), read(2), read(3)]),
             faces_view: make("detect faces", &[write(0)]),
-            edges_draw: make("detect edges", &[uniform(0), uniform(1), read(2), read(6)]),
+            edges_chunk: make("detect edges", &[uniform(0), uniform(1), read(2), read(6)]),
             edges_view: make("detect edges", &lists),
         }
     }
@@ -258,5 +271,5 @@ impl Layouts {
 
 /// Workgroups for `count` items, so many an invocation.
 fn groups(count: usize, per_invocation: usize) -> u32 {
-    edgemesh::index::to_u32(count.div_ceil(per_invocation)).div_ceil(WORKGROUP)
+    to_u32(count.div_ceil(per_invocation)).div_ceil(WORKGROUP)
 }

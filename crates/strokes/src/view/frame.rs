@@ -9,10 +9,8 @@ use edgemesh::view::feature::eye_is_outside;
 use edgemesh::view::projection::to_pixels;
 use glam::{DMat3, DMat4, Mat4, Vec4};
 
-use crate::draw::targets::Targets;
-use crate::gpu::bind::{uniform_buffer, uniform_entry};
-use crate::gpu::target_formats::TargetFormats;
-use crate::view::tile::PicturePart;
+use crate::gpu::bind::{bind_buffers, uniform_buffer, uniform_entry};
+use crate::view::tile::Tile;
 
 /// The uniform of a view: `@group(0)` everywhere. WGSL twin:
 /// `shaders/common/frame.wgsl`.
@@ -82,25 +80,25 @@ impl Default for Surroundings {
 impl FrameUniform {
     /// The uniform of `view` on a part of a picture; `view` sees the whole.
     #[must_use]
-    pub fn new(view: &View, part: &PicturePart, around: &Surroundings) -> Self {
+    pub fn new(view: &View, tile: &Tile, around: &Surroundings) -> Self {
         // How long the row that makes y is, in units of the clip volume.
         let y_row = view.clip_from_world.row(1).truncate();
-        let px_per_unit = y_row.length() * part.picture_px.y * 0.5;
+        let px_per_unit = y_row.length() * tile.picture_px.y * 0.5;
         let [[z_scale, z_offset], [w_scale, w_offset]] =
             [2, 3].map(|row| along_sight(view.clip_from_world.row(row), view.distance));
         // Rows of the view's matrix, but for the projection's scale.
         let axis = |row: usize| view.clip_from_world.row(row).truncate().normalize_or_zero();
         let mut clip_planes = [[0.0; 4]; MAX_CLIP_PLANES];
         clip_planes.iter_mut().zip(&around.clip_planes).for_each(|(plane, given)| *plane = *given);
-        let world_from_clip = part.view(view).clip_from_world.as_dmat4().inverse().as_mat4();
+        let world_from_clip = tile.view(view).clip_from_world.as_dmat4().inverse().as_mat4();
         Self {
-            viewport_px: part.size_px.to_array(),
+            viewport_px: tile.size_px.to_array(),
             px_per_unit,
             clip_plane_count: to_u32(around.clip_planes.len().min(MAX_CLIP_PLANES)),
             projection: [z_scale, z_offset, w_scale, w_offset],
-            picture_px: part.picture_px.to_array(),
-            corner_px: part.corner_px.to_array(),
-            guard_band: part.guard_band(),
+            picture_px: tile.picture_px.to_array(),
+            corner_px: tile.corner_px.to_array(),
+            guard_band: tile.guard_band(),
             world_from_clip: world_from_clip.to_cols_array_2d(),
             eye: view.eye.to_array(),
             sight: view.distance.to_array(),
@@ -115,8 +113,8 @@ impl FrameUniform {
 
     /// The part of the picture that is drawn.
     #[must_use]
-    pub fn part(&self) -> PicturePart {
-        PicturePart {
+    pub fn tile(&self) -> Tile {
+        Tile {
             picture_px: self.picture_px.into(),
             corner_px: self.corner_px.into(),
             size_px: self.viewport_px.into(),
@@ -174,7 +172,7 @@ impl ObjectUniform {
     #[must_use]
     pub fn new(
         view: &View,
-        part: &PicturePart,
+        tile: &Tile,
         world_from_object: DMat4,
         bounds: &Bounds,
     ) -> Option<Self> {
@@ -183,7 +181,7 @@ impl ObjectUniform {
         if determinant == 0.0 || !determinant.is_finite() || !object_from_world.is_finite() {
             return None;
         }
-        let clip_from_world = part.view(view).clip_from_world.as_dmat4();
+        let clip_from_world = tile.view(view).clip_from_world.as_dmat4();
         let clip_from_object = clip_from_world * world_from_object;
         let object_from_clip = clip_from_object.inverse().as_mat4();
         let clip_from_object = clip_from_object.as_mat4();
@@ -196,7 +194,7 @@ impl ObjectUniform {
         // Behind the eye the origin has no place; any will do that stays.
         let is_in_front = origin.w > f32::EPSILON;
         let origin_px =
-            if is_in_front { to_pixels(origin, part.size_px) } else { -part.middle_px() };
+            if is_in_front { to_pixels(origin, tile.size_px) } else { -tile.middle_px() };
         let distance = (world_from_object.transpose() * view.distance.as_dvec4()).as_vec4();
         let quantization = Quantization::of(bounds);
         #[expect(clippy::cast_possible_truncation, reason = "as the shader has it")]
@@ -235,89 +233,20 @@ pub fn frame_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     })
 }
 
-/// `@group(0)` of strokes that ask what was filled: the frame, the depth as a
-/// texture of one sample a pixel (binding 1) or of several (2), and, for targets
-/// with a stencil, the objects in the same way (3 or 4).
-#[must_use]
-pub(crate) fn frame_fill_layout(
-    device: &wgpu::Device,
-    formats: &TargetFormats,
-) -> wgpu::BindGroupLayout {
-    let visibility = wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE;
-    let texture = |binding, sample_type| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Texture {
-            sample_type,
-            view_dimension: wgpu::TextureViewDimension::D2,
-            multisampled: formats.samples > 1,
-        },
-        count: None,
-    };
-    let [depth, objects] = fill_bindings(formats.samples);
-    let mut entries =
-        vec![uniform_entry(0, visibility), texture(depth, wgpu::TextureSampleType::Depth)];
-    if formats.has_stencil() {
-        entries.push(texture(objects, wgpu::TextureSampleType::Uint));
-    }
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("frame and fill"),
-        entries: &entries,
-    })
-}
-
-/// The bindings of the depth and of the objects.
-const fn fill_bindings(samples: u32) -> [u32; 2] {
-    if samples > 1 { [2, 4] } else { [1, 3] }
-}
-
 /// The frame's uniform buffer and bind group.
 #[derive(Debug)]
-pub struct Frame {
+pub struct FrameBinding {
     buffer: wgpu::Buffer,
-    pub(crate) bind_group: wgpu::BindGroup,
+    bind_group: wgpu::BindGroup,
 }
 
-impl Frame {
+impl FrameBinding {
     /// Makes the buffer, holding `uniform`.
     #[must_use]
-    pub fn new(
-        device: &wgpu::Device,
-        layout: &wgpu::BindGroupLayout,
-        uniform: &FrameUniform,
-    ) -> Self {
+    pub fn new(device: &wgpu::Device, uniform: &FrameUniform) -> Self {
         let buffer = uniform_buffer(device, "frame", uniform);
-        let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("frame"),
-            layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
-        });
+        let bind_group = bind_buffers(device, "frame", &frame_layout(device), &[(0, &buffer)]);
         Self { buffer, bind_group }
-    }
-
-    /// The frame with what `targets` hold of the fill, in a [`frame_fill_layout`].
-    pub(crate) fn with_fill(
-        &self,
-        device: &wgpu::Device,
-        layout: &wgpu::BindGroupLayout,
-        targets: &Targets,
-    ) -> wgpu::BindGroup {
-        let [depth, objects] = fill_bindings(targets.formats().samples);
-        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
-        let mut entries = vec![
-            entry(0, self.buffer.as_entire_binding()),
-            entry(depth, wgpu::BindingResource::TextureView(targets.depth_texture())),
-        ];
-        entries.extend(
-            targets
-                .object_texture()
-                .map(|texture| entry(objects, wgpu::BindingResource::TextureView(texture))),
-        );
-        device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("frame and fill"),
-            layout,
-            entries: &entries,
-        })
     }
 
     /// `@group(0)`.
@@ -326,7 +255,12 @@ impl Frame {
         &self.bind_group
     }
 
-    /// Replaces the view for the next submission.
+    /// The uniform buffer.
+    pub(crate) const fn buffer(&self) -> &wgpu::Buffer {
+        &self.buffer
+    }
+
+    /// Replaces the uniform for the next submission.
     pub fn write(&self, queue: &wgpu::Queue, uniform: &FrameUniform) {
         queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(uniform));
     }
@@ -346,7 +280,7 @@ mod tests {
         (z_offset - depth * w_offset) / (depth * w_scale - z_scale)
     }
 
-    const PART: PicturePart = PicturePart::whole(glam::Vec2::new(300.0, 200.0));
+    const PART: Tile = Tile::whole(glam::Vec2::new(300.0, 200.0));
 
     /// The NPRView thesis, Equation 3.11, for a depth from 0 to 1.
     fn equation_3_11(depth: f64, near: f64, far: f64) -> f64 {

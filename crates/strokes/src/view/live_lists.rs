@@ -3,32 +3,31 @@
 //!
 //! | buffer | bytes |
 //! |---|---|
-//! | facing | 1 bit a face |
-//! | run states | 40 for 64 edges |
-//! | counts | 4 for 64 edges and layer |
-//! | live edges | 4 an edge |
+//! | facing | 1 bit per face |
+//! | run states | 40 per 64 edges |
+//! | counts | 4 per 64 edges and layer |
+//! | live edges | 4 per edge |
 //! | tally | 64 |
 //! | arguments of the draws | 1024 |
-//! | vertices | 200 a stroke that there is room for (of 16 edges one), each draw |
+//! | expanded vertices | up to 480 per stroke that there is room for (one edge in 16), per stroke set |
 
 use bytemuck::{Pod, Zeroable};
+use edgemesh::line::class::LineClass;
 use edgemesh::line::kind::LineKind;
 use edgemesh::view::feature_counts::FeatureCounts;
 use wgpu::BufferUsages;
 
-use crate::draw::expand::BYTES_PER_VERTEX;
+use crate::mesh::buffers::RUN_STATE_BYTES;
+use crate::mesh::capacity::BYTES_PER_VERTEX;
 use crate::mesh::layout::{ChunkUniform, FACES_PER_WORD};
-use crate::style::drawing_style::{MAX_DRAWS, MAX_LAYERS};
-
-/// Expanded strokes take at most this much for a draw of a chunk.
-pub(crate) const MAX_EXPANDED_BYTES: u64 = 1 << 26;
+use crate::style::drawing_style::{MAX_LAYERS, MAX_STROKE_SETS};
 
 /// The edges of a run, one bit each. WGSL twin: `shaders/common/view_runs.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct RunState {
-    /// Drawn without being contours.
-    pub marked: [u32; 2],
+    /// Drawn in every view.
+    pub static_edges: [u32; 2],
     /// Those of them that their own solid can hide.
     pub solid: [u32; 2],
     /// Drawn in this view.
@@ -40,6 +39,8 @@ pub struct RunState {
     /// Unused.
     pub padding: u32,
 }
+
+const _: () = assert!(size_of::<RunState>() == RUN_STATE_BYTES, "as the mesh reckons");
 
 /// The arguments of one draw of strokes. WGSL twin:
 /// `shaders/common/draw_arguments.wgsl`.
@@ -84,75 +85,52 @@ pub(crate) const GROUPS_OFFSET: u64 = std::mem::offset_of!(DrawArguments, groups
 /// Bytes from the start of [`DrawArguments`] to the rest.
 pub(crate) const REST_OFFSET: u64 = std::mem::offset_of!(DrawArguments, vertex_count) as u64;
 
-/// The counts of a view. WGSL twin: `shaders/common/view_runs.wgsl`.
+/// The counts of a chunk in a view. WGSL twin: `shaders/common/view_runs.wgsl`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Tally {
-    /// See [`FeatureCounts`], as all the others.
-    pub contour: u32,
     /// Edges in the live list.
     pub stroke_count: u32,
-    /// Convex creases.
-    pub ridge: u32,
-    /// Concave creases.
-    pub valley: u32,
-    /// Edges of one face.
-    pub boundary: u32,
-    /// Edges that the artist chose.
-    pub marked: u32,
-    /// Edges between two materials.
-    pub material: u32,
-    /// Edges between two smoothing groups.
-    pub smoothing: u32,
+    /// Edges of each line class: see [`FeatureCounts`].
+    pub features: [u32; LineClass::COUNT],
     /// Where the edges of each layer begin in the live list; the last is their
     /// number.
     pub layer_first: [u32; MAX_LAYERS + 1],
 }
 
 impl Tally {
-    /// Bytes that every view counts anew; the others stay while the classes do.
+    /// Bytes that every view counts anew: the strokes and the contours. The other counts stay
+    /// until the classes change.
     pub(crate) const VIEW_BYTES: u64 = 8;
 
-    /// The counts of classes.
+    /// The counts of the line classes.
     #[must_use]
     pub const fn features(&self) -> FeatureCounts {
-        FeatureCounts {
-            contour: self.contour,
-            ridge: self.ridge,
-            valley: self.valley,
-            boundary: self.boundary,
-            marked: self.marked,
-            material: self.material,
-            smoothing: self.smoothing,
-        }
+        FeatureCounts(self.features)
     }
 
-    /// The counts of classes and of strokes of both together.
+    /// The sums of both.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
         Self {
-            contour: self.contour + other.contour,
             stroke_count: self.stroke_count + other.stroke_count,
-            ridge: self.ridge + other.ridge,
-            valley: self.valley + other.valley,
-            boundary: self.boundary + other.boundary,
-            marked: self.marked + other.marked,
-            material: self.material + other.material,
-            smoothing: self.smoothing + other.smoothing,
+            features: std::array::from_fn(|at| self.features[at] + other.features[at]),
             layer_first: std::array::from_fn(|at| self.layer_first[at] + other.layer_first[at]),
         }
     }
 }
 
-/// What one view makes of a whole object.
-#[derive(Debug)]
-pub(crate) struct ObjectBuffers {
+const _: () = assert!(LineClass::Contour as usize == 0, "contours are counted in every view");
+
+/// The run states and tallies of one object in one view.
+#[derive(Debug, Clone)]
+pub(crate) struct ObjectRuns {
     pub(crate) runs: wgpu::Buffer,
     /// One a chunk.
     pub(crate) tallies: wgpu::Buffer,
 }
 
-impl ObjectBuffers {
+impl ObjectRuns {
     pub(crate) fn new(device: &wgpu::Device, chunks: &[ChunkUniform]) -> Self {
         let buffer = |label: &str, size: usize, usage: BufferUsages| {
             device.create_buffer(&wgpu::BufferDescriptor {
@@ -173,19 +151,19 @@ impl ObjectBuffers {
     }
 }
 
-/// The buffers of one view of one chunk.
+/// The lists of one chunk in one view.
 #[derive(Debug)]
-pub(crate) struct ViewBuffers {
+pub(crate) struct ChunkLists {
     pub(crate) facing: wgpu::Buffer,
     pub(crate) counts: wgpu::Buffer,
     pub(crate) live: wgpu::Buffer,
     /// The arguments of the draws, in order.
-    pub(crate) draws: wgpu::Buffer,
-    /// Expanded vertices, one buffer a draw; none where no stroke is expanded.
+    pub(crate) arguments: wgpu::Buffer,
+    /// Expanded vertices, one buffer per stroke set; `None` if none of its strokes is expanded.
     pub(crate) vertices: Vec<Option<wgpu::Buffer>>,
 }
 
-impl ViewBuffers {
+impl ChunkLists {
     pub(crate) fn new(
         device: &wgpu::Device,
         chunk: &ChunkUniform,
@@ -203,7 +181,7 @@ impl ViewBuffers {
         };
         let runs = u64::from(chunk.run_count);
         let faces = (chunk.face_count as usize).div_ceil(FACES_PER_WORD) as u64;
-        let draws = (size_of::<DrawArguments>() * MAX_DRAWS) as u64;
+        let arguments = (size_of::<DrawArguments>() * MAX_STROKE_SETS) as u64;
         let vertices = |kind: &LineKind| {
             let bytes =
                 u64::from(chunk.capacity) * u64::from(kind.vertex_count() * BYTES_PER_VERTEX);
@@ -213,7 +191,11 @@ impl ViewBuffers {
             facing: buffer("facing", 4 * faces, BufferUsages::COPY_SRC),
             counts: buffer("counts", 4 * runs * u64::from(layer_count), BufferUsages::empty()),
             live: buffer("live edges", 4 * u64::from(chunk.edge_count), BufferUsages::COPY_SRC),
-            draws: buffer("draws", draws, BufferUsages::INDIRECT | BufferUsages::COPY_SRC),
+            arguments: buffer(
+                "draw arguments",
+                arguments,
+                BufferUsages::INDIRECT | BufferUsages::COPY_SRC,
+            ),
             vertices: expanded.iter().map(|kind| kind.as_ref().map(vertices)).collect(),
         }
     }

@@ -12,7 +12,7 @@ use glam::{DMat4, DVec2, Vec2};
 
 /// A part of a picture, or the whole.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PicturePart {
+pub struct Tile {
     /// Size of the whole picture.
     pub picture_px: Vec2,
     /// The upper left corner of the part, from that of the picture.
@@ -21,7 +21,7 @@ pub struct PicturePart {
     pub size_px: Vec2,
 }
 
-impl PicturePart {
+impl Tile {
     /// All of a picture.
     #[must_use]
     pub const fn whole(picture_px: Vec2) -> Self {
@@ -89,7 +89,7 @@ mod tests {
     #[test]
     fn a_point_is_at_the_same_pixel_in_the_part_and_in_the_whole() {
         let bounds = Bounds { min: [-1.0, -2.0, -3.0], max: [3.0, 2.0, 1.0] };
-        let part = PicturePart {
+        let part = Tile {
             picture_px: PICTURE_PX,
             corner_px: Vec2::new(1024.0, 640.0),
             size_px: Vec2::new(700.0, 900.0),
@@ -109,7 +109,7 @@ mod tests {
 
     #[test]
     fn the_whole_is_a_part_that_changes_nothing() {
-        let whole = PicturePart::whole(PICTURE_PX);
+        let whole = Tile::whole(PICTURE_PX);
         let camera = Camera::default_view(&Bounds::default());
         let view = camera.view(&Bounds::default(), 1.5);
         assert_eq!(whole.view(&view), view);
@@ -119,11 +119,8 @@ mod tests {
 
     #[test]
     fn the_guard_band_is_that_of_the_picture() {
-        let part = PicturePart {
-            picture_px: PICTURE_PX,
-            corner_px: Vec2::ZERO,
-            size_px: PICTURE_PX / 2.0,
-        };
+        let part =
+            Tile { picture_px: PICTURE_PX, corner_px: Vec2::ZERO, size_px: PICTURE_PX / 2.0 };
         // The upper left quarter: its middle is at -0.5, 0.5 of the whole.
         assert_eq!(part.guard_band(), [-7.0, 9.0, -9.0, 7.0]);
     }

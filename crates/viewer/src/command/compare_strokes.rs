@@ -13,7 +13,7 @@ use edgemesh_brushes::BRUSH_NAMES;
 use glam::Vec2;
 use image::{Rgba, RgbaImage, imageops};
 use strokes::gpu::device::{self, Gpu};
-use strokes::renderer::object::GraphReadback;
+use strokes::graph::readback::GraphReadback;
 use strokes::style::brush::Brush;
 
 use super::options::set;

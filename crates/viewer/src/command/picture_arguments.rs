@@ -8,7 +8,7 @@ use edgemesh::command::input::InputOptions;
 use edgemesh::command::options::CameraOptions;
 use edgemesh_brushes::BRUSH_NAMES;
 use strokes::mesh::layout::Layout;
-use strokes::renderer::DetectionPath;
+use strokes::render::pipelines::DetectionStage;
 
 use super::options::{LibraryOptions, LightingOptions, set};
 use crate::picture::renderer::PictureOptions;
@@ -88,7 +88,7 @@ enum PathName {
     Vertex,
 }
 
-impl From<PathName> for DetectionPath {
+impl From<PathName> for DetectionStage {
     fn from(name: PathName) -> Self {
         match name {
             PathName::Compute => Self::Compute,
@@ -136,7 +136,7 @@ impl PictureArguments {
             size,
             samples: if self.samples == "1" { 1 } else { 4 },
             layout: self.layout.into(),
-            path: self.detection.into(),
+            stage: self.detection.into(),
             is_transparent: self.transparent,
             lighting: self.lighting.lighting()?,
             shaders: self.library.shaders.clone(),

@@ -14,7 +14,7 @@ use edgemesh::view::camera::View;
 use edgemesh::view::feature::LineBits;
 use glam::{Vec2, Vec3, Vec4};
 use strokes::graph::buffers::{BACKWARD, NO_NODE, Ribbon};
-use strokes::renderer::object::GraphReadback;
+use strokes::graph::readback::GraphReadback;
 
 /// A stretch of a line, between two places where u is known.
 #[derive(Debug, Clone, Copy)]
@@ -81,7 +81,7 @@ impl FrameSource<'_> {
             lines.stretches.push(Stretch {
                 length_px: a.distance(b),
                 u: ribbon.u,
-                layer: graph.layer_of(point.path),
+                layer: graph.layer_of(point.joint),
                 is_followed: next.is_some_and(|next| Vec2::from(next.a).distance(b) < 0.01),
             });
         }
@@ -129,8 +129,8 @@ impl FrameSource<'_> {
         let graph = self.graph;
         let drawn = graph.ribbons.iter().enumerate().filter(|(_, ribbon)| ribbon.is_drawn());
         drawn.flat_map(move |(at, ribbon)| {
-            let paths = graph.points[at].path..=graph.points[at + 1].path;
-            paths.map(move |path| (ribbon, graph.element_of(path)))
+            let joints = graph.points[at].joint..=graph.points[at + 1].joint;
+            joints.map(move |joint| (ribbon, graph.element_of(joint)))
         })
     }
 
@@ -177,6 +177,7 @@ impl FrameSource<'_> {
             placement: Placement::Automatic,
             parameterization,
             is_world_width: false,
+            guard_band: edgemesh::view::projection::WHOLE_BAND,
         }
     }
 }

@@ -7,17 +7,20 @@ use edgemesh::command::Failure;
 use strokes::draw::targets::Targets;
 use strokes::gpu::device::Gpu;
 use strokes::gpu::target_formats::TargetFormats;
-use strokes::view::frame::{Frame, frame_layout};
+use strokes::mesh::MeshOptions;
+use strokes::view::frame::frame_layout;
+use strokes::view::view_state::ViewState;
 
 use super::bindings::{Samplers, Sources};
 use super::copy_pass::CopyPass;
 use super::ping_pong::PingPong;
 use super::pipeline::{Geometry, PassPipeline, PipelineTarget, Programs};
 use super::pipeline_cache::PipelineCache;
+use super::scene_buffers::SceneBuffers;
 use super::scene_pass::ScenePass;
 use super::screen_pass::ScreenPass;
-use super::stroke_pass::{self, StrokePasses, StrokeStore};
-use super::surface::Surfaces;
+use super::stroke_pass::{self, StrokeGroup, StrokePasses, StrokeStore};
+use super::surface::{SurfaceInput, Surfaces};
 use super::textures::{GeneratedTexture, Images};
 use super::{GraphOptions, PassGraph, Run, Step, StepKind, blend};
 use crate::scene::models::Scene;
@@ -83,33 +86,56 @@ impl PassGraph {
         };
         let has =
             |core| groups.iter().any(|group| technique.passes[group[0]].component.core == core);
-        let surfaces = match (has(CoreComponent::SimpleRender), before.surfaces.take()) {
+        let mut strokes = None;
+        if has(CoreComponent::Strokes) {
+            let (folders, store) = (&technique.folders, &mut before.stroke_store);
+            strokes = Some(StrokePasses::new(gpu, options, formats, folders, store)?);
+        } else {
+            before.stroke_store.forget_drawings();
+        }
+        let pipelines = RefCell::new(std::mem::take(&mut before.pipelines));
+        let builder = Builder { gpu, scene, technique, plan, looks, options, formats, pipelines };
+        let mut stroke_groups = Vec::new();
+        for group in &groups {
+            stroke_groups.push(builder.stroke_group(group, strokes.as_mut())?);
+        }
+        let needs = MeshOptions {
+            layout: options.layout,
+            links: stroke_groups.iter().flatten().any(StrokeGroup::is_linked),
+            surface: has(CoreComponent::SimpleRender),
+        };
+        let instances = before.scene.instances(gpu, scene, needs)?;
+        let mut view = before.view.take().unwrap_or_else(|| ViewState::new(device));
+        view.resize(device, instances.len());
+        let surfaces = match (needs.surface, before.surfaces.take()) {
             (false, _) => None,
             (true, Some(surfaces)) => Some(surfaces),
             (true, None) => {
-                let sampler = sources.samplers.linear_image.clone();
-                let images = &mut sources.images;
-                Some(Surfaces::new(gpu, scene, options.layout, images, &sampler)?)
+                let sampler = &sources.samplers.linear_image.clone();
+                let input =
+                    SurfaceInput { gpu, scene, instances: &instances, view: &view, sampler };
+                Some(Surfaces::new(&input, &mut sources.images))
             }
         };
-        let mut strokes = None;
-        if has(CoreComponent::Strokes) {
-            let kept = (&technique.folders[..], &mut before.stroke_store);
-            strokes = Some(StrokePasses::new(gpu, scene, options, formats, kept)?);
-        }
         let layout = frame_layout(device);
-        let frame = Frame::new(device, &layout, &bytemuck::Zeroable::zeroed());
-        let pipelines = RefCell::new(std::mem::take(&mut before.pipelines));
-        let builder = Builder { gpu, scene, technique, plan, looks, options, formats, pipelines };
         let mut steps = Vec::new();
-        for group in groups {
-            let mut step = builder.step(&group, (&layout, surfaces.as_ref(), strokes.as_mut()))?;
+        for (group, stroke_group) in groups.iter().zip(stroke_groups) {
+            let mut step = builder.step(group, &layout, surfaces.as_ref(), stroke_group)?;
             before.go_on(&mut step, &sources.generated);
             steps.push(step);
         }
-        let pipelines = builder.pipelines.into_inner();
-        let stroke_store = before.stroke_store;
-        Ok(Self { framebuffer, frame, sources, surfaces, strokes, stroke_store, steps, pipelines })
+        Ok(Self {
+            framebuffer,
+            view,
+            instances,
+            scene: before.scene,
+            sources,
+            surfaces,
+            strokes,
+            stroke_store: before.stroke_store,
+            steps,
+            pipelines: builder.pipelines.into_inner(),
+        })
     }
 }
 
@@ -117,6 +143,8 @@ impl PassGraph {
 #[derive(Default)]
 struct Before {
     framebuffer: Option<Targets>,
+    view: Option<ViewState>,
+    scene: SceneBuffers,
     surfaces: Option<Surfaces>,
     stroke_store: StrokeStore,
     images: Images,
@@ -131,18 +159,27 @@ impl Before {
         let mut images = graph.sources.images;
         images.forget_changed();
         let mut stroke_store = graph.stroke_store;
+        let (mut drawings, mut runs) = (Vec::new(), Vec::new());
+        for step in graph.steps {
+            runs.push((step.name, step.run));
+            if let StepKind::Strokes(group) = step.kind {
+                drawings.push(group.drawing);
+            }
+        }
         if let Some(strokes) = graph.strokes {
-            strokes.put_back(&mut stroke_store);
+            strokes.put_back(drawings, &mut stroke_store);
         }
         Self {
             framebuffer: Some(graph.framebuffer),
+            view: Some(graph.view),
+            scene: graph.scene,
             surfaces: graph.surfaces,
             stroke_store,
             images,
             samplers: Some(graph.sources.samplers),
             pipelines: graph.pipelines,
             textures: graph.sources.generated,
-            runs: graph.steps.into_iter().map(|step| (step.name, step.run)).collect(),
+            runs,
         }
     }
 
@@ -253,23 +290,30 @@ impl Builder<'_> {
         pipelines.pipeline(self.gpu, layouts, programs, geometry, target)
     }
 
+    /// The stroke group of some passes; `None` for passes of another component.
+    fn stroke_group(
+        &self,
+        group: &[usize],
+        strokes: Option<&mut StrokePasses>,
+    ) -> Result<Option<StrokeGroup>, Failure> {
+        let core = self.technique.passes[group[0]].component.core;
+        let strokes = strokes.filter(|_| core == CoreComponent::Strokes);
+        let passes = group.iter().map(|&at| &self.technique.passes[at]);
+        let passes: Vec<&Pass> = passes.filter(|pass| pass.is_rendered()).collect();
+        strokes.map(|strokes| strokes.group(self.gpu, self.scene, &passes, self.looks)).transpose()
+    }
+
     fn step(
         &self,
         group: &[usize],
-        (frame, surfaces, strokes): (
-            &wgpu::BindGroupLayout,
-            Option<&Surfaces>,
-            Option<&mut StrokePasses>,
-        ),
+        frame: &wgpu::BindGroupLayout,
+        surfaces: Option<&Surfaces>,
+        strokes: Option<StrokeGroup>,
     ) -> Result<Step, Failure> {
         let pass = &self.technique.passes[group[0]];
         let plan = &self.plan.passes[group[0]];
         let kind = match (pass.component.core, surfaces, strokes) {
-            (CoreComponent::Strokes, _, Some(strokes)) => {
-                let passes = group.iter().map(|&at| &self.technique.passes[at]);
-                let passes: Vec<&Pass> = passes.filter(|pass| pass.is_rendered()).collect();
-                StepKind::Strokes(strokes.group(self.gpu, self.scene, &passes, self.looks)?)
-            }
+            (_, _, Some(strokes)) => StepKind::Strokes(strokes),
             (CoreComponent::SimpleRender, Some(surfaces), _) => {
                 StepKind::Scene(ScenePass::new(self, pass, plan, frame, surfaces)?)
             }

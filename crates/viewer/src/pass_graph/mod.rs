@@ -25,6 +25,7 @@ mod params;
 mod ping_pong;
 mod pipeline;
 mod pipeline_cache;
+mod scene_buffers;
 mod scene_pass;
 mod screen_pass;
 mod stroke_pass;
@@ -37,17 +38,22 @@ use edgemesh::view::camera::View;
 use strokes::draw::targets::Targets;
 use strokes::gpu::device::Gpu;
 use strokes::gpu::timer::TimedPasses;
+use strokes::mesh::MeshInstance;
 use strokes::mesh::layout::Layout;
-use strokes::renderer::{DetectionPath, PASS_NAMES};
-use strokes::style::drawing_style::Look;
-use strokes::view::frame::{Frame, FrameUniform, ObjectUniform, Surroundings};
+use strokes::render::drawing::DrawnObject;
+use strokes::render::frame_request::PASS_NAMES;
+use strokes::render::pipelines::DetectionStage;
+use strokes::style::drawing_style::DrawingStyle;
+use strokes::view::frame::{FrameUniform, Surroundings};
 use strokes::view::live_lists::Tally;
-use strokes::view::tile::PicturePart;
+use strokes::view::tile::Tile;
+use strokes::view::view_state::ViewState;
 
 use self::bindings::Sources;
 use self::copy_pass::CopyPass;
 use self::ping_pong::PingPong;
 use self::pipeline_cache::PipelineCache;
+use self::scene_buffers::SceneBuffers;
 use self::scene_pass::ScenePass;
 use self::screen_pass::ScreenPass;
 use self::stroke_pass::{StrokeGroup, StrokePasses, StrokeStore};
@@ -68,7 +74,7 @@ pub struct GraphOptions {
     /// How the edges lie in memory.
     pub layout: Layout,
     /// Where features are detected.
-    pub path: DetectionPath,
+    pub stage: DetectionStage,
     /// Whether there is no paper behind the scene.
     pub is_transparent: bool,
     /// Whether there can be clip planes; without them surfaces are drawn faster.
@@ -79,7 +85,11 @@ pub struct GraphOptions {
 #[derive(Debug)]
 pub struct PassGraph {
     framebuffer: Targets,
-    frame: Frame,
+    /// The eye.
+    view: ViewState,
+    /// The objects of the scene.
+    instances: Vec<MeshInstance>,
+    scene: SceneBuffers,
     sources: Sources,
     surfaces: Option<Surfaces>,
     strokes: Option<StrokePasses>,
@@ -140,7 +150,7 @@ pub struct Seen<'a> {
 #[derive(Debug, Clone, Copy)]
 pub struct PartOf<'a> {
     /// The part.
-    pub part: PicturePart,
+    pub part: Tile,
     /// The whole picture, smaller, whose depth tells where linked strokes are seen.
     pub overview: Option<&'a Targets>,
 }
@@ -149,10 +159,10 @@ pub struct PartOf<'a> {
 struct Encoding<'a> {
     gpu: &'a Gpu,
     framebuffer: &'a Targets,
-    frame: &'a Frame,
+    /// The eye, set for `instances`.
+    view: &'a ViewState,
+    instances: &'a [MeshInstance],
     surfaces: Option<&'a Surfaces>,
-    view: &'a View,
-    uniform: &'a FrameUniform,
     overview: Option<&'a Targets>,
     /// Whether nothing was drawn to the framebuffer yet.
     is_fresh: bool,
@@ -212,10 +222,10 @@ impl PassGraph {
     }
 
     /// The objects whose strokes are counted.
-    pub(crate) fn counted_objects(&self) -> &[strokes::renderer::object::Object] {
+    pub(crate) fn counted_objects(&self) -> &[DrawnObject] {
         let counts_nothing = self.strokes.as_ref().is_some_and(StrokePasses::counts_nothing);
         let group = self.stroke_groups().next().filter(|_| !counts_nothing);
-        group.map_or(&[], |group| &group.objects)
+        group.map_or(&[], |group| group.drawing.objects())
     }
 
     /// What was drawn to last, with its depth.
@@ -268,19 +278,15 @@ impl PassGraph {
         timer: Option<TimedPasses>,
     ) -> Result<(), Failure> {
         let Seen { view, around, part } = *seen;
-        let whole = || PicturePart::whole(self.framebuffer.viewport_px());
+        let whole = || Tile::whole(self.framebuffer.viewport_px());
         let uniform = FrameUniform::new(view, &part.map_or_else(whole, |of| of.part), around);
-        self.frame.write(&gpu.queue, &uniform);
-        if let Some(surfaces) = &mut self.surfaces {
-            place(gpu, surfaces, view, &uniform.part());
-        }
+        self.view.set(gpu, view, &uniform, &self.instances);
         let mut encoding = Encoding {
             gpu,
             framebuffer: &self.framebuffer,
-            frame: &self.frame,
+            view: &self.view,
+            instances: &self.instances,
             surfaces: self.surfaces.as_ref(),
-            view,
-            uniform: &uniform,
             overview: part.and_then(|of| of.overview),
             is_fresh: true,
             has_depth: false,
@@ -293,7 +299,7 @@ impl PassGraph {
                 _ => 1,
             };
             if step.run.is_due() {
-                let strokes = self.strokes.as_ref();
+                let strokes = self.strokes.as_mut();
                 step.encode(encoder, &mut encoding, &mut self.sources, strokes, timer)?;
             } else {
                 screen_pass::skip(encoder, timer);
@@ -317,17 +323,6 @@ fn resolve(encoder: &mut wgpu::CommandEncoder, framebuffer: &Targets, is_fresh: 
     });
 }
 
-/// Sets what the next submission sees of the surfaces.
-fn place(gpu: &Gpu, surfaces: &mut Surfaces, view: &View, part: &PicturePart) {
-    for object in &mut surfaces.objects {
-        let uniform = ObjectUniform::new(view, part, object.world_from_object, &object.bounds);
-        object.is_placed = uniform.is_some();
-        if let Some(uniform) = uniform {
-            gpu.queue.write_buffer(&object.uniform, 0, bytemuck::bytes_of(&uniform));
-        }
-    }
-}
-
 /// The look of all passes of strokes of a technique, for a mesh in `frame` whose crease
 /// thresholds are `built`, in radians.
 ///
@@ -337,11 +332,11 @@ pub fn strokes_of(
     technique: &Technique,
     frame: &edgemesh::edge_mesh::MeshFrame,
     built: [f64; 2],
-) -> Result<Look, Failure> {
+) -> Result<DrawingStyle, Failure> {
     let is_drawn =
         |pass: &&Pass| pass.is_rendered() && pass.component.core == CoreComponent::Strokes;
     let passes: Vec<&Pass> = technique.passes.iter().filter(is_drawn).collect();
-    stroke_style::look_of(&passes, &technique.folders, frame, built)
+    stroke_style::style_of_passes(&passes, &technique.folders, frame, built)
 }
 
 impl Run {
@@ -374,7 +369,7 @@ impl Step {
         encoder: &mut wgpu::CommandEncoder,
         encoding: &mut Encoding,
         sources: &mut Sources,
-        strokes: Option<&StrokePasses>,
+        strokes: Option<&mut StrokePasses>,
         timer: Option<TimedPasses>,
     ) -> Result<(), Failure> {
         match &mut self.kind {
@@ -386,7 +381,7 @@ impl Step {
             StepKind::Copy(pass) => pass.encode(encoder, encoding, &self.plan, sources, timer),
             StepKind::Strokes(group) => {
                 if let Some(strokes) = strokes {
-                    strokes.encode(encoder, encoding, group, timer);
+                    strokes.encode(encoder, encoding, group, timer)?;
                 }
             }
         }

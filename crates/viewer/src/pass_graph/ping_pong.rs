@@ -116,7 +116,7 @@ impl PingPong {
                     ..Default::default()
                 });
                 pass.set_pipeline(&pipeline.pipeline);
-                pass.set_bind_group(0, encoding.frame.bind_group(), &[]);
+                pass.set_bind_group(0, encoding.view.frame().bind_group(), &[]);
                 for (index, group) in &groups {
                     pass.set_bind_group(*index, group, &[]);
                 }

@@ -10,7 +10,7 @@ use strokes::gpu::target_formats::TargetFormats;
 
 use super::bindings::{GroupPlan, PASS_GROUP, Sources, VERTEX_GROUP};
 use super::params::Iteration;
-use super::surface::VERTEX_ATTRIBUTES;
+use super::surface::VERTEX_BUFFERS;
 use crate::technique::loop_bound::bound_loops;
 use crate::technique::pass::Pass;
 use crate::technique::plan::Read;
@@ -164,11 +164,6 @@ fn render_pipeline(
     // Two programs that do not fit each other are found only here.
     let faults = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let modules = [vertex, fragment].map(|program| program_module(program, device, label));
-    let buffers = [Some(wgpu::VertexBufferLayout {
-        array_stride: 32,
-        step_mode: wgpu::VertexStepMode::Vertex,
-        attributes: &VERTEX_ATTRIBUTES,
-    })];
     let targets: Vec<Option<wgpu::ColorTargetState>> = target
         .colors
         .iter()
@@ -192,7 +187,7 @@ fn render_pipeline(
             module: &modules[0],
             entry_point: Some(&vertex.function),
             compilation_options: options(vertex),
-            buffers: if geometry == Geometry::Surfaces { &buffers } else { &[] },
+            buffers: if geometry == Geometry::Surfaces { &VERTEX_BUFFERS } else { &[] },
         },
         primitive: wgpu::PrimitiveState::default(),
         depth_stencil: target.depth.map(|format| depth_state(format, geometry, target)),

@@ -111,7 +111,7 @@ impl ScenePass {
             timestamp_writes: timer.map(|timer| timer.render(0)),
             ..Default::default()
         });
-        pass.set_bind_group(0, encoding.frame.bind_group(), &[]);
+        pass.set_bind_group(0, encoding.view.frame().bind_group(), &[]);
         if let Some(((pipeline, _), groups)) = self.background.as_ref().zip(background) {
             pass.set_pipeline(&pipeline.pipeline);
             for (index, group) in &groups {
@@ -120,13 +120,13 @@ impl ScenePass {
             pass.draw(0..3, 0..1);
         }
         pass.set_pipeline(&self.surfaces.pipeline);
-        let objects = encoding.surfaces.map_or(&[][..], |surfaces| &surfaces.objects);
-        for (object, look) in objects.iter().zip(&self.looks).filter(|(o, _)| o.is_placed) {
-            let &Some(look) = look else { continue };
+        let Some(surfaces) = encoding.surfaces else { return Ok(()) };
+        for (at, (state, look)) in encoding.view.objects().iter().zip(&self.looks).enumerate() {
+            let Some(look) = look.filter(|_| state.is_placed()) else { continue };
             for (index, group) in &of_looks[look] {
                 pass.set_bind_group(*index, group, &[]);
             }
-            object.draw(&mut pass);
+            surfaces.draw(&mut pass, encoding.instances, at);
         }
         Ok(())
     }

@@ -144,7 +144,7 @@ pub(crate) fn draw(
         ..Default::default()
     });
     pass.set_pipeline(&pipeline.pipeline);
-    pass.set_bind_group(0, encoding.frame.bind_group(), &[]);
+    pass.set_bind_group(0, encoding.view.frame().bind_group(), &[]);
     for (index, group) in groups {
         pass.set_bind_group(*index, group, &[]);
     }

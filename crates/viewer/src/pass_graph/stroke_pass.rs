@@ -1,9 +1,9 @@
 //! `strokes`: feature edges by the stroke renderer.
 //!
-//! Passes that follow each other are one look and are drawn from one detection: what
-//! is hidden, then what is visible, then silhouettes. What lies under them is the
-//! framebuffer as it is; where no pass has drawn the scene there, its depth is filled
-//! first, so that lines are hidden by surfaces that are not drawn.
+//! Passes that follow each other are one drawing style and are drawn from one detection: what
+//! is hidden, then what is visible, then silhouettes. What lies under them is the framebuffer
+//! as it is; if no pass has drawn the scene there, its depth is filled first, so that surfaces
+//! that are not drawn still hide lines.
 
 use std::sync::Arc;
 
@@ -12,33 +12,43 @@ use edgemesh_shaders::ShaderError;
 use strokes::gpu::device::Gpu;
 use strokes::gpu::target_formats::TargetFormats;
 use strokes::gpu::timer::TimedPasses;
-use strokes::mesh::buffers::MeshBuffers;
-use strokes::renderer::object::Object;
-use strokes::renderer::{
-    DetectionPath, Fill, FrameRequest, PreparedLook, Renderer, RendererOptions,
-};
+use strokes::render::drawing::Drawing;
+use strokes::render::error::RenderError;
+use strokes::render::frame_request::{Fill, FrameRequest};
+use strokes::render::pipelines::{DetectionStage, RendererOptions};
+use strokes::render::prepared_style::PreparedStyle;
+use strokes::render::renderer::Renderer;
 
-use super::stroke_style::look_of;
+use super::stroke_style::style_of_passes;
 use super::{Encoding, GraphOptions};
 use crate::scene::models::Scene;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
 use crate::technique::pass::Pass;
 
-/// The stroke renderer and the meshes that its groups share.
+/// The stroke renderer that all groups of strokes share.
 #[derive(Debug)]
 pub(crate) struct StrokePasses {
     renderer: Renderer,
-    meshes: Vec<Option<Arc<MeshBuffers>>>,
+    /// What views made of the groups of the technique before, in order.
+    drawings: std::vec::IntoIter<Drawing>,
     folders: Vec<std::path::PathBuf>,
 }
 
 /// What stays while techniques come and go: renderers with the pipelines that they have
-/// built, each for its kind of target, and the meshes.
+/// built, one per kind of target, and what views made of the last technique's groups.
 #[derive(Debug, Default)]
 pub(crate) struct StrokeStore {
     renderers: Vec<Renderer>,
-    meshes: Vec<Option<Arc<MeshBuffers>>>,
+    /// Of the last renderer in `renderers`.
+    drawings: Vec<Drawing>,
+}
+
+impl StrokeStore {
+    /// Drops what views made of the last technique.
+    pub(crate) fn forget_drawings(&mut self) {
+        self.drawings.clear();
+    }
 }
 
 /// Targets with a stencil and without.
@@ -47,17 +57,19 @@ const MOST_RENDERERS: usize = 2;
 /// Passes that are drawn together.
 #[derive(Debug)]
 pub(crate) struct StrokeGroup {
-    pub(crate) objects: Vec<Object>,
+    /// The style of each object.
+    styles: Vec<Arc<PreparedStyle>>,
+    pub(crate) drawing: Drawing,
 }
 
 /// Whether a pass of strokes is done and asks what is beside its lines.
-pub(crate) fn needs_stencil(technique: &Technique, looks: &[Technique]) -> bool {
+pub(crate) fn needs_stencil(technique: &Technique, overrides: &[Technique]) -> bool {
     let is_silhouette = |pass: &Pass| {
         pass.is_rendered()
             && pass.component.core == CoreComponent::Strokes
             && pass.string("visibility") == "silhouette"
     };
-    let mut all = std::iter::once(technique).chain(looks).flat_map(|look| &look.passes);
+    let mut all = std::iter::once(technique).chain(overrides).flat_map(|own| &own.passes);
     all.any(is_silhouette)
 }
 
@@ -65,109 +77,93 @@ fn shader_failure(error: &ShaderError) -> Failure {
     Failure { message: error.to_string(), status: ExitStatus::Shader }
 }
 
+fn failure(error: &RenderError) -> Failure {
+    let status = match error {
+        RenderError::Shader(_) => ExitStatus::Shader,
+        _ => ExitStatus::Internal,
+    };
+    Failure { message: error.to_string(), status }
+}
+
 impl StrokePasses {
-    /// For strokes in a scene; what is in `store` is taken out of it, as far as it is
-    /// still good.
+    /// For strokes in targets of `formats`; takes what still fits out of `store`.
     pub(crate) fn new(
         gpu: &Gpu,
-        scene: &Scene,
         options: &GraphOptions,
         formats: TargetFormats,
-        (folders, store): (&[std::path::PathBuf], &mut StrokeStore),
+        folders: &[std::path::PathBuf],
+        store: &mut StrokeStore,
     ) -> Result<Self, Failure> {
-        let GraphOptions { layout, path, .. } = *options;
-        let options = RendererOptions { layout, path, formats }.possible();
-        let renderer = match store.renderers.iter().position(|known| *known.options() == options) {
+        let GraphOptions { layout, stage, .. } = *options;
+        let options = RendererOptions { layout, stage, formats }.supported();
+        let known = store.renderers.iter().position(|known| *known.options() == options);
+        // Drawings belong to the renderer that was used last.
+        let is_last = known.is_some_and(|at| at + 1 == store.renderers.len());
+        let drawings = std::mem::take(&mut store.drawings);
+        let renderer = match known {
             Some(at) => store.renderers.remove(at),
             None => Renderer::new(gpu, options).map_err(|error| shader_failure(&error))?,
         };
-        let mut meshes = std::mem::take(&mut store.meshes);
-        meshes.resize(scene.models.len(), None);
-        Ok(Self { renderer, meshes, folders: folders.to_vec() })
+        let drawings = if is_last { drawings } else { Vec::new() };
+        Ok(Self { renderer, drawings: drawings.into_iter(), folders: folders.to_vec() })
     }
 
-    /// Leaves everything for those who come after it.
-    pub(crate) fn put_back(self, store: &mut StrokeStore) {
-        store.meshes = self.meshes;
+    /// Leaves the renderer, and the drawings of its groups, for the next technique.
+    pub(crate) fn put_back(self, drawings: Vec<Drawing>, store: &mut StrokeStore) {
+        store.drawings = drawings;
         store.renderers.push(self.renderer);
         if store.renderers.len() > MOST_RENDERERS {
             store.renderers.remove(0);
         }
     }
 
-    /// Whether vertex shaders detect.
+    /// Whether vertex shaders detect, which count nothing.
     pub(crate) fn counts_nothing(&self) -> bool {
-        self.renderer.options().path == DetectionPath::Vertex
+        self.renderer.options().stage == DetectionStage::Vertex
     }
 
-    /// Prepares the look of `passes` for the objects of `scene`; those with a look of
-    /// their own have all passes of strokes from there.
+    /// Prepares the styles of `passes` for the objects of `scene`; objects with overrides take
+    /// all passes of strokes from there.
     pub(crate) fn group(
         &mut self,
         gpu: &Gpu,
         scene: &Scene,
         passes: &[&Pass],
-        looks: &[Technique],
+        overrides: &[Technique],
     ) -> Result<StrokeGroup, Failure> {
-        let look = |passes: &[&Pass], folders: &[std::path::PathBuf]| {
-            look_of(passes, folders, &scene.frame, scene.thresholds)
+        let style = |passes: &[&Pass], folders: &[std::path::PathBuf]| {
+            style_of_passes(passes, folders, &scene.frame, scene.thresholds)
         };
-        let mut all = vec![look(passes, &self.folders)?];
-        for own in looks {
+        let mut all = vec![style(passes, &self.folders)?];
+        for own in overrides {
             let is_drawn =
                 |pass: &&Pass| pass.is_rendered() && pass.component.core == CoreComponent::Strokes;
             let passes: Vec<&Pass> = own.passes.iter().filter(is_drawn).collect();
-            all.push(look(&passes, &own.folders)?);
+            all.push(style(&passes, &own.folders)?);
         }
-        // Objects that look alike share pipelines and textures.
-        let mut prepared: Vec<Arc<PreparedLook>> = Vec::with_capacity(all.len());
-        for (at, look) in all.iter().enumerate() {
-            let same = all[..at].iter().position(|known| known == look);
+        // Equal styles share pipelines and textures.
+        let mut prepared: Vec<Arc<PreparedStyle>> = Vec::with_capacity(all.len());
+        for (at, style) in all.iter().enumerate() {
+            let same = all[..at].iter().position(|known| known == style);
             prepared.push(match same {
                 Some(same) => prepared[same].clone(),
-                None => self.renderer.prepare(gpu, look).map_err(|error| shader_failure(&error))?,
+                None => self.renderer.prepare(gpu, style).map_err(|error| failure(&error))?,
             });
         }
-        let is_linked = prepared.iter().any(|look| look.is_linked());
-        let mut objects = Vec::with_capacity(scene.objects.len());
-        for placed in &scene.objects {
-            let mesh = self.mesh(gpu, scene, placed.model, is_linked)?;
-            let look = prepared.get(placed.look + 1).unwrap_or(&prepared[0]);
-            let mut object = self.renderer.object(gpu, &mesh, look);
-            object.world_from_object = placed.world_from_object;
-            objects.push(object);
-        }
-        Ok(StrokeGroup { objects })
-    }
-
-    /// The mesh of a model, uploaded once, and again where links are needed.
-    fn mesh(
-        &mut self,
-        gpu: &Gpu,
-        scene: &Scene,
-        model: usize,
-        is_linked: bool,
-    ) -> Result<Arc<MeshBuffers>, Failure> {
-        if let Some(known) = &self.meshes[model]
-            && (!is_linked || known.has_links())
-        {
-            return Ok(known.clone());
-        }
-        let loaded = &scene.models[model];
-        let upload = if is_linked { MeshBuffers::with_links } else { MeshBuffers::new };
-        let layout = self.renderer.options().layout;
-        let mesh = upload(&gpu.device, &loaded.mesh, layout)
-            .map_err(|error| Failure::fault(format!("{}: {error}", loaded.name)))?;
-        Ok(self.meshes[model].insert(Arc::new(mesh)).clone())
+        let of_object = |look: usize| prepared.get(look + 1).unwrap_or(&prepared[0]).clone();
+        Ok(StrokeGroup {
+            styles: scene.objects.iter().map(|object| of_object(object.look)).collect(),
+            drawing: self.drawings.next().unwrap_or_default(),
+        })
     }
 
     pub(crate) fn encode(
-        &self,
+        &mut self,
         encoder: &mut wgpu::CommandEncoder,
         encoding: &mut Encoding,
         group: &mut StrokeGroup,
         timer: Option<TimedPasses>,
-    ) {
+    ) -> Result<(), Failure> {
         let fill = match (encoding.has_depth, encoding.is_fresh) {
             (true, _) => Fill::Done,
             (false, true) => Fill::Clear([0.0; 4]),
@@ -175,14 +171,25 @@ impl StrokePasses {
         };
         let request = FrameRequest {
             targets: encoding.framebuffer,
+            instances: encoding.instances,
+            styles: &group.styles,
             view: encoding.view,
-            uniform: encoding.uniform,
             fill,
             overview: encoding.overview,
             resolves: false,
             timer,
         };
-        self.renderer.encode(encoding.gpu, encoder, &mut group.objects, &request);
+        self.renderer
+            .encode(encoding.gpu, encoder, &mut group.drawing, &request)
+            .map_err(|error| failure(&error))?;
         (encoding.is_fresh, encoding.has_depth) = (false, true);
+        Ok(())
+    }
+}
+
+impl StrokeGroup {
+    /// Whether any strokes are linked.
+    pub(crate) fn is_linked(&self) -> bool {
+        self.styles.iter().any(|style| style.is_linked())
     }
 }

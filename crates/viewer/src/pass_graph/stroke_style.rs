@@ -9,8 +9,8 @@ use edgemesh::line::class::LineClass;
 use edgemesh::line::kind::LineKind;
 use edgemesh::line::placement::{Parameterization, Placement};
 use strokes::style::brush::Brush;
-use strokes::style::drawing_style::{Layer, Look, StrokeStyle, Width};
-use strokes::style::link_style::{BrushFit, CURVE_LENGTH, End, Join, PathStyle};
+use strokes::style::drawing_style::{DrawingStyle, Layer, StrokeStyle, Width};
+use strokes::style::link_style::{BrushFit, CURVE_LENGTH, End, Join, LinkStyle};
 
 use crate::technique::brush_file::brush_from_png;
 use crate::technique::class_pass::classes_of;
@@ -29,12 +29,12 @@ const MIN_WIDTH_PX: f32 = 0.1;
 ///
 /// `built` are the thresholds in radians that meshes were built with: those of passes
 /// that set none.
-pub(crate) fn look_of(
+pub(crate) fn style_of_passes(
     passes: &[&Pass],
     folders: &[PathBuf],
     frame: &MeshFrame,
     built: [f64; 2],
-) -> Result<Look, Failure> {
+) -> Result<DrawingStyle, Failure> {
     let styles = passes
         .iter()
         .map(|pass| Ok((*pass, style_of(pass, folders, frame)?)))
@@ -62,7 +62,12 @@ pub(crate) fn look_of(
             None => layers.push(Layer { classes: vec![class], visible, hidden }),
         }
     }
-    Ok(Look { fill_color: None, layers, silhouette, thresholds: thresholds_of(passes, built) })
+    Ok(DrawingStyle {
+        fill_color: None,
+        layers,
+        silhouette,
+        thresholds: thresholds_of(passes, built),
+    })
 }
 
 /// The crease thresholds in radians: those that the first pass sets that sets any.
@@ -111,14 +116,14 @@ fn style_of(pass: &Pass, folders: &[PathBuf], frame: &MeshFrame) -> Result<Strok
         },
         brush: brush_of(pass, folders)?,
         fade: (fade[1] > fade[0]).then(|| fade.map(scaled)),
-        path: pass.bool("linked").then(|| path_of(pass)).transpose()?,
+        link: pass.bool("linked").then(|| link_of(pass)).transpose()?,
     })
 }
 
-fn path_of(pass: &Pass) -> Result<PathStyle, Failure> {
+fn link_of(pass: &Pass) -> Result<LinkStyle, Failure> {
     let min_length = pass.number("min_length");
     let dash: [f32; 2] = pass.numbers("dash");
-    Ok(PathStyle {
+    Ok(LinkStyle {
         join: match pass.string("join") {
             "mitred" => Join::Mitred,
             _ => Join::Round,
@@ -182,7 +187,7 @@ mod tests {
 
     const BUILT: [f64; 2] = [0.5, 0.6];
 
-    fn look(settings: &[&str], frame: &MeshFrame) -> Look {
+    fn look(settings: &[&str], frame: &MeshFrame) -> DrawingStyle {
         let mut technique = Library::shipped().technique("ink").unwrap().0;
         for setting in settings {
             technique.set(setting).unwrap();
@@ -231,8 +236,8 @@ mod tests {
     fn values_outside_mean_what_they_say() {
         let frame = MeshFrame::default();
         let plain = look(&["strokes.linked=true"], &frame);
-        let path = plain.layers[0].visible.as_ref().unwrap().path.clone().unwrap();
-        assert_eq!((path.clone(), path.dash_px), (PathStyle::default(), None));
+        let path = plain.layers[0].visible.as_ref().unwrap().link.clone().unwrap();
+        assert_eq!((path.clone(), path.dash_px), (LinkStyle::default(), None));
         let set = look(
             &[
                 "strokes.linked=true",
@@ -242,7 +247,7 @@ mod tests {
             ],
             &frame,
         );
-        let path = set.layers[0].visible.as_ref().unwrap().path.clone().unwrap();
+        let path = set.layers[0].visible.as_ref().unwrap().link.clone().unwrap();
         assert_eq!(
             (path.dash_px, path.min_length_px, path.end),
             (Some([12.0, 8.0]), Some(5.0), End::Flat)

@@ -11,11 +11,11 @@ use strokes::draw::targets::Targets;
 use strokes::gpu::device::{Gpu, GpuError, ResourceError};
 use strokes::gpu::readback::{PendingRead, ReadbackError, read_picture};
 use strokes::gpu::timer::GpuTimer;
+use strokes::graph::readback::GraphReadback;
 use strokes::mesh::layout::Layout;
-use strokes::renderer::DetectionPath;
-use strokes::renderer::object::GraphReadback;
+use strokes::render::pipelines::DetectionStage;
 use strokes::view::live_lists::Tally;
-use strokes::view::tile::PicturePart;
+use strokes::view::tile::Tile;
 
 use crate::pass_graph::{GraphOptions, PartOf, PassGraph, Seen};
 use crate::scene::lighting::Lighting;
@@ -36,7 +36,7 @@ pub struct PictureOptions {
     /// How the edges lie in memory.
     pub layout: Layout,
     /// Where features are detected.
-    pub path: DetectionPath,
+    pub stage: DetectionStage,
     /// Whether there is no paper behind the scene.
     pub is_transparent: bool,
     /// The light, and what cuts the scene.
@@ -52,7 +52,7 @@ impl Default for PictureOptions {
             size: [1024; 2],
             samples: 4,
             layout: Layout::default(),
-            path: DetectionPath::default(),
+            stage: DetectionStage::default(),
             is_transparent: false,
             lighting: Lighting::default(),
             shaders: None,
@@ -66,7 +66,7 @@ impl PictureOptions {
             size: self.size,
             samples: self.samples,
             layout: self.layout,
-            path: self.path,
+            stage: self.stage,
             is_transparent: self.is_transparent,
             clips: !self.lighting.clip_planes.is_empty(),
         }
@@ -171,8 +171,8 @@ impl PictureRenderer {
             Plan::of(technique, &shaders).map_err(|mistakes| technique_failure(&mistakes))?;
         let graph_options = options.of_graph();
         let (gpu, options_before) = (&self.gpu, self.options.of_graph());
-        let is_alike = (graph_options.layout, graph_options.path)
-            == (options_before.layout, options_before.path);
+        let is_alike = (graph_options.layout, graph_options.stage)
+            == (options_before.layout, options_before.stage);
         let before = self.graph.take().filter(|_| is_alike);
         let made = gpu.make(|| match before {
             Some(before) => before.rebuilt(gpu, scene, technique, &plan, looks, &graph_options),
@@ -243,7 +243,7 @@ impl PictureRenderer {
     pub fn render_part(
         &mut self,
         view: &View,
-        part: PicturePart,
+        part: Tile,
         overview: Option<&Self>,
     ) -> Result<(RgbaImage, FrameStatistics), Failure> {
         let started = Instant::now();
@@ -288,7 +288,7 @@ impl PictureRenderer {
     /// Where the device is lost.
     pub fn read_graph(&self, object: usize) -> Result<Option<GraphReadback>, Failure> {
         let group = self.graph()?.stroke_groups().next();
-        let Some(object) = group.and_then(|group| group.objects.get(object)) else {
+        let Some(object) = group.and_then(|group| group.drawing.objects().get(object)) else {
             return Ok(None);
         };
         object.read_graph(&self.gpu).map_err(lost)

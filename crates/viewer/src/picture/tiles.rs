@@ -20,7 +20,7 @@ use edgemesh::view::camera::Camera;
 use image::RgbaImage;
 use strokes::draw::targets::Targets;
 use strokes::gpu::device::Gpu;
-use strokes::view::tile::PicturePart;
+use strokes::view::tile::Tile;
 
 use crate::picture::renderer::{FrameStatistics, PictureOptions, PictureRenderer};
 use crate::scene::models::Scene;
@@ -250,14 +250,10 @@ impl PartLayout {
         (0..rows).flat_map(|row| (0..columns).map(move |column| place(column, row))).collect()
     }
 
-    fn part_at(&self, place: &PartPlace) -> PicturePart {
+    fn part_at(&self, place: &PartPlace) -> Tile {
         #[expect(clippy::cast_precision_loss, reason = "pictures have fewer pixels a side")]
         let px = |[x, y]: [u32; 2]| glam::Vec2::new(x as f32, y as f32);
-        PicturePart {
-            picture_px: px(self.picture),
-            corner_px: px(place.drawn),
-            size_px: px(self.part),
-        }
+        Tile { picture_px: px(self.picture), corner_px: px(place.drawn), size_px: px(self.part) }
     }
 }
 

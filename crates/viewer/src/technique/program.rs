@@ -513,7 +513,7 @@ fn known_binding(at: naga::ResourceBinding, name: &str) -> Result<(), String> {
     const KNOWN: [(u32, u32, &str); 6] = [
         (0, 0, "frame"),
         (2, 0, "object"),
-        (2, 1, "surface_parts"),
+        (2, 1, "surface_ranges"),
         (2, 2, "materials"),
         (2, 3, "base_texture"),
         (2, 4, "base_sampler"),

@@ -75,7 +75,7 @@ fn counts(ui: &mut Ui, session: &Session) {
         let features = tally.features();
         for class in edgemesh::line::class::LineClass::ALL {
             ui.label(class.name());
-            ui.label(grouped(features.of(class) as usize));
+            ui.label(grouped(features[class] as usize));
             ui.end_row();
         }
         ui.label("strokes");

@@ -29,7 +29,7 @@ pub(super) fn lines_panel(ui: &mut Ui, session: &mut Session) {
             if ui.checkbox(&mut is_drawn, name).changed() {
                 set_drawn(&mut technique.passes, class, is_drawn);
             }
-            let count = features.map(|features| features.of(class));
+            let count = features.map(|features| features[class]);
             ui.label(count.map_or_else(String::new, |count| grouped(count as usize)));
             ui.end_row();
         }

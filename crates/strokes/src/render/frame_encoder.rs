@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use edgemesh::index::to_u32;
 use edgemesh::line::kind::LineKind;
 
 use crate::draw::coverage::CHANNELS;
@@ -11,17 +12,30 @@ use crate::draw::silhouette::{NO_OBJECT, StencilValues};
 use crate::draw::stroke_indices::IndexKey;
 use crate::draw::targets::Targets;
 use crate::gpu::timer::TimedPasses;
-use crate::graph::buffers::RIBBON_DRAWS;
-use crate::renderer::object::{Object, ObjectPart, SeenBox};
-use crate::renderer::{DrawVertices, Fill, PASS_NAMES, PreparedDraw, Renderer};
+use crate::graph::buffers::arguments::RIBBON_DRAWS;
+use crate::mesh::geometry::EdgeGeometry;
+use crate::render::drawing::{DrawnChunk, DrawnObject};
+use crate::render::frame_request::{Fill, PASS_NAMES};
+use crate::render::pipelines::Pipelines;
+use crate::render::prepared_style::{PreparedStrokes, StrokeVertices};
 use crate::style::drawing_style::Visibility;
 use crate::view::live_lists::{DrawArguments, REST_OFFSET};
+use crate::view::view_state::{ObjectState, ScreenBox};
+
+/// An object in its place on the screen.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Placed<'a> {
+    pub(crate) object: &'a DrawnObject,
+    pub(crate) state: &'a ObjectState,
+}
 
 /// The part of a frame that draws.
 pub(crate) struct FrameEncoder<'a> {
-    pub(crate) renderer: &'a Renderer,
+    pub(crate) pipelines: &'a Pipelines,
     pub(crate) targets: &'a Targets,
-    pub(crate) objects: &'a [&'a Object],
+    /// `@group(0)`.
+    pub(crate) frame: &'a wgpu::BindGroup,
+    pub(crate) objects: &'a [Placed<'a>],
     /// The frame with what was filled, where a draw asks for it.
     pub(crate) frame_fill: Option<wgpu::BindGroup>,
     /// The same of the whole picture, where a part is drawn.
@@ -35,29 +49,29 @@ pub(crate) struct FrameEncoder<'a> {
 
 /// What is drawn at once, in the order of a frame.
 pub(crate) enum DrawStep {
-    /// The strokes of an object and one of its draws, edge by edge.
-    Edges { object: usize, draw: usize },
-    /// Linked strokes: up to four draws, each of all objects with that look.
-    Linked(Vec<LinkedDraw>),
+    /// One stroke set of an object, edge by edge.
+    Edges { object: usize, set: usize },
+    /// Linked strokes: up to four stroke sets, each of all objects in that style.
+    Linked(Vec<LinkedStrokes>),
 }
 
-pub(crate) struct LinkedDraw {
+pub(crate) struct LinkedStrokes {
     objects: Vec<usize>,
-    draw: usize,
+    set: usize,
 }
 
 impl DrawStep {
     /// All but silhouettes that are drawn edge by edge, which need the stencil.
-    pub(crate) fn plan(objects: &[&Object]) -> Vec<Self> {
+    pub(crate) fn plan(objects: &[Placed]) -> Vec<Self> {
         let mut steps: Vec<Self> = Vec::new();
         for visibility in [Visibility::Hidden, Visibility::Visible, Visibility::Silhouette] {
             for (object, placed) in objects.iter().enumerate() {
-                let draws = placed.look.draws.iter().enumerate();
-                for (draw, prepared) in draws.filter(|(_, draw)| draw.visibility == visibility) {
+                let sets = placed.object.style.sets.iter().enumerate();
+                for (set, prepared) in sets.filter(|(_, set)| set.visibility == visibility) {
                     if prepared.is_linked {
-                        Self::add_linked(&mut steps, objects, object, draw);
+                        Self::add_linked(&mut steps, objects, object, set);
                     } else if visibility != Visibility::Silhouette {
-                        steps.push(Self::Edges { object, draw });
+                        steps.push(Self::Edges { object, set });
                     }
                 }
             }
@@ -65,24 +79,24 @@ impl DrawStep {
         steps
     }
 
-    /// Objects that look alike share a channel, so that a scene has as many as it has
-    /// looks.
-    fn add_linked(steps: &mut Vec<Self>, objects: &[&Object], object: usize, draw: usize) {
-        let is_same = |linked: &LinkedDraw| {
-            let look = &objects[linked.objects[0]].look;
-            linked.draw == draw && Arc::ptr_eq(look, &objects[object].look)
+    /// Objects in the same style share a channel, so that a scene needs as many channels as it
+    /// has styles.
+    fn add_linked(steps: &mut Vec<Self>, objects: &[Placed], object: usize, set: usize) {
+        let is_same = |linked: &LinkedStrokes| {
+            let style = &objects[linked.objects[0]].object.style;
+            linked.set == set && Arc::ptr_eq(style, &objects[object].object.style)
         };
         let linked = steps.iter_mut().filter_map(|step| match step {
-            Self::Linked(draws) => Some(draws),
+            Self::Linked(sets) => Some(sets),
             Self::Edges { .. } => None,
         });
         if let Some(same) = linked.flatten().find(|linked| is_same(linked)) {
             same.objects.push(object);
             return;
         }
-        let new = LinkedDraw { objects: vec![object], draw };
+        let new = LinkedStrokes { objects: vec![object], set };
         match steps.last_mut() {
-            Some(Self::Linked(draws)) if draws.len() < CHANNELS => draws.push(new),
+            Some(Self::Linked(sets)) if sets.len() < CHANNELS => sets.push(new),
             _ => steps.push(Self::Linked(vec![new])),
         }
     }
@@ -110,7 +124,7 @@ impl FrameEncoder<'_> {
         let mut counter = StencilValues::default();
         let mut batches = StencilBatches { values: Vec::new(), clears: Vec::new() };
         for (index, object) in self.objects.iter().enumerate() {
-            if !object.has_silhouette() {
+            if !object.object.style.has_silhouette() {
                 batches.values.push(NO_OBJECT);
                 continue;
             }
@@ -136,7 +150,7 @@ impl FrameEncoder<'_> {
             Fill::Done => {
                 let timer = timer.map(|timer| timer.render(3));
                 let first = batches.ranges()[0].clone();
-                return self.encode_marks(encoder, first, &batches.values, timer);
+                return self.encode_stencil(encoder, first, &batches.values, timer);
             }
         };
         let color = self.targets.color_attachment(load, false);
@@ -150,22 +164,22 @@ impl FrameEncoder<'_> {
         let first_batch = batches.clears.first().copied().unwrap_or(self.objects.len());
         for (index, object) in self.objects.iter().enumerate() {
             let value = if index < first_batch { batches.values[index] } else { NO_OBJECT };
-            self.fill(&mut pass, object, object.look.fill_kind, value);
+            self.fill(&mut pass, object.object, object.object.style.fill_kind, value);
         }
     }
 
-    fn fill(&self, pass: &mut wgpu::RenderPass, object: &Object, kind: FillKind, value: u32) {
-        self.renderer.fill.set(pass, kind, self.clips);
-        pass.set_bind_group(0, &self.renderer.frame.bind_group, &[]);
-        pass.set_bind_group(1, &object.look.fill_pass, &[]);
-        pass.set_bind_group(2, &object.fill_group, &[]);
+    fn fill(&self, pass: &mut wgpu::RenderPass, object: &DrawnObject, kind: FillKind, value: u32) {
+        self.pipelines.fill.set(pass, kind, self.clips);
+        pass.set_bind_group(0, self.frame, &[]);
+        pass.set_bind_group(1, &object.style.fill_pass, &[]);
+        pass.set_bind_group(2, &object.fill, &[]);
         pass.set_stencil_reference(value);
-        FillPipeline::record(pass, &object.mesh);
+        FillPipeline::record(pass, &object.instance);
     }
 
-    pub(crate) fn batches(&self) -> impl Iterator<Item = &[LinkedDraw]> {
+    pub(crate) fn batches(&self) -> impl Iterator<Item = &[LinkedStrokes]> {
         self.steps.iter().filter_map(|step| match step {
-            DrawStep::Linked(draws) => Some(&draws[..]),
+            DrawStep::Linked(sets) => Some(&sets[..]),
             DrawStep::Edges { .. } => None,
         })
     }
@@ -181,12 +195,13 @@ impl FrameEncoder<'_> {
             timestamp_writes: timer.map(|timer| timer.compute(4)),
         });
         let frame = self.overview_fill.as_ref().or(self.frame_fill.as_ref());
-        let Some((frame, pipelines)) = frame.zip(self.renderer.graph.as_ref()) else {
+        let Some((frame, pipelines)) = frame.zip(self.pipelines.graph.as_ref()) else {
             return;
         };
         pass.set_bind_group(0, frame, &[]);
-        for object in self.objects {
-            if let Some((graph, styles)) = object.graph.as_ref().zip(object.look.path_pass.as_ref())
+        for object in self.objects.iter().map(|placed| placed.object) {
+            if let Some((graph, styles)) =
+                object.graph.as_ref().zip(object.style.link_pass.as_ref())
             {
                 pass.set_bind_group(1, styles, &[]);
                 pipelines.path.record(&mut pass, &graph.buffers, &graph.path);
@@ -208,11 +223,11 @@ impl FrameEncoder<'_> {
                 timestamp_writes: timer.map(|timer| timer.compute(5)),
             });
         }
-        let Some((pipelines, frame)) = self.renderer.graph.as_ref().zip(self.frame_fill.as_ref())
+        let Some((pipelines, frame)) = self.pipelines.graph.as_ref().zip(self.frame_fill.as_ref())
         else {
             return;
         };
-        for (batch, (draws, texture)) in self.batches().zip(textures).enumerate() {
+        for (batch, (sets, texture)) in self.batches().zip(textures).enumerate() {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some(PASS_NAMES[5]),
                 color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -228,15 +243,15 @@ impl FrameEncoder<'_> {
                 ..Default::default()
             });
             pass.set_bind_group(0, frame, &[]);
-            self.renderer.set_indices(&mut pass, IndexKey::Quads);
-            for (channel, linked) in draws.iter().enumerate() {
-                for object in linked.objects.iter().map(|&object| self.objects[object]) {
+            self.pipelines.set_indices(&mut pass, IndexKey::Quads);
+            for (channel, linked) in sets.iter().enumerate() {
+                for object in linked.objects.iter().map(|&object| self.objects[object].object) {
                     let Some(graph) = &object.graph else { continue };
-                    let draw = &object.look.draws[linked.draw];
-                    pipelines.coverage.set_ribbons(&mut pass, channel, draw.is_textured);
-                    pass.set_bind_group(1, &draw.style, &[]);
+                    let set = &object.style.sets[linked.set];
+                    pipelines.coverage.set_ribbons(&mut pass, channel, set.is_textured);
+                    pass.set_bind_group(1, &set.style, &[]);
                     pass.set_bind_group(3, &graph.ribbons, &[]);
-                    let at = 4 * (RIBBON_DRAWS + 5 * linked.draw) as u64;
+                    let at = 4 * u64::from(RIBBON_DRAWS + 5 * to_u32(linked.set));
                     pass.draw_indexed_indirect(&graph.buffers.arguments, at);
                 }
             }
@@ -249,11 +264,11 @@ impl FrameEncoder<'_> {
         device: &wgpu::Device,
         textures: &[wgpu::TextureView],
     ) -> Vec<wgpu::BindGroup> {
-        let Some(pipelines) = &self.renderer.graph else { return Vec::new() };
-        let group = |(draws, texture): (&[LinkedDraw], &wgpu::TextureView)| {
+        let Some(pipelines) = &self.pipelines.graph else { return Vec::new() };
+        let group = |(sets, texture): (&[LinkedStrokes], &wgpu::TextureView)| {
             let mut colors = [[0.0; 4]; CHANNELS];
-            for (color, linked) in colors.iter_mut().zip(draws) {
-                *color = self.objects[linked.objects[0]].look.draws[linked.draw].color;
+            for (color, linked) in colors.iter_mut().zip(sets) {
+                *color = self.objects[linked.objects[0]].object.style.sets[linked.set].color;
             }
             pipelines.coverage.composite_group(device, colors, texture)
         };
@@ -261,16 +276,16 @@ impl FrameEncoder<'_> {
     }
 
     /// The part of the picture that linked strokes can touch: left, top, width, height.
-    fn touched(&self, draws: &[LinkedDraw]) -> [u32; 4] {
+    fn touched(&self, sets: &[LinkedStrokes]) -> [u32; 4] {
         let size = self.targets.size;
         let everything = [0, 0, size[0], size[1]];
-        let mut touched: Option<SeenBox> = None;
+        let mut touched: Option<ScreenBox> = None;
         let mut reach_px: f32 = 0.0;
-        for linked in draws {
+        for linked in sets {
             for &object in &linked.objects {
-                let object = self.objects[object];
-                let reach = object.look.draws[linked.draw].reach_px;
-                let Some((seen, reach)) = object.seen.zip(reach) else { return everything };
+                let Placed { object, state } = self.objects[object];
+                let reach = object.style.sets[linked.set].reach_px;
+                let Some((seen, reach)) = state.screen_box().zip(reach) else { return everything };
                 reach_px = reach_px.max(reach);
                 touched = Some(touched.map_or(seen, |touched| touched.union(&seen)));
             }
@@ -283,25 +298,25 @@ impl FrameEncoder<'_> {
         let mut laid = laid.iter();
         for step in &self.steps {
             match step {
-                DrawStep::Edges { object, draw } => {
-                    self.strokes(pass, self.objects[*object], *draw)
+                DrawStep::Edges { object, set } => {
+                    self.strokes(pass, self.objects[*object].object, *set)
                 }
-                DrawStep::Linked(draws) => {
-                    let pipelines = self.renderer.graph.as_ref();
-                    let [left, top, width, height] = self.touched(draws);
+                DrawStep::Linked(sets) => {
+                    let pipelines = self.pipelines.graph.as_ref();
+                    let [left, top, width, height] = self.touched(sets);
                     let composite = pipelines.zip(laid.next());
                     // Objects beside the picture touch nothing of it.
                     if let Some((pipelines, group)) = composite.filter(|_| width * height > 0) {
                         pass.set_scissor_rect(left, top, width, height);
-                        pipelines.coverage.record_composite(pass, group, draws.len());
+                        pipelines.coverage.record_composite(pass, group, sets.len());
                         let [width, height] = self.targets.size;
                         pass.set_scissor_rect(0, 0, width, height);
                     }
                     // What found no room to be linked.
-                    for linked in draws {
+                    for linked in sets {
                         for &object in &linked.objects {
                             pass.set_stencil_reference(values[object]);
-                            self.strokes(pass, self.objects[object], linked.draw);
+                            self.strokes(pass, self.objects[object].object, linked.set);
                         }
                     }
                 }
@@ -320,7 +335,7 @@ impl FrameEncoder<'_> {
         for (batch, range) in ranges.iter().enumerate() {
             let is_first = batch == 0;
             if !is_first {
-                self.encode_marks(encoder, range.clone(), &batches.values, None);
+                self.encode_stencil(encoder, range.clone(), &batches.values, None);
             }
             let is_last = batch + 1 == ranges.len();
             let color = self.targets.color_attachment(wgpu::LoadOp::Load, is_last && self.resolves);
@@ -336,19 +351,19 @@ impl FrameEncoder<'_> {
             }
             for index in range.clone().filter(|&index| batches.values[index] != NO_OBJECT) {
                 pass.set_stencil_reference(batches.values[index]);
-                let object = self.objects[index];
-                for (draw, prepared) in object.look.draws.iter().enumerate() {
+                let object = self.objects[index].object;
+                for (set, prepared) in object.style.sets.iter().enumerate() {
                     if prepared.visibility == Visibility::Silhouette && !prepared.is_linked {
-                        self.strokes(&mut pass, object, draw);
+                        self.strokes(&mut pass, object, set);
                     }
                 }
             }
         }
     }
 
-    /// Clears the stencil and marks a batch of objects in it where their own depth is
+    /// Clears the stencil and writes the values of a batch of objects where their own depth is
     /// what is seen.
-    fn encode_marks(
+    fn encode_stencil(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         range: std::ops::Range<usize>,
@@ -357,50 +372,46 @@ impl FrameEncoder<'_> {
     ) {
         let color = self.targets.color_attachment(wgpu::LoadOp::Load, false);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("marks"),
+            label: Some("stencil"),
             color_attachments: &[Some(color)],
             depth_stencil_attachment: Some(self.targets.cleared_stencil()),
             timestamp_writes: timer,
             ..Default::default()
         });
         for index in range.filter(|&index| values[index] != NO_OBJECT) {
-            self.fill(&mut pass, self.objects[index], FillKind::Mark, values[index]);
+            self.fill(&mut pass, self.objects[index].object, FillKind::Stencil, values[index]);
         }
     }
 
-    /// The strokes of a draw, edge by edge.
-    fn strokes(&self, pass: &mut wgpu::RenderPass, object: &Object, index: usize) {
-        if let Some(draw) = object.look.draws.get(index) {
-            let frame = &self.renderer.frame.bind_group;
-            let frame =
-                self.frame_fill.as_ref().filter(|_| draw.lies_over_surface).unwrap_or(frame);
-            pass.set_bind_group(0, frame, &[]);
-            pass.set_bind_group(1, &draw.style, &[]);
-            for (chunk, part) in object.mesh.chunks.iter().zip(&object.parts) {
-                match &draw.vertices {
-                    DrawVertices::Lists { expanded, listed } => {
-                        let expanded = expanded.as_ref().map(|(_, pipeline)| pipeline);
-                        self.listed_strokes(pass, part, draw, index, expanded, listed);
-                    }
-                    DrawVertices::All(pipeline) => {
-                        let index_count = edgemesh::index::to_u32(draw.kind.indices().len());
-                        pass.set_pipeline(pipeline);
-                        pass.set_bind_group(2, &part.edges, &[]);
-                        pass.set_bind_group(3, part.planes.as_ref(), &[]);
-                        pass.draw(0..index_count * chunk.size.edge_count, 0..1);
-                    }
-                    DrawVertices::Attributes(pipeline) => {
-                        let crate::mesh::buffers::EdgeSource::Replicated { vertices } =
-                            &chunk.source
-                        else {
-                            continue;
-                        };
-                        pass.set_pipeline(pipeline);
-                        pass.set_bind_group(2, &part.edges, &[]);
-                        pass.set_vertex_buffer(0, vertices.slice(..));
-                        self.attribute_strokes(pass, draw.kind, chunk.size.edge_count);
-                    }
+    /// One stroke set of an object, edge by edge.
+    fn strokes(&self, pass: &mut wgpu::RenderPass, object: &DrawnObject, index: usize) {
+        let Some(set) = object.style.sets.get(index) else { return };
+        let with_fill = self.frame_fill.as_ref().filter(|_| set.lies_over_surface);
+        pass.set_bind_group(0, with_fill.unwrap_or(self.frame), &[]);
+        pass.set_bind_group(1, &set.style, &[]);
+        let sizes = object.instance.mesh().chunks.iter().map(|chunk| chunk.size);
+        let geometries = &object.instance.geometry().chunks;
+        for ((chunk, size), geometry) in object.chunks.iter().zip(sizes).zip(geometries) {
+            match (&set.vertices, &geometry.edges) {
+                (StrokeVertices::Lists { expanded, listed }, _) => {
+                    let expanded = expanded.as_ref().map(|(_, pipeline)| pipeline);
+                    self.listed_strokes(pass, chunk, set, index, expanded, listed);
                 }
+                (StrokeVertices::All(pipeline), _) => {
+                    let index_count = to_u32(set.kind.indices().len());
+                    pass.set_pipeline(pipeline);
+                    pass.set_bind_group(2, &chunk.edges, &[]);
+                    pass.set_bind_group(3, chunk.planes.as_ref(), &[]);
+                    pass.draw(0..index_count * size.edge_count, 0..1);
+                }
+                (StrokeVertices::Attributes(pipeline), EdgeGeometry::Replicated { vertices }) => {
+                    pass.set_pipeline(pipeline);
+                    pass.set_bind_group(2, &chunk.edges, &[]);
+                    pass.set_vertex_buffer(0, vertices.slice(..));
+                    self.attribute_strokes(pass, set.kind, size.edge_count);
+                }
+                // Attributes are drawn from replicated vertices alone.
+                (StrokeVertices::Attributes(_), EdgeGeometry::Indexed { .. }) => {}
             }
         }
     }
@@ -409,35 +420,35 @@ impl FrameEncoder<'_> {
     fn listed_strokes(
         &self,
         pass: &mut wgpu::RenderPass,
-        part: &ObjectPart,
-        draw: &PreparedDraw,
+        chunk: &DrawnChunk,
+        set: &PreparedStrokes,
         index: usize,
         expanded: Option<&wgpu::RenderPipeline>,
         listed: &wgpu::RenderPipeline,
     ) {
-        let Some(lists) = &part.lists else { return };
+        let Some(bound) = &chunk.lists else { return };
         let arguments = (index * size_of::<DrawArguments>()) as u64;
-        if let (Some(expanded), Some(vertices)) = (expanded, &lists.view.vertices[index]) {
+        if let (Some(expanded), Some(vertices)) = (expanded, &bound.lists.vertices[index]) {
             pass.set_pipeline(expanded);
             pass.set_vertex_buffer(0, vertices.slice(..));
-            self.renderer.set_indices(pass, IndexKey::Expanded(draw.kind));
-            pass.draw_indexed_indirect(&lists.view.draws, arguments);
+            self.pipelines.set_indices(pass, IndexKey::Expanded(set.kind));
+            pass.draw_indexed_indirect(&bound.lists.arguments, arguments);
         }
         pass.set_pipeline(listed);
-        pass.set_bind_group(2, &part.edges, &[]);
-        pass.set_bind_group(3, &lists.listed, &[]);
-        pass.draw_indirect(&lists.view.draws, arguments + REST_OFFSET);
+        pass.set_bind_group(2, &chunk.edges, &[]);
+        pass.set_bind_group(3, &bound.listed, &[]);
+        pass.draw_indirect(&bound.lists.arguments, arguments + REST_OFFSET);
     }
 
     /// The paper's passes: all quads, then all ends, a triangle of each at a time.
     fn attribute_strokes(&self, pass: &mut wgpu::RenderPass, kind: LineKind, edge_count: u32) {
         let key = if kind == LineKind::Thin { IndexKey::Lines } else { IndexKey::Quads };
-        let per_edge = edgemesh::index::to_u32(key.pattern().0.len());
-        self.renderer.set_indices(pass, key);
+        let per_edge = to_u32(key.pattern().0.len());
+        self.pipelines.set_indices(pass, key);
         pass.draw_indexed(0..per_edge * edge_count, 0, 0..1);
-        let parts = edgemesh::index::to_u32(kind.indices().len() / 3).saturating_sub(2);
+        let parts = to_u32(kind.indices().len() / 3).saturating_sub(2);
         if parts > 0 {
-            self.renderer.set_indices(pass, IndexKey::Ends);
+            self.pipelines.set_indices(pass, IndexKey::Ends);
             pass.draw_indexed(0..3 * edge_count, 0, 1..1 + parts);
         }
     }

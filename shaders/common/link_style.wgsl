@@ -1,9 +1,9 @@
-// How the strokes of each linked draw look. Rust twin: PathUniform in
+// How the strokes of each linked draw look. Rust twin: LinkStyleUniform in
 // crates/strokes/src/graph/path.rs.
 #import <common/object_limits.wgsl>
 #import <common/frame.wgsl>
 
-struct PathUniform {
+struct LinkStyleUniform {
     layer: u32,
     // 0 what is visible, 1 what is hidden, 2 silhouettes.
     visibility: u32,
@@ -45,4 +45,4 @@ struct PathUniform {
 const HIDDEN_STROKES: u32 = 1u;
 const SILHOUETTE_STROKES: u32 = 2u;
 
-@group(1) @binding(0) var<uniform> paths: array<PathUniform, MAX_DRAWS>;
+@group(1) @binding(0) var<uniform> link_styles: array<LinkStyleUniform, MAX_STROKE_SETS>;

@@ -1,0 +1,58 @@
+//! The models of a scene on the GPU, each once, with what the passes of a technique need of
+//! them; kept while techniques come and go.
+
+use std::sync::Arc;
+
+use edgemesh::command::Failure;
+use strokes::gpu::device::Gpu;
+use strokes::mesh::{MeshBuffers, MeshInstance, MeshOptions};
+
+use crate::scene::models::Scene;
+
+/// The models of a scene on the GPU.
+#[derive(Debug, Default)]
+pub(crate) struct SceneBuffers {
+    meshes: Vec<Option<Arc<MeshBuffers>>>,
+}
+
+impl SceneBuffers {
+    /// The objects of `scene` in their places. A model is uploaded once, and again if a
+    /// technique needs more of it.
+    pub(crate) fn instances(
+        &mut self,
+        gpu: &Gpu,
+        scene: &Scene,
+        needs: MeshOptions,
+    ) -> Result<Vec<MeshInstance>, Failure> {
+        self.meshes.resize(scene.models.len(), None);
+        let instance = |placed: &crate::scene::models::PlacedObject| {
+            let mesh = self.mesh(gpu, scene, placed.model, needs)?;
+            Ok(MeshInstance::new(&mesh, placed.world_from_object))
+        };
+        scene.objects.iter().map(instance).collect()
+    }
+
+    fn mesh(
+        &mut self,
+        gpu: &Gpu,
+        scene: &Scene,
+        model: usize,
+        needs: MeshOptions,
+    ) -> Result<Arc<MeshBuffers>, Failure> {
+        let known =
+            self.meshes[model].as_ref().filter(|mesh| mesh.options().layout == needs.layout);
+        let mut options = needs;
+        if let Some(mesh) = known {
+            let has = mesh.options();
+            options.links |= has.links;
+            options.surface |= has.surface;
+            if options == has {
+                return Ok(mesh.clone());
+            }
+        }
+        let loaded = &scene.models[model];
+        let mesh = MeshBuffers::new(&gpu.device, &loaded.mesh, options)
+            .map_err(|error| Failure::fault(format!("{}: {error}", loaded.name)))?;
+        Ok(self.meshes[model].insert(Arc::new(mesh)).clone())
+    }
+}
