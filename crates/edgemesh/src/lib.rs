@@ -13,6 +13,7 @@
 //!
 //! - [`read`]: files in, [`model::Model`] out, every error with file and line.
 //! - [`build`]: weld, repair, classify; one stage a file.
+//! - [`load`]: a file to an edge mesh in one call, with the marks beside it.
 //! - [`export`]: the mesh and its edges for other programs: glTF, PLY, OBJ, JSON.
 //! - [`mod@file`]: edge meshes on disk, with a checksum, used where they lie.
 //! - [`oracle`]: the CPU twin of the shaders, and the reference they are held to.
@@ -32,6 +33,8 @@
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
+#[cfg(feature = "command")]
+pub mod arguments;
 pub mod build;
 #[cfg(feature = "command")]
 pub mod command;
@@ -39,6 +42,7 @@ pub mod edge_mesh;
 pub mod format;
 pub mod index;
 pub mod line;
+pub mod load;
 pub mod model;
 pub mod oracle;
 pub mod report;

@@ -7,10 +7,13 @@ use clap::Args;
 use glam::Vec3;
 use serde::Serialize;
 
-use super::input::{InputOptions, Loaded};
-use super::options::CameraOptions;
-use super::{Failure, print_to_stdout, print_warnings, to_json};
+use super::failure::Failure;
+use super::loading::load_input;
+use super::messages::print_warnings;
+use super::output::{print_to_stdout, to_json};
+use crate::arguments::{CameraArguments, InputArguments};
 use crate::edge_mesh::{EdgeMesh, LayoutBytes};
+use crate::load::Loaded;
 use crate::report::{RepairKind, Report, place_in};
 use crate::view::feature_counts::{FeatureCounts, count_features};
 
@@ -30,10 +33,10 @@ pub struct InfoCommand {
     pub json: bool,
     /// How the input is read
     #[command(flatten)]
-    pub input: InputOptions,
+    pub input: InputArguments,
     /// The view that contours are counted in
     #[command(flatten)]
-    pub camera: CameraOptions,
+    pub camera: CameraArguments,
 }
 
 impl InfoCommand {
@@ -47,7 +50,7 @@ impl InfoCommand {
             .models
             .iter()
             .map(|model| {
-                let loaded = self.input.load(model, false, is_quiet)?;
+                let loaded = load_input(&self.input, model, false, is_quiet)?;
                 if !is_quiet {
                     print_warnings(&loaded.name, &loaded.report);
                 }
