@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 
+use super::failure::Failure;
 use super::loading::load_input;
+use super::messages::print_warnings;
 use super::progress::TerminalLine;
 use super::target::{Targets, write_target};
-use super::failure::Failure;
-use super::messages::print_warnings;
 use crate::arguments::InputArguments;
 use crate::format::export::{ExportFormat, to_bytes};
 

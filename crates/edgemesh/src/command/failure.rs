@@ -91,9 +91,7 @@ impl From<WriteError> for Failure {
 impl From<CameraError> for Failure {
     fn from(error: CameraError) -> Self {
         Self::usage(match error {
-            CameraError::EyeOnTarget => {
-                "--eye and --target are the same point; move one of them"
-            }
+            CameraError::EyeOnTarget => "--eye and --target are the same point; move one of them",
             CameraError::UpAlongSight => "--up points along the line of sight; give another",
         })
     }
@@ -110,7 +108,10 @@ mod tests {
         report.warn(WarningCode::Mark, Some(Place::Line(3)), || "no edge".into());
         report.warn_many(WarningCode::Index, 4, None, || "left out".into());
         let error = LoadError::Warnings { file: "a.obj".into(), report };
-        assert_eq!(error.to_string(), "a.obj: left out (and 3 more) [index]\na.obj:3: no edge [mark]");
+        assert_eq!(
+            error.to_string(),
+            "a.obj: left out (and 3 more) [index]\na.obj:3: no edge [mark]"
+        );
         let failure = Failure::from(error);
         let text = "a.obj: left out (and 3 more) [index]\nerror: a.obj:3: no edge [mark]";
         assert_eq!((failure.message.as_str(), failure.status), (text, ExitStatus::FAULT));

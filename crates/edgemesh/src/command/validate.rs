@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 
-use super::info::{RepairInfo, WarningInfo, repairs_of, warnings_of};
 use super::failure::{ExitStatus, Failure};
+use super::info::{RepairInfo, WarningInfo, repairs_of, warnings_of};
 use super::loading::load_input;
 use super::output::{print_to_stdout, to_json};
 use crate::arguments::InputArguments;

@@ -117,9 +117,7 @@ fn stored(path: &Path, stream: impl Read, options: &LoadOptions) -> Result<Input
     }
     let bytes = read_edge_mesh(stream).map_err(|error| unreadable(path, error))?;
     match parse(&bytes) {
-        Ok(stored) => {
-            Ok(Input::Stored(Box::new(stored.to_mesh()), file, stored.report().clone()))
-        }
+        Ok(stored) => Ok(Input::Stored(Box::new(stored.to_mesh()), file, stored.report().clone())),
         Err(reason) => Err(LoadError::EdgeMeshFile { file, reason }),
     }
 }

@@ -58,8 +58,11 @@ pub fn side_file(model: &Path) -> PathBuf {
 pub fn read_marks(path: &Path) -> Result<SideMarks, MarksError> {
     let text = std::fs::read_to_string(path)
         .map_err(|reason| MarksError::Io { path: path.to_owned(), reason })?;
-    parse_marks(&text)
-        .map_err(|(line, what)| MarksError::Line { path: path.to_owned(), line, what })
+    parse_marks(&text).map_err(|(line, what)| MarksError::Line {
+        path: path.to_owned(),
+        line,
+        what,
+    })
 }
 
 /// The text of a side file.

@@ -3,7 +3,6 @@
 
 use std::cell::RefCell;
 
-use edgemesh::command::Failure;
 use strokes::draw::targets::Targets;
 use strokes::gpu::device::Gpu;
 use strokes::gpu::target_formats::TargetFormats;
@@ -20,6 +19,7 @@ use super::stroke_pass::{self, StrokePasses, StrokeStore};
 use super::surface::Surfaces;
 use super::textures::{GeneratedTexture, Images};
 use super::{GraphOptions, PassGraph, Run, Step, StepKind, blend};
+use crate::error::Error;
 use crate::scene::models::Scene;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
@@ -40,7 +40,7 @@ impl PassGraph {
         plan: &Plan,
         looks: &[Technique],
         options: &GraphOptions,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         Self::build(gpu, (scene, options), (technique, plan, looks), None)
     }
 
@@ -58,7 +58,7 @@ impl PassGraph {
         plan: &Plan,
         looks: &[Technique],
         options: &GraphOptions,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         Self::build(gpu, (scene, options), (technique, plan, looks), Some(self))
     }
 
@@ -67,7 +67,7 @@ impl PassGraph {
         (scene, options): (&Scene, &GraphOptions),
         (technique, plan, looks): (&Technique, &Plan, &[Technique]),
         before: Option<Self>,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         let device = &gpu.device;
         let groups = groups_of(technique, looks);
         let formats = match stroke_pass::needs_stencil(technique, looks) {
@@ -248,7 +248,7 @@ impl Builder<'_> {
         programs: Programs,
         geometry: Geometry,
         target: &PipelineTarget,
-    ) -> Result<PassPipeline, Failure> {
+    ) -> Result<PassPipeline, Error> {
         let mut pipelines = self.pipelines.borrow_mut();
         pipelines.pipeline(self.gpu, layouts, programs, geometry, target)
     }
@@ -261,7 +261,7 @@ impl Builder<'_> {
             Option<&Surfaces>,
             Option<&mut StrokePasses>,
         ),
-    ) -> Result<Step, Failure> {
+    ) -> Result<Step, Error> {
         let pass = &self.technique.passes[group[0]];
         let plan = &self.plan.passes[group[0]];
         let kind = match (pass.component.core, surfaces, strokes) {

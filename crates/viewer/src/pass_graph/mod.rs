@@ -32,7 +32,6 @@ mod stroke_style;
 pub mod surface;
 pub(crate) mod textures;
 
-use edgemesh::command::Failure;
 use edgemesh::view::camera::View;
 use strokes::draw::targets::Targets;
 use strokes::gpu::device::Gpu;
@@ -52,6 +51,7 @@ use self::scene_pass::ScenePass;
 use self::screen_pass::ScreenPass;
 use self::stroke_pass::{StrokeGroup, StrokePasses, StrokeStore};
 use self::surface::Surfaces;
+use crate::error::Error;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
 use crate::technique::pass::Pass;
@@ -266,7 +266,7 @@ impl PassGraph {
         encoder: &mut wgpu::CommandEncoder,
         seen: &Seen,
         timer: Option<TimedPasses>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Error> {
         let Seen { view, around, part } = *seen;
         let whole = || PicturePart::whole(self.framebuffer.viewport_px());
         let uniform = FrameUniform::new(view, &part.map_or_else(whole, |of| of.part), around);
@@ -337,7 +337,7 @@ pub fn strokes_of(
     technique: &Technique,
     frame: &edgemesh::edge_mesh::MeshFrame,
     built: [f64; 2],
-) -> Result<Look, Failure> {
+) -> Result<Look, Error> {
     let is_drawn =
         |pass: &&Pass| pass.is_rendered() && pass.component.core == CoreComponent::Strokes;
     let passes: Vec<&Pass> = technique.passes.iter().filter(is_drawn).collect();
@@ -376,7 +376,7 @@ impl Step {
         sources: &mut Sources,
         strokes: Option<&StrokePasses>,
         timer: Option<TimedPasses>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Error> {
         match &mut self.kind {
             StepKind::Scene(pass) => pass.encode(encoder, encoding, &self.plan, sources, timer)?,
             StepKind::Screen(pass) => pass.encode(encoder, encoding, &self.plan, sources, timer)?,

@@ -7,8 +7,6 @@
 
 use std::sync::Arc;
 
-use edgemesh::command::{ExitStatus, Failure};
-use edgemesh_shaders::ShaderError;
 use strokes::gpu::device::Gpu;
 use strokes::gpu::target_formats::TargetFormats;
 use strokes::gpu::timer::TimedPasses;
@@ -20,6 +18,7 @@ use strokes::renderer::{
 
 use super::stroke_style::look_of;
 use super::{Encoding, GraphOptions};
+use crate::error::Error;
 use crate::scene::models::Scene;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
@@ -61,10 +60,6 @@ pub(crate) fn needs_stencil(technique: &Technique, looks: &[Technique]) -> bool 
     all.any(is_silhouette)
 }
 
-fn shader_failure(error: &ShaderError) -> Failure {
-    Failure { message: error.to_string(), status: ExitStatus::Shader }
-}
-
 impl StrokePasses {
     /// For strokes in a scene; what is in `store` is taken out of it, as far as it is
     /// still good.
@@ -74,12 +69,12 @@ impl StrokePasses {
         options: &GraphOptions,
         formats: TargetFormats,
         (folders, store): (&[std::path::PathBuf], &mut StrokeStore),
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         let GraphOptions { layout, path, .. } = *options;
         let options = RendererOptions { layout, path, formats }.possible();
         let renderer = match store.renderers.iter().position(|known| *known.options() == options) {
             Some(at) => store.renderers.remove(at),
-            None => Renderer::new(gpu, options).map_err(|error| shader_failure(&error))?,
+            None => Renderer::new(gpu, options)?,
         };
         let mut meshes = std::mem::take(&mut store.meshes);
         meshes.resize(scene.models.len(), None);
@@ -108,7 +103,7 @@ impl StrokePasses {
         scene: &Scene,
         passes: &[&Pass],
         looks: &[Technique],
-    ) -> Result<StrokeGroup, Failure> {
+    ) -> Result<StrokeGroup, Error> {
         let look = |passes: &[&Pass], folders: &[std::path::PathBuf]| {
             look_of(passes, folders, &scene.frame, scene.thresholds)
         };
@@ -125,7 +120,7 @@ impl StrokePasses {
             let same = all[..at].iter().position(|known| known == look);
             prepared.push(match same {
                 Some(same) => prepared[same].clone(),
-                None => self.renderer.prepare(gpu, look).map_err(|error| shader_failure(&error))?,
+                None => self.renderer.prepare(gpu, look)?,
             });
         }
         let is_linked = prepared.iter().any(|look| look.is_linked());
@@ -147,7 +142,7 @@ impl StrokePasses {
         scene: &Scene,
         model: usize,
         is_linked: bool,
-    ) -> Result<Arc<MeshBuffers>, Failure> {
+    ) -> Result<Arc<MeshBuffers>, Error> {
         if let Some(known) = &self.meshes[model]
             && (!is_linked || known.has_links())
         {
@@ -157,7 +152,7 @@ impl StrokePasses {
         let upload = if is_linked { MeshBuffers::with_links } else { MeshBuffers::new };
         let layout = self.renderer.options().layout;
         let mesh = upload(&gpu.device, &loaded.mesh, layout)
-            .map_err(|error| Failure::fault(format!("{}: {error}", loaded.name)))?;
+            .map_err(|reason| Error::MeshTooLarge { model: loaded.name.clone(), reason })?;
         Ok(self.meshes[model].insert(Arc::new(mesh)).clone())
     }
 

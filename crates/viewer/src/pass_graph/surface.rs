@@ -8,17 +8,18 @@
 use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
-use edgemesh::command::Failure;
 use edgemesh::edge_mesh::replicate::Quantization;
 use edgemesh::edge_mesh::{EdgeMesh, FillVertex};
 use edgemesh::index::{NONE, to_u32};
 use glam::DMat4;
 use strokes::gpu::device::Gpu;
+use strokes::mesh::buffers::MeshTooLarge;
 use strokes::mesh::layout::Layout;
 use wgpu::util::DeviceExt as _;
 
 use super::material::MaterialUniform;
 use super::textures::{Images, averaged_levels, decode_image, upload};
+use crate::error::{Error, ImageError};
 use crate::scene::models::Scene;
 
 /// The vertices of surfaces: position, normal, texture coordinate.
@@ -94,13 +95,13 @@ impl Surfaces {
         layout: Layout,
         images: &mut Images,
         sampler: &wgpu::Sampler,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         let group_layout = object_layout(&gpu.device);
         let mut meshes = Vec::new();
         // Ids of materials go by the model, those of groups by the object.
         let (mut material_regions, mut material_region) = (Vec::new(), 1);
         for model in &scene.models {
-            let failed = |what| Failure::fault(format!("{}: {what}", model.name));
+            let failed = |reason| Error::MeshTooLarge { model: model.name.clone(), reason };
             let mesh = SurfaceMesh::new(gpu, &model.mesh, layout, images).map_err(failed)?;
             material_regions.push(material_region);
             material_region += to_u32(mesh.textures.len());
@@ -162,7 +163,7 @@ impl SurfaceMesh {
         mesh: &EdgeMesh,
         layout: Layout,
         images: &mut Images,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, MeshTooLarge> {
         let (vertices, indices) = vertices_of(mesh, layout);
         let limit = gpu.device.limits().max_buffer_size;
         for (what, need) in [
@@ -170,10 +171,7 @@ impl SurfaceMesh {
             ("triangles", size_of_val(&*indices) as u64),
         ] {
             if need > limit {
-                return Err(format!(
-                    "the surface is too large for this adapter: its {what} need {need} bytes in \
-                     one buffer, the adapter takes {limit}"
-                ));
+                return Err(MeshTooLarge { what, need, limit });
             }
         }
         let (parts, indices) = sorted_by_part(mesh, indices);
@@ -224,8 +222,8 @@ impl SurfaceMesh {
 }
 
 /// The levels of a material's texture.
-fn base_texture(texture: &edgemesh::model::Texture) -> Result<Vec<image::RgbaImage>, String> {
-    let bytes = texture.source.encoded().map_err(|error| format!("cannot be read: {error}"))?;
+fn base_texture(texture: &edgemesh::model::Texture) -> Result<Vec<image::RgbaImage>, ImageError> {
+    let bytes = texture.source.encoded()?;
     decode_image(&bytes).map(averaged_levels)
 }
 
