@@ -13,6 +13,7 @@
 //! | [`format`] | files in and out |
 //! | [`build`] | a model becomes an edge mesh, one stage per file |
 //! | [`edge_mesh`] | the edge mesh, its records and layouts |
+//! | [`load`] | a file becomes an edge mesh in one call, with the marks beside it |
 //! | [`line`] | line classes, kinds of lines, where they lie |
 //! | [`view`] | what one view makes of it: cameras, facing, features |
 //! | [`oracle`] | CPU twins of the shaders, which tests hold them to |
@@ -31,6 +32,8 @@
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
+#[cfg(feature = "command")]
+pub mod arguments;
 pub mod build;
 #[cfg(feature = "command")]
 pub mod command;
@@ -38,6 +41,7 @@ pub mod edge_mesh;
 pub mod format;
 pub mod index;
 pub mod line;
+pub mod load;
 pub mod model;
 pub mod oracle;
 pub mod report;

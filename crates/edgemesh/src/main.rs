@@ -7,9 +7,8 @@ use edgemesh::command::build::BuildCommand;
 use edgemesh::command::export::ExportCommand;
 use edgemesh::command::info::InfoCommand;
 use edgemesh::command::manual::{CompletionsCommand, ManCommand};
-use edgemesh::command::options::MessageOptions;
-use edgemesh::command::run;
 use edgemesh::command::validate::ValidateCommand;
+use edgemesh::command::{MessageOptions, run};
 
 /// Turns triangle meshes into edge meshes and says what is in them
 #[derive(Debug, Parser)]

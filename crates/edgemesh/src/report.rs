@@ -294,6 +294,20 @@ impl Report {
         &self.warnings
     }
 
+    /// A line for each warning: the first place in `file`, `level` (such as `warning: `), the
+    /// message, how many more there are, and the code.
+    #[must_use]
+    pub fn warning_lines(&self, file: &str, level: &str) -> Vec<String> {
+        let line = |Warning { code, count, place, message }: &Warning| {
+            let more = match count {
+                1 => String::new(),
+                count => format!(" (and {} more)", count - 1),
+            };
+            format!("{}: {level}{message}{more} [{code}]", place_in(file, place.as_ref()))
+        };
+        self.warnings.iter().map(line).collect()
+    }
+
     /// The repairs, one a kind, ordered by kind.
     #[must_use]
     pub fn repairs(&self) -> &[Repair] {

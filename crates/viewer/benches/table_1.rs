@@ -17,8 +17,8 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::command::input::Loaded;
 use edgemesh::format::read::read_model;
+use edgemesh::load::Loaded;
 use edgemesh::oracle::detector::Image;
 use edgemesh::oracle::detector::chiang::{ChiangOptions, chiang};
 use edgemesh::view::camera::Camera;

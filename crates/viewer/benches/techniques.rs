@@ -12,8 +12,8 @@
 use std::path::{Path, PathBuf};
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::command::input::Loaded;
 use edgemesh::format::read::read_model;
+use edgemesh::load::Loaded;
 use edgemesh::view::camera::Camera;
 use strokes::gpu::device;
 use strokes::gpu::device::Gpu;
@@ -56,7 +56,7 @@ fn table(gpu: &Gpu, path: &Path, size: [u32; 2], frames: usize) {
     let runner = |name: &str| {
         let technique = library.technique(name).unwrap().0;
         let renderer = PictureRenderer::new(gpu, &scene, &technique, &[], &options)
-            .unwrap_or_else(|failure| panic!("{name}: {}", failure.message));
+            .unwrap_or_else(|error| panic!("{name}: {error}"));
         Runner { name: name.to_owned(), renderer, times_ms: Vec::new() }
     };
     let mut runners: Vec<Runner> = std::iter::once(PLAIN).chain(names).map(runner).collect();

@@ -13,16 +13,21 @@
 //! - [`animation`]: several pictures as a GIF or an animated PNG.
 //! - [`comparison`]: stroke textures, measured along camera paths.
 //! - [`turntable`]: a camera that goes around.
+//! - [`Error`]: what can go wrong.
 //! - [`window`]: the window.
 //! - [`command`]: the command line; `main.rs` only calls it.
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
+mod arguments;
 pub mod command;
 pub mod comparison;
+pub mod error;
 pub mod pass_graph;
 pub mod picture;
 pub mod scene;
 pub mod technique;
 pub mod watch;
 pub mod window;
+
+pub use error::Error;

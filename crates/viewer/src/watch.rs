@@ -12,6 +12,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, SystemTime};
 
 use notify::{RecommendedWatcher, RecursiveMode, Watcher as _};
+use thiserror::Error;
 
 /// How long nothing must happen for a change to be over.
 const QUIET: Duration = Duration::from_millis(25);
@@ -21,6 +22,23 @@ const DOUBT: Duration = Duration::from_millis(150);
 
 /// The endings of the files that count.
 const ENDINGS: [&str; 5] = ["toml", "wgsl", "png", "jpg", "jpeg"];
+
+/// Why files cannot be watched.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum WatchError {
+    /// The operating system watches nothing.
+    #[error("files cannot be watched: {0}")]
+    Start(notify::Error),
+    /// It does not watch a folder.
+    #[error("{}: files cannot be watched: {reason}", folder.display())]
+    Folder {
+        /// The folder.
+        folder: PathBuf,
+        /// What the operating system said.
+        reason: notify::Error,
+    },
+}
 
 /// When files were written, and how long they are.
 type Stamps = BTreeMap<PathBuf, (Option<SystemTime>, u64)>;
@@ -42,22 +60,21 @@ impl Watcher {
     /// `ignored` are files in them that do not count.
     ///
     /// # Errors
-    /// Where a folder cannot be watched.
-    pub fn new(folders: &[PathBuf], ignored: &[PathBuf]) -> Result<Self, String> {
+    /// [`WatchError`].
+    pub fn new(folders: &[PathBuf], ignored: &[PathBuf]) -> Result<Self, WatchError> {
         let (sender, events) = channel();
-        let failed = |error: &notify::Error| format!("files cannot be watched: {error}");
         // Who only reads changes nothing; and nobody listens any more where sending fails.
         let send = move |event: notify::Result<notify::Event>| {
             if !event.as_ref().is_ok_and(|event| event.kind.is_access()) {
                 drop(sender.send(event));
             }
         };
-        let mut watcher = notify::recommended_watcher(send).map_err(|error| failed(&error))?;
+        let mut watcher = notify::recommended_watcher(send).map_err(WatchError::Start)?;
         let folders = with_subfolders(folders);
         for folder in &folders {
             watcher
                 .watch(folder, RecursiveMode::NonRecursive)
-                .map_err(|error| format!("{}: {}", folder.display(), failed(&error)))?;
+                .map_err(|reason| WatchError::Folder { folder: folder.clone(), reason })?;
         }
         let ignored = ignored.iter().map(|path| absolute(path)).collect();
         let mut this =

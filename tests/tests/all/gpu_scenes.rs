@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::command::input::Loaded;
 use edgemesh::edge_mesh::EdgeMesh;
+use edgemesh::load::Loaded;
 use edgemesh::model::Model;
 use edgemesh::report::Report;
 use edgemesh::view::camera::Camera;

@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 
-use edgemesh::command::Listener;
-use edgemesh::command::input::InputOptions;
+use edgemesh::load::{LoadOptions, NoProgress};
 use glam::{DVec2, DVec3};
 use image::RgbaImage;
 use testkit::locate::{program, workspace_root};
@@ -32,7 +31,7 @@ fn session(model: &Path, technique: &str) -> Session {
     let recipe = Recipe::of_words(&words, &library).unwrap();
     let mut session = Session::new(library, recipe, Remembered::default());
     let object = SceneObject::plain(model);
-    let scene = Scene::load(&[object], &InputOptions::default(), Listener::Nobody).unwrap();
+    let scene = Scene::load(&[object], &LoadOptions::default(), &NoProgress).unwrap();
     session.take_scene(vec![model.to_owned()], Arc::new(scene), Vec::new()).unwrap();
     session
 }
@@ -47,7 +46,7 @@ fn saved(session: &Session, size: [u32; 2], path: PathBuf, turntable: Option<u32
         turntable,
         gpu: gpu().clone(),
     };
-    save(&order, &|_| true).unwrap_or_else(|failure| panic!("{}", failure.message))
+    save(&order, &|_| true).unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[test]
@@ -185,8 +184,8 @@ fn turntables_are_written_and_can_be_cancelled() {
         turntable: Some(50),
         gpu: gpu().clone(),
     };
-    let cancelled = save(&order, &|what| !what.contains("picture 4 ")).unwrap_err();
-    assert!(cancelled.message.contains("cancelled"), "{}", cancelled.message);
+    let canceled = save(&order, &|what| !what.contains("picture 4 ")).unwrap_err();
+    assert!(matches!(canceled, viewer::Error::Canceled), "{canceled}");
     assert_eq!(names().len(), 3, "no half file");
 }
 

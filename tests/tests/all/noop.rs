@@ -1,8 +1,8 @@
 //! Pipelines and limits on wgpu's noop device: all of its checks and no GPU.
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::command::input::Loaded;
 use edgemesh::edge_mesh::EdgeMesh;
+use edgemesh::load::Loaded;
 use edgemesh::model::Model;
 use edgemesh::report::Report;
 use strokes::gpu::device::Gpu;
@@ -68,7 +68,7 @@ fn every_technique_builds_its_pipelines_within_the_default_limits() {
                 let options =
                     PictureOptions { size, samples, layout, stage, ..PictureOptions::default() };
                 PictureRenderer::new(&gpu, &scene, &technique, &[], &options)
-                    .unwrap_or_else(|failure| panic!("{name}: {}", failure.message));
+                    .unwrap_or_else(|error| panic!("{name}: {error}"));
             }
         }
     }
@@ -119,7 +119,7 @@ fn every_component_builds_its_pipelines() {
         let technique = library.technique_file(&path).unwrap_or_else(|m| panic!("{name}: {m}")).0;
         let options = PictureOptions { size: [32; 2], ..PictureOptions::default() };
         PictureRenderer::new(&gpu, &scene, &technique, &[], &options)
-            .unwrap_or_else(|failure| panic!("{name}: {}", failure.message));
+            .unwrap_or_else(|error| panic!("{name}: {error}"));
         count += 1;
     }
     assert!(count > 35, "{count} components");

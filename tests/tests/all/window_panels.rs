@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use edgemesh::command::Listener;
-use edgemesh::command::input::{DEMO, InputOptions};
+use edgemesh::load::{DEMO, LoadOptions, NoProgress};
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -30,7 +29,7 @@ fn session(words: &str) -> Session {
     let recipe = Recipe::of_words(&words, &library).unwrap();
     let mut session = Session::new(library, recipe, Remembered::default());
     let object = SceneObject::plain(DEMO.as_ref());
-    let scene = Scene::load(&[object], &InputOptions::default(), Listener::Nobody).unwrap();
+    let scene = Scene::load(&[object], &LoadOptions::default(), &NoProgress).unwrap();
     session.take_scene(vec![PathBuf::from(DEMO)], Arc::new(scene), Vec::new()).unwrap();
     session
 }

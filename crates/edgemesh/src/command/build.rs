@@ -5,10 +5,12 @@ use std::path::PathBuf;
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 
-use super::input::InputOptions;
-use super::progress::Progress;
+use super::failure::Failure;
+use super::loading::load_input;
+use super::messages::print_warnings;
+use super::progress::TerminalLine;
 use super::target::{Targets, write_target};
-use super::{Failure, print_warnings};
+use crate::arguments::InputArguments;
 use crate::format::edge_mesh_file::{Layout, to_bytes};
 
 /// Builds the edge mesh of a model and writes it to a file
@@ -32,7 +34,7 @@ pub struct BuildCommand {
     pub layouts: Vec<Layout>,
     /// How the input is read
     #[command(flatten)]
-    pub input: InputOptions,
+    pub input: InputArguments,
 }
 
 impl ValueEnum for Layout {
@@ -59,11 +61,11 @@ impl BuildCommand {
     pub fn run(&self, is_quiet: bool) -> Result<(), Failure> {
         let targets = Targets::new(&self.models, &self.output, "edgemesh")?;
         for (model, target) in targets.pairs() {
-            let loaded = self.input.load(model, true, is_quiet)?;
+            let loaded = load_input(&self.input, model, true, is_quiet)?;
             if !is_quiet {
                 print_warnings(&loaded.name, &loaded.report);
             }
-            let _progress = Progress::start(format!("writing {}", target.display()), is_quiet);
+            let _progress = TerminalLine::start(format!("writing {}", target.display()), is_quiet);
             let bytes = to_bytes(&loaded.mesh, &loaded.name, &loaded.report, &self.layouts)
                 .map_err(|error| Failure::fault(format!("{}: {error}", target.display())))?;
             write_target(target, &bytes)?;

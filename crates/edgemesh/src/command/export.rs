@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 
-use super::input::InputOptions;
-use super::progress::Progress;
+use super::failure::Failure;
+use super::loading::load_input;
+use super::messages::print_warnings;
+use super::progress::TerminalLine;
 use super::target::{Targets, write_target};
-use super::{Failure, print_warnings};
+use crate::arguments::InputArguments;
 use crate::format::export::{ExportFormat, to_bytes};
 
 /// Writes the mesh and its feature edges for other programs
@@ -33,7 +35,7 @@ pub struct ExportCommand {
     pub to: Option<ExportFormat>,
     /// How the input is read
     #[command(flatten)]
-    pub input: InputOptions,
+    pub input: InputArguments,
 }
 
 impl ValueEnum for ExportFormat {
@@ -68,11 +70,11 @@ impl ExportCommand {
         let format = self.format()?;
         let targets = Targets::new(&self.inputs, &self.output, format.as_str())?;
         for (input, target) in targets.pairs() {
-            let loaded = self.input.load(input, false, is_quiet)?;
+            let loaded = load_input(&self.input, input, false, is_quiet)?;
             if !is_quiet {
                 print_warnings(&loaded.name, &loaded.report);
             }
-            let _progress = Progress::start(format!("writing {}", target.display()), is_quiet);
+            let _progress = TerminalLine::start(format!("writing {}", target.display()), is_quiet);
             let name = input.file_stem().unwrap_or_else(|| Path::new("mesh").as_os_str());
             let bytes = to_bytes(&loaded.mesh, &name.to_string_lossy(), format)
                 .map_err(|error| Failure::fault(format!("{}: {error}", target.display())))?;

@@ -7,11 +7,14 @@ use clap::Args;
 use glam::Vec3;
 use serde::Serialize;
 
-use super::input::{InputOptions, Loaded};
-use super::options::CameraOptions;
-use super::{Failure, print_to_stdout, print_warnings, to_json};
+use super::failure::Failure;
+use super::loading::load_input;
+use super::messages::print_warnings;
+use super::output::{print_to_stdout, to_json};
+use crate::arguments::{CameraArguments, InputArguments};
 use crate::edge_mesh::{EdgeMesh, LayoutBytes};
 use crate::line::class::LineClass;
+use crate::load::Loaded;
 use crate::report::{RepairKind, Report, place_in};
 use crate::view::feature_counts::{FeatureCounts, count_features};
 
@@ -31,10 +34,10 @@ pub struct InfoCommand {
     pub json: bool,
     /// How the input is read
     #[command(flatten)]
-    pub input: InputOptions,
+    pub input: InputArguments,
     /// The view that contours are counted in
     #[command(flatten)]
-    pub camera: CameraOptions,
+    pub camera: CameraArguments,
 }
 
 impl InfoCommand {
@@ -48,7 +51,7 @@ impl InfoCommand {
             .models
             .iter()
             .map(|model| {
-                let loaded = self.input.load(model, false, is_quiet)?;
+                let loaded = load_input(&self.input, model, false, is_quiet)?;
                 if !is_quiet {
                     print_warnings(&loaded.name, &loaded.report);
                 }

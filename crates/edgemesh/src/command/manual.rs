@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, Command};
 use clap_complete::Shell;
 
-use super::{Failure, print_to_stdout, write_file};
+use super::failure::Failure;
+use super::output::print_to_stdout;
+use crate::format::whole_file::write_file;
 
 /// Prints the completions of a shell
 #[derive(Debug, Clone, Args)]

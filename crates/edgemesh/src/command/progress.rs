@@ -1,71 +1,57 @@
-//! A line on standard error while work takes long: what is done, and since when.
+//! A line on standard error while work takes long: the stage, and since when.
 //!
-//! It shows only on a terminal and only after a second, and is gone when the
-//! work is done, so that scripts and quick work see nothing of it.
+//! It shows only on a terminal and only after a second, and is gone when the work is done, so
+//! that scripts and quick work see nothing of it.
 
+use std::cell::RefCell;
 use std::io::{IsTerminal as _, stderr};
+use std::ops::ControlFlow;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::{JoinHandle, spawn};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::Failure;
+use crate::load::{Progress, Stage};
 
-/// Who is told what is being done.
-#[derive(Clone, Copy)]
-pub enum Listener<'a> {
-    /// Nobody.
-    Nobody,
-    /// Who sits at the terminal, if standard error is one.
-    Terminal,
-    /// Called with each stage of the work as it begins; false ends the work.
-    Other(&'a (dyn Fn(&str) -> bool + Sync)),
+/// Shows the stages of loading on the terminal.
+#[derive(Debug)]
+pub struct TerminalProgress {
+    is_quiet: bool,
+    line: RefCell<Option<TerminalLine>>,
 }
 
-impl std::fmt::Debug for Listener<'_> {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str(match self {
-            Self::Nobody => "Nobody",
-            Self::Terminal => "Terminal",
-            Self::Other(_) => "Other",
-        })
-    }
-}
-
-impl Listener<'_> {
-    /// Whoever is at the terminal, unless the command is to be quiet.
+impl TerminalProgress {
+    /// Shows nothing if `is_quiet`.
     #[must_use]
-    pub const fn terminal(is_quiet: bool) -> Self {
-        if is_quiet { Self::Nobody } else { Self::Terminal }
-    }
-
-    /// Says that a stage begins, which ends when the result is dropped.
-    ///
-    /// # Errors
-    /// Where the listener wants no more of it.
-    pub fn begin(&self, what: &str) -> Result<Progress, Failure> {
-        match self {
-            Self::Other(tell) if !tell(what) => Err(Failure::fault("it was cancelled")),
-            Self::Terminal => Ok(Progress::start(what.to_owned(), false)),
-            Self::Other(_) | Self::Nobody => Ok(Progress::start(String::new(), true)),
-        }
+    pub const fn new(is_quiet: bool) -> Self {
+        Self { is_quiet, line: RefCell::new(None) }
     }
 }
 
-/// How long work may take without a word.
+impl Progress for TerminalProgress {
+    fn begin(&self, stage: Stage) -> ControlFlow<()> {
+        self.line.replace(Some(TerminalLine::start(stage.to_string(), self.is_quiet)));
+        ControlFlow::Continue(())
+    }
+
+    fn end(&self) {
+        self.line.take();
+    }
+}
+
+/// How long work may take before the line shows.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Shows the line until it is dropped.
 #[derive(Debug)]
-pub struct Progress {
+pub(super) struct TerminalLine {
     watcher: Option<(Sender<()>, JoinHandle<()>)>,
 }
 
-impl Progress {
-    /// Says `what` is done, if it takes long and anybody is there to see it.
-    #[must_use]
-    pub fn start(what: String, is_quiet: bool) -> Self {
+impl TerminalLine {
+    /// Shows `what` if it takes long and standard error is a terminal.
+    pub(super) fn start(what: String, is_quiet: bool) -> Self {
         if is_quiet || !stderr().is_terminal() {
             return Self { watcher: None };
         }
@@ -87,7 +73,7 @@ impl Progress {
     }
 }
 
-impl Drop for Progress {
+impl Drop for TerminalLine {
     fn drop(&mut self) {
         if let Some((sender, thread)) = self.watcher.take() {
             drop(sender);

@@ -3,7 +3,9 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use super::{Failure, print_to_stdout, write_file};
+use super::failure::Failure;
+use super::output::print_to_stdout;
+use crate::format::whole_file::write_file;
 
 /// Each input with the file that is made of it.
 #[derive(Debug)]
@@ -83,7 +85,7 @@ fn file_name(input: &Path, extension: &str) -> OsString {
 
 /// Writes a result to its file, or to standard output for `-`.
 pub(crate) fn write_target(target: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    if target == Path::new("-") { print_to_stdout(bytes) } else { write_file(target, bytes) }
+    if target == Path::new("-") { print_to_stdout(bytes) } else { Ok(write_file(target, bytes)?) }
 }
 
 #[cfg(test)]

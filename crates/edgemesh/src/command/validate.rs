@@ -6,9 +6,12 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 
+use super::failure::{ExitStatus, Failure};
 use super::info::{RepairInfo, WarningInfo, repairs_of, warnings_of};
-use super::input::{InputOptions, Loaded};
-use super::{ExitStatus, Failure, print_to_stdout, to_json};
+use super::loading::load_input;
+use super::output::{print_to_stdout, to_json};
+use crate::arguments::InputArguments;
+use crate::load::Loaded;
 
 /// Says what is wrong with each file: errors, warnings, repairs
 ///
@@ -28,7 +31,7 @@ pub struct ValidateCommand {
     pub json: bool,
     /// How the input is read
     #[command(flatten)]
-    pub input: InputOptions,
+    pub input: InputArguments,
 }
 
 /// What `validate --json` prints of a file.
@@ -51,20 +54,21 @@ impl ValidateCommand {
     /// so the failure has none.
     pub fn run(&self, is_quiet: bool) -> Result<(), Failure> {
         // Warnings are judged here, once all of them are told.
-        let input = InputOptions { strict: false, ..self.input.clone() };
+        let input = InputArguments { strict: false, ..self.input.clone() };
         let mut status = None;
         let mut verdicts = Vec::new();
         for path in &self.inputs {
-            let verdict = match input.load(path, false, is_quiet) {
+            let loaded = load_input(&input, path, false, is_quiet).map_err(Failure::from);
+            let verdict = match loaded {
                 Ok(loaded) => Verdict::of(&loaded),
-                Err(failure) if failure.status == ExitStatus::Usage => return Err(failure),
+                Err(failure) if failure.status == ExitStatus::USAGE => return Err(failure),
                 Err(failure) => {
                     status = Some(failure.status);
                     Verdict::of_error(path.display().to_string(), failure.message)
                 }
             };
             if self.input.strict && verdict.status == "warnings" {
-                status = status.or(Some(ExitStatus::Fault));
+                status = status.or(Some(ExitStatus::FAULT));
             }
             verdicts.push(verdict);
         }

@@ -8,6 +8,7 @@
 use glam::dcamera::rh::proj::directx;
 use glam::dcamera::rh::view::look_to_mat4;
 use glam::{DVec3, Mat4, Vec4};
+use thiserror::Error;
 
 use crate::edge_mesh::Bounds;
 
@@ -39,6 +40,18 @@ pub struct Camera {
     pub fov_y_rad: f64,
     /// Whether lines of sight are parallel.
     pub is_orthographic: bool,
+}
+
+/// Why a camera sees nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum CameraError {
+    /// The eye and the target are the same point.
+    #[error("the eye lies on the target")]
+    EyeOnTarget,
+    /// The direction up lies along the line of sight.
+    #[error("the direction up lies along the line of sight")]
+    UpAlongSight,
 }
 
 /// What one view needs on the GPU and in the oracle.

@@ -1,11 +1,11 @@
 //! `viewer adapters`: the graphics adapters, and what each lacks.
 
 use clap::Args;
-use edgemesh::command::{Failure, print_to_stdout};
+use edgemesh::command::{Failure, print_to_stdout, to_json};
 use serde::Serialize;
 use strokes::gpu::device::{GpuError, instance, lacking};
 
-use crate::picture::renderer::adapter_failure;
+use crate::error::Error;
 
 /// Lists the graphics adapters and what each lacks
 ///
@@ -48,16 +48,11 @@ impl AdaptersCommand {
         if entries.is_empty() {
             let names: Vec<String> =
                 backends.iter_names().map(|(name, _)| name.to_lowercase()).collect();
-            return Err(adapter_failure(&GpuError::NoAdapter { tried: names.join(", ") }));
+            return Err(Error::from(GpuError::NoAdapter { tried: names.join(", ") }).into());
         }
         let text = if self.json { to_json(&entries)? } else { to_text(&entries) };
         print_to_stdout(text.as_bytes())
     }
-}
-
-fn to_json(entries: &[AdapterEntry]) -> Result<String, Failure> {
-    let json = serde_json::to_string_pretty(entries);
-    Ok(json.map_err(|error| Failure::fault(error.to_string()))? + "\n")
 }
 
 fn to_text(entries: &[AdapterEntry]) -> String {

@@ -4,10 +4,12 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use edgemesh::command::input::{InputOptions, Loaded};
-use edgemesh::command::{Failure, Listener, print_warnings, write_file};
+use edgemesh::arguments::InputArguments;
+use edgemesh::command::{Failure, TerminalProgress, print_warnings};
+use edgemesh::format::whole_file::write_file;
 use edgemesh::line::class::LineClass;
 use edgemesh::line::placement::Parameterization;
+use edgemesh::load::Loaded;
 use edgemesh::view::camera::Camera;
 use edgemesh_brushes::BRUSH_NAMES;
 use glam::Vec2;
@@ -16,16 +18,14 @@ use strokes::gpu::device::{self, Gpu};
 use strokes::graph::readback::GraphReadback;
 use strokes::style::brush::Brush;
 
-use super::options::set;
 use super::render::{parse_size, show_progress};
 use crate::comparison::measure::Sums;
 use crate::comparison::page::{Row, Sheet, csv, html};
 use crate::comparison::samples::{FrameLines, FrameSource};
 use crate::comparison::{CameraPath, Way};
+use crate::error::Error;
 use crate::picture::png::encode_png;
-use crate::picture::renderer::{
-    PictureOptions, PictureRenderer, adapter_failure, technique_failure,
-};
+use crate::picture::renderer::{PictureOptions, PictureRenderer};
 use crate::scene::models::Scene;
 use crate::scene::scene_file::SceneObject;
 use crate::technique::brush_file::shipped_brush;
@@ -68,7 +68,7 @@ pub(super) struct CompareStrokesCommand {
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
     #[command(flatten)]
-    input: InputOptions,
+    input: InputArguments,
 }
 
 fn parse_path(text: &str) -> Result<CameraPath, String> {
@@ -98,11 +98,11 @@ impl CompareStrokesCommand {
             self.models.iter().map(|path| SceneObject::plain(path)).collect();
         let gpu = pollster::block_on(device::open(self.adapter.as_deref()));
         let mut scenes = Vec::new();
+        let (options, progress) = (self.input.load_options(), TerminalProgress::new(is_quiet));
         for object in &objects {
-            let listener = Listener::terminal(is_quiet);
-            scenes.push(Scene::load(std::slice::from_ref(object), &self.input, listener)?);
+            scenes.push(Scene::load(std::slice::from_ref(object), &options, &progress)?);
         }
-        let gpu = gpu.map_err(|error| adapter_failure(&error))?;
+        let gpu = gpu.map_err(Error::from)?;
         std::fs::create_dir_all(&self.output).map_err(|error| {
             Failure::fault(format!("{}: cannot be made: {error}", self.output.display()))
         })?;
@@ -132,7 +132,7 @@ impl CompareStrokesCommand {
         }
         write_file(&self.output.join("strokes.csv"), csv(&rows).as_bytes())?;
         let page = html(&gpu.info.name, &rows, &sheets);
-        write_file(&self.output.join("index.html"), page.as_bytes())
+        Ok(write_file(&self.output.join("index.html"), page.as_bytes())?)
     }
 
     fn comparison<'a>(
@@ -140,23 +140,22 @@ impl CompareStrokesCommand {
         gpu: &'a Gpu,
         scene: &'a Scene,
         brush: &str,
-    ) -> Result<Comparison<'a>, Failure> {
+    ) -> Result<Comparison<'a>, Error> {
         let library = Library::shipped();
         let renderer = |way: Way| {
-            let found = library.technique("ink").map_err(|mistakes| technique_failure(&mistakes));
-            let mut technique = found?.0;
+            let mut technique = library.technique("ink")?.0;
             let width = format!("strokes.width={}", self.width);
             for setting in [&format!("strokes.brush={brush}"), &width] {
-                set(&mut technique, setting, true)?;
+                technique.set(setting)?;
             }
             for setting in way.settings() {
-                set(&mut technique, setting, true)?;
+                technique.set(setting)?;
             }
             if way == Way::Chained {
                 // Each class in a layer of its own, in their order: another seed is
                 // another look.
                 for (seed, class) in LineClass::ALL.into_iter().enumerate() {
-                    set(&mut technique, &format!("{}.seed={seed}", class.name()), true)?;
+                    technique.set(&format!("{}.seed={seed}", class.name()))?;
                 }
             }
             let options = PictureOptions { size: self.size, ..PictureOptions::default() };
@@ -200,7 +199,7 @@ impl Comparison<'_> {
     }
 
     /// The frames of one camera path.
-    fn measure(&mut self, scene: &Scene, path: CameraPath) -> Result<Vec<Row>, Failure> {
+    fn measure(&mut self, scene: &Scene, path: CameraPath) -> Result<Vec<Row>, Error> {
         let texture_px = self.command.width * self.brush_aspect;
         let mut sums = [[Sums::default(); 3]; LineClass::ALL.len()];
         let mut times = [Vec::new(), Vec::new(), Vec::new()];
@@ -241,7 +240,7 @@ impl Comparison<'_> {
     }
 
     /// The default view in all three ways, whole and at 400 percent.
-    fn sheet(&mut self, scene: &Scene) -> Result<Sheet, Failure> {
+    fn sheet(&mut self, scene: &Scene) -> Result<Sheet, Error> {
         let camera = Camera::default_view(&scene.bounds);
         let [width, height] = self.command.size;
         let mut sheet = RgbaImage::from_pixel(3 * width, 2 * height, Rgba([255; 4]));

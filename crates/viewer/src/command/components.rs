@@ -3,9 +3,11 @@
 use std::fmt::Write as _;
 
 use clap::{Args, Subcommand};
-use edgemesh::command::{ExitStatus, Failure, print_to_stdout};
+use edgemesh::command::{Failure, print_to_stdout};
 
-use super::options::{LibraryOptions, print_mistakes};
+use super::warnings::print_mistakes;
+use crate::arguments::LibraryArguments;
+use crate::error::Error;
 use crate::technique::descriptor::{ComponentDescriptor, VariableDescriptor};
 use crate::technique::library::Library;
 use crate::technique::mistake::{Mistake, Mistakes};
@@ -22,7 +24,7 @@ pub(super) struct ComponentsCommand {
     #[command(subcommand)]
     verb: Verb,
     #[command(flatten)]
-    library: LibraryOptions,
+    library: LibraryArguments,
 }
 
 #[derive(Debug, Clone, Subcommand)]
@@ -48,15 +50,12 @@ impl ComponentsCommand {
     }
 }
 
-fn find<'l>(library: &'l Library, name: &str) -> Result<&'l ComponentDescriptor, Failure> {
+fn find<'l>(library: &'l Library, name: &str) -> Result<&'l ComponentDescriptor, Error> {
     let known = name.replace('-', "_");
     library.components().get(&known).map(AsRef::as_ref).ok_or_else(|| {
         let mistake = Mistake::without_place(format!("there is no component '{name}'"));
         let names = library.components().keys().map(String::as_str);
-        Failure {
-            message: Mistakes::of(mistake.names(name, names)).to_string().trim_end().to_owned(),
-            status: ExitStatus::Shader,
-        }
+        Mistakes::of(mistake.names(name, names)).into()
     })
 }
 

@@ -1,12 +1,12 @@
-//! The `viewer` command line.
+//! The `viewer` command line: the verbs, and how errors become messages and exit statuses.
 
 mod adapters;
 mod compare_strokes;
 mod components;
-mod options;
-pub mod picture_arguments;
+mod failure;
 mod render;
 mod techniques;
+mod warnings;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -15,10 +15,10 @@ use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use edgemesh::command::manual::{CompletionsCommand, ManCommand};
-use edgemesh::command::options::MessageOptions;
-use edgemesh::command::run;
+use edgemesh::command::{MessageOptions, run};
 
-use self::picture_arguments::PictureArguments;
+use crate::arguments::PictureArguments;
+use crate::window::recipe::Recipe;
 
 /// Draws 3D models as line art; without a verb it opens a window
 #[derive(Debug, Parser)]
@@ -87,7 +87,11 @@ pub fn main() -> ExitCode {
     arguments.messages.start_logging();
     let Some(command) = arguments.command else {
         let WindowCommand { models, picture } = *arguments.window;
-        return run(std::panic::AssertUnwindSafe(move || crate::window::run(&models, picture)));
+        return run(std::panic::AssertUnwindSafe(move || {
+            let library = picture.library.load();
+            let recipe = Recipe::new(&models, picture, &library)?;
+            Ok(crate::window::run(library, recipe)?)
+        }));
     };
     run(move || match command {
         Command::Render(command) => command.run(arguments.messages.quiet),

@@ -7,23 +7,26 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use edgemesh::command::{
-    ExitStatus, Failure, Listener, print_to_stdout, print_warnings, write_file,
-};
+use edgemesh::command::{Failure, TerminalProgress, print_to_stdout, print_warnings, to_json};
+use edgemesh::format::whole_file::{check_folder, write_file};
 use edgemesh::view::camera::Camera;
 use edgemesh::view::feature_counts::FeatureCounts;
 use image::RgbaImage;
 use serde::Serialize;
 use strokes::gpu::device::{self, Gpu};
 
-use super::picture_arguments::{PictureArguments, objects_of};
+use super::failure::DIFFERS;
+use super::warnings::warn;
+use crate::arguments::PictureArguments;
+use crate::error::Error;
 use crate::picture::animation::AnimationKind;
 use crate::picture::png::{DEFAULT_REFERENCE_THRESHOLD, as_stored, compare, encode_png, read_png};
-use crate::picture::renderer::{FrameStatistics, adapter_failure};
+use crate::picture::renderer::{FrameStatistics, PictureOptions};
 use crate::picture::tiles::AnySizeRenderer;
 use crate::picture::turntable;
 use crate::scene::models::Scene;
-use crate::scene::scene_file::SceneObject;
+use crate::scene::object_techniques::object_techniques;
+use crate::scene::scene_file::{SceneObject, objects_of};
 use crate::technique::Technique;
 use crate::technique::library::Library;
 use crate::watch::Watcher;
@@ -114,11 +117,12 @@ struct PassTime {
 impl RenderCommand {
     pub(super) fn run(&self, is_quiet: bool) -> Result<(), Failure> {
         self.check_outputs()?;
-        let (library, technique) = self.picture.technique(is_quiet)?;
+        let library = self.picture.library.load();
+        let technique = self.picture.technique(&library, &mut warn(is_quiet))?;
         let watcher = self.watch.then(|| self.watcher(&technique)).transpose()?;
         let reference = self.reference.as_deref().map(read_png).transpose()?;
-        let objects = objects_of(&self.models)?;
-        let looks = self.picture.object_techniques(&objects, &library, &technique, is_quiet)?;
+        let objects = objects_of(&self.models).map_err(Error::from)?;
+        let looks = object_techniques(&objects, &library, &technique, &mut warn(is_quiet))?;
         let (gpu, scene) = self.open_and_load(&objects, is_quiet)?;
         if !is_quiet {
             for model in &scene.models {
@@ -127,7 +131,7 @@ impl RenderCommand {
         }
         log::info!("drawing on {} ({})", gpu.info.name, gpu.info.backend);
         let camera = self.picture.camera.camera(&scene.bounds, &scene.frame)?;
-        let options = self.picture.picture_options(self.size)?;
+        let options = self.options()?;
         let mut renderer = AnySizeRenderer::new(&gpu, &scene, &technique, &looks, &options)?;
         let statistics = match self.turntable {
             Some(steps) => self.write_turntable(&mut renderer, &camera, steps)?,
@@ -150,6 +154,10 @@ impl RenderCommand {
         }
     }
 
+    fn options(&self) -> Result<PictureOptions, Error> {
+        Ok(self.picture.picture_options(self.size, self.picture.lighting.lighting()?))
+    }
+
     /// Watches the folders that a technique is read from.
     fn watcher(&self, technique: &Technique) -> Result<Watcher, Failure> {
         let mut folders = technique.folders.clone();
@@ -163,7 +171,7 @@ impl RenderCommand {
                            --shaders";
             return Err(Failure::usage(message));
         }
-        Watcher::new(&folders, std::slice::from_ref(&self.output)).map_err(Failure::fault)
+        Ok(Watcher::new(&folders, std::slice::from_ref(&self.output)).map_err(Error::from)?)
     }
 
     /// Reads the technique again, and draws with it.
@@ -175,9 +183,10 @@ impl RenderCommand {
         camera: &Camera,
         is_quiet: bool,
     ) -> Result<(), Failure> {
-        let (library, technique) = self.picture.technique(is_quiet)?;
-        let looks = self.picture.object_techniques(objects, &library, &technique, is_quiet)?;
-        renderer.reload(scene, &technique, &looks, &self.picture.picture_options(self.size)?)?;
+        let library = self.picture.library.load();
+        let technique = self.picture.technique(&library, &mut warn(is_quiet))?;
+        let looks = object_techniques(objects, &library, &technique, &mut warn(is_quiet))?;
+        renderer.reload(scene, &technique, &looks, &self.options()?)?;
         self.write_picture(renderer, camera, None).map(drop)
     }
 
@@ -186,15 +195,16 @@ impl RenderCommand {
         &self,
         objects: &[SceneObject],
         is_quiet: bool,
-    ) -> Result<(Gpu, Scene), Failure> {
+    ) -> Result<(Gpu, Scene), Error> {
         thread::scope(|scope| {
             let opening =
                 scope.spawn(|| pollster::block_on(device::open(self.picture.adapter.as_deref())));
-            let scene = Scene::load(objects, &self.picture.input, Listener::terminal(is_quiet));
+            let options = self.picture.input.load_options();
+            let scene = Scene::load(objects, &options, &TerminalProgress::new(is_quiet));
             let gpu = opening.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
             // What is wrong with the model is told first; it is likelier and nearer.
             let scene = scene?;
-            Ok((gpu.map_err(|error| adapter_failure(&error))?, scene))
+            Ok((gpu?, scene))
         })
     }
 
@@ -213,15 +223,7 @@ impl RenderCommand {
         }
         let files = [Some(&self.output), self.stats.as_ref()];
         for file in files.into_iter().flatten().filter(|file| !is_stream(file)) {
-            let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
-            if let Some(folder) = folder
-                && !folder.is_dir()
-            {
-                let (file, folder) = (file.display(), folder.display());
-                return Err(Failure::fault(format!(
-                    "{file}: cannot be written: the folder {folder} does not exist; make it first"
-                )));
-            }
+            check_folder(file)?;
         }
         Ok(())
     }
@@ -276,7 +278,7 @@ impl RenderCommand {
             self.reference_threshold * 100.0,
             self.output.display()
         );
-        Err(Failure { message, status: ExitStatus::Differs })
+        Err(Failure { message, status: DIFFERS })
     }
 
     fn write_turntable(
@@ -324,9 +326,7 @@ impl RenderCommand {
                 .collect(),
             frame_ms: statistics.frame_ms,
         };
-        let json = serde_json::to_string_pretty(&statistics);
-        let json = json.map_err(|error| Failure::fault(error.to_string()))? + "\n";
-        write_result(path, json.as_bytes())
+        write_result(path, to_json(&statistics)?.as_bytes())
     }
 }
 
@@ -359,7 +359,7 @@ fn write_result(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     if path == Path::new("-") {
         return print_to_stdout(bytes);
     }
-    write_file(path, bytes)
+    Ok(write_file(path, bytes)?)
 }
 
 pub(super) fn parse_size(text: &str) -> Result<[u32; 2], String> {

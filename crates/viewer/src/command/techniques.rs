@@ -3,10 +3,12 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
-use edgemesh::command::{ExitStatus, Failure, print_to_stdout};
+use edgemesh::command::{Failure, print_to_stdout};
 
-use super::options::{LibraryOptions, print_mistakes};
-use crate::picture::renderer::technique_failure;
+use super::failure::SHADER;
+use super::warnings::print_mistakes;
+use crate::arguments::LibraryArguments;
+use crate::error::Error;
 use crate::technique::library::Library;
 use crate::technique::mistake::Mistakes;
 use crate::technique::plan::Plan;
@@ -25,7 +27,7 @@ pub(super) struct TechniquesCommand {
     #[command(subcommand)]
     verb: Verb,
     #[command(flatten)]
-    library: LibraryOptions,
+    library: LibraryArguments,
 }
 
 #[derive(Debug, Clone, Subcommand)]
@@ -56,10 +58,10 @@ impl TechniquesCommand {
             }
             Verb::Check { files } => self.check(&library, files, is_quiet),
             Verb::Print { name } => {
-                let technique = self.library.technique(&library, name, is_quiet)?;
+                let (technique, warnings) = library.technique(name).map_err(Error::from)?;
+                print_mistakes(&warnings, is_quiet);
                 let shaders = ShaderFiles::new(&technique.folders, self.library.shaders.clone());
-                let plan = Plan::of(&technique, &shaders)
-                    .map_err(|mistakes| technique_failure(&mistakes))?;
+                let plan = Plan::of(&technique, &shaders).map_err(Error::from)?;
                 print_to_stdout(printed(&technique, &plan).as_bytes())
             }
         }
@@ -82,11 +84,10 @@ impl TechniquesCommand {
         }
         let count = all.list.len();
         let plural = if count == 1 { "mistake" } else { "mistakes" };
-        let told = all.to_string();
-        // The first one is announced as an error by who prints it.
-        let told = told.strip_prefix("error: ").unwrap_or(&told);
-        let message = format!("{told}\n{count} {plural} in {wrong_files} of {} files", files.len());
-        Err(Failure { message, status: ExitStatus::Shader })
+        let text = all.text();
+        let message =
+            format!("{text}\n\n{count} {plural} in {wrong_files} of {} files", files.len());
+        Err(Failure { message, status: SHADER })
     }
 }
 

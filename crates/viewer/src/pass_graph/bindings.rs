@@ -1,12 +1,12 @@
 //! Bind groups of passes: parameters, textures and samplers, by the names that
 //! reflection found.
 
-use edgemesh::command::Failure;
 use strokes::gpu::device::Gpu;
 use wgpu::util::DeviceExt as _;
 
 use super::params::{Iteration, bytes_of};
 use super::textures::{GeneratedTexture, Images};
+use crate::error::Error;
 use crate::technique::pass::Pass;
 use crate::technique::plan::{Read, ReadSource};
 use crate::technique::program::{Interface, Params, Program, TextureKind};
@@ -127,7 +127,7 @@ impl GroupPlan {
         buffers: &[wgpu::Buffer],
         sources: &mut Sources,
         replaced: Option<(&str, &wgpu::TextureView)>,
-    ) -> Result<wgpu::BindGroup, Failure> {
+    ) -> Result<wgpu::BindGroup, Error> {
         let mut views = Vec::new();
         for (binding, _, read) in &self.textures {
             let own = replaced
@@ -171,7 +171,7 @@ pub(crate) struct Sources {
 }
 
 impl Sources {
-    fn view(&mut self, gpu: &Gpu, read: Option<&Read>) -> Result<wgpu::TextureView, Failure> {
+    fn view(&mut self, gpu: &Gpu, read: Option<&Read>) -> Result<wgpu::TextureView, Error> {
         match read.map(|read| &read.source) {
             Some(ReadSource::Generated(texture)) => Ok(self.generated[*texture].read().clone()),
             Some(ReadSource::Image(file)) => self.images.view(gpu, file),

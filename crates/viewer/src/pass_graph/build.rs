@@ -3,7 +3,6 @@
 
 use std::cell::RefCell;
 
-use edgemesh::command::Failure;
 use strokes::draw::targets::Targets;
 use strokes::gpu::device::Gpu;
 use strokes::gpu::target_formats::TargetFormats;
@@ -23,6 +22,7 @@ use super::stroke_pass::{self, StrokeGroup, StrokePasses, StrokeStore};
 use super::surface::{SurfaceInput, Surfaces};
 use super::textures::{GeneratedTexture, Images};
 use super::{GraphOptions, PassGraph, Run, Step, StepKind, blend};
+use crate::error::Error;
 use crate::scene::models::Scene;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
@@ -43,7 +43,7 @@ impl PassGraph {
         plan: &Plan,
         looks: &[Technique],
         options: &GraphOptions,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         Self::build(gpu, (scene, options), (technique, plan, looks), None)
     }
 
@@ -61,7 +61,7 @@ impl PassGraph {
         plan: &Plan,
         looks: &[Technique],
         options: &GraphOptions,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         Self::build(gpu, (scene, options), (technique, plan, looks), Some(self))
     }
 
@@ -70,7 +70,7 @@ impl PassGraph {
         (scene, options): (&Scene, &GraphOptions),
         (technique, plan, looks): (&Technique, &Plan, &[Technique]),
         before: Option<Self>,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         let device = &gpu.device;
         let groups = groups_of(technique, looks);
         let formats = match stroke_pass::needs_stencil(technique, looks) {
@@ -285,7 +285,7 @@ impl Builder<'_> {
         programs: Programs,
         geometry: Geometry,
         target: &PipelineTarget,
-    ) -> Result<PassPipeline, Failure> {
+    ) -> Result<PassPipeline, Error> {
         let mut pipelines = self.pipelines.borrow_mut();
         pipelines.pipeline(self.gpu, layouts, programs, geometry, target)
     }
@@ -295,7 +295,7 @@ impl Builder<'_> {
         &self,
         group: &[usize],
         strokes: Option<&mut StrokePasses>,
-    ) -> Result<Option<StrokeGroup>, Failure> {
+    ) -> Result<Option<StrokeGroup>, Error> {
         let core = self.technique.passes[group[0]].component.core;
         let strokes = strokes.filter(|_| core == CoreComponent::Strokes);
         let passes = group.iter().map(|&at| &self.technique.passes[at]);
@@ -309,7 +309,7 @@ impl Builder<'_> {
         frame: &wgpu::BindGroupLayout,
         surfaces: Option<&Surfaces>,
         strokes: Option<StrokeGroup>,
-    ) -> Result<Step, Failure> {
+    ) -> Result<Step, Error> {
         let pass = &self.technique.passes[group[0]];
         let plan = &self.plan.passes[group[0]];
         let kind = match (pass.component.core, surfaces, strokes) {

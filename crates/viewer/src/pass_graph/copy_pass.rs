@@ -4,7 +4,6 @@
 //! Colours are the average of a pixel's samples; the depth is that of the first
 //! sample, since an average of depths is that of nothing.
 
-use edgemesh::command::Failure;
 use strokes::gpu::device::Gpu;
 use strokes::gpu::shader::shader_module;
 use strokes::gpu::target_formats::TargetFormats;
@@ -13,6 +12,7 @@ use strokes::gpu::timer::TimedPasses;
 use super::Encoding;
 use super::bindings::Sources;
 use super::screen_pass::screen_vertex;
+use crate::error::Error;
 use crate::technique::pass::Pass;
 use crate::technique::plan::{PassPlan, Target};
 use crate::technique::texture_format::DEPTH_FORMAT;
@@ -25,7 +25,7 @@ pub(crate) struct CopyPass {
 }
 
 impl CopyPass {
-    pub(crate) fn new(gpu: &Gpu, pass: &Pass, formats: &TargetFormats) -> Result<Self, Failure> {
+    pub(crate) fn new(gpu: &Gpu, pass: &Pass, formats: &TargetFormats) -> Result<Self, Error> {
         let depth = pass.bool("depth").then(|| depth_pipeline(gpu, formats)).transpose()?;
         Ok(Self { depth })
     }
@@ -94,13 +94,13 @@ impl CopyPass {
 fn depth_pipeline(
     gpu: &Gpu,
     formats: &TargetFormats,
-) -> Result<(wgpu::RenderPipeline, wgpu::BindGroupLayout), Failure> {
+) -> Result<(wgpu::RenderPipeline, wgpu::BindGroupLayout), Error> {
     let device = &gpu.device;
     let is_sampled = formats.samples > 1;
     let name = if is_sampled { "copy_depth_of_samples" } else { "copy_depth" };
     let vertex = screen_vertex()?;
     let source = edgemesh_shaders::ShaderSource::embedded(&format!("programs/{name}.wgsl"));
-    let source = source.map_err(|error| Failure::fault(error.to_string()))?;
+    let source = source.map_err(|error| Error::Internal(error.to_string()))?;
     let fragment = shader_module(device, &source, name);
     let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some(name),

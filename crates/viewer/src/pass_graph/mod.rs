@@ -33,7 +33,6 @@ mod stroke_style;
 pub mod surface;
 pub(crate) mod textures;
 
-use edgemesh::command::Failure;
 use edgemesh::view::camera::View;
 use strokes::draw::targets::Targets;
 use strokes::gpu::device::Gpu;
@@ -58,6 +57,7 @@ use self::scene_pass::ScenePass;
 use self::screen_pass::ScreenPass;
 use self::stroke_pass::{StrokeGroup, StrokePasses, StrokeStore};
 use self::surface::Surfaces;
+use crate::error::Error;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
 use crate::technique::pass::Pass;
@@ -276,7 +276,7 @@ impl PassGraph {
         encoder: &mut wgpu::CommandEncoder,
         seen: &Seen,
         timer: Option<TimedPasses>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Error> {
         let Seen { view, around, part } = *seen;
         let whole = || Tile::whole(self.framebuffer.viewport_px());
         let uniform = FrameUniform::new(view, &part.map_or_else(whole, |of| of.part), around);
@@ -332,7 +332,7 @@ pub fn strokes_of(
     technique: &Technique,
     frame: &edgemesh::edge_mesh::MeshFrame,
     built: [f64; 2],
-) -> Result<DrawingStyle, Failure> {
+) -> Result<DrawingStyle, Error> {
     let is_drawn =
         |pass: &&Pass| pass.is_rendered() && pass.component.core == CoreComponent::Strokes;
     let passes: Vec<&Pass> = technique.passes.iter().filter(is_drawn).collect();
@@ -371,7 +371,7 @@ impl Step {
         sources: &mut Sources,
         strokes: Option<&mut StrokePasses>,
         timer: Option<TimedPasses>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Error> {
         match &mut self.kind {
             StepKind::Scene(pass) => pass.encode(encoder, encoding, &self.plan, sources, timer)?,
             StepKind::Screen(pass) => pass.encode(encoder, encoding, &self.plan, sources, timer)?,

@@ -5,7 +5,6 @@
 //!   texture --run 0--> a --run 1--> b --run 2--> a ... --last run--> target
 //! ```
 
-use edgemesh::command::Failure;
 use strokes::gpu::timer::TimedPasses;
 
 use super::Encoding;
@@ -15,6 +14,7 @@ use super::params::Iteration;
 use super::pipeline::{GroupBuffers, PassPipeline, PipelineTarget};
 use super::screen_pass::{color_attachment, draw, own_program, screen_pipeline};
 use super::textures::target_texture;
+use crate::error::Error;
 use crate::technique::pass::Pass;
 use crate::technique::plan::PassPlan;
 use crate::technique::program::ProgramKind;
@@ -44,7 +44,7 @@ impl PingPong {
         pass: &Pass,
         plan: &PassPlan,
         frame: &wgpu::BindGroupLayout,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         let target = builder.target(pass, plan);
         let size = [pass.int("render_target_width"), pass.int("render_target_height")];
         let size = TextureSize { sides: size, scale: pass.number("render_target_scale") };
@@ -90,7 +90,7 @@ impl PingPong {
         plan: &PassPlan,
         sources: &mut Sources,
         timer: Option<TimedPasses>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Error> {
         let runs = self.count.max(1);
         let first_of_several = timer.filter(|_| runs > 1).map(|timer| timer.render(0));
         let mut timestamps = first_of_several;

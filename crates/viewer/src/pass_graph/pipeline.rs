@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 
-use edgemesh::command::{ExitStatus, Failure};
 use strokes::draw::fill::push_away;
 use strokes::gpu::device::Gpu;
 use strokes::gpu::shader::shader_module;
@@ -11,6 +10,8 @@ use strokes::gpu::target_formats::TargetFormats;
 use super::bindings::{GroupPlan, PASS_GROUP, Sources, VERTEX_GROUP};
 use super::params::Iteration;
 use super::surface::VERTEX_BUFFERS;
+use crate::error::Error;
+use crate::technique::error::TechniqueError;
 use crate::technique::loop_bound::bound_loops;
 use crate::technique::pass::Pass;
 use crate::technique::plan::Read;
@@ -98,7 +99,7 @@ impl PassPipeline {
         programs: Programs,
         geometry: Geometry,
         target: &PipelineTarget,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         let device = &gpu.device;
         let own = |group| {
             let both = [programs.vertex, programs.fragment];
@@ -144,7 +145,7 @@ impl PassPipeline {
         buffers: &GroupBuffers,
         sources: &mut Sources,
         replaced: Option<(&str, &wgpu::TextureView)>,
-    ) -> Result<BoundGroups, Failure> {
+    ) -> Result<BoundGroups, Error> {
         let bind = |(group, buffers): (&PassGroup, &Vec<wgpu::Buffer>)| {
             let bound = group.plan.group(gpu, &group.layout, buffers, sources, replaced)?;
             Ok((group.index, bound))
@@ -159,7 +160,7 @@ fn render_pipeline(
     Programs { label, vertex, fragment, .. }: Programs,
     geometry: Geometry,
     target: &PipelineTarget,
-) -> Result<wgpu::RenderPipeline, Failure> {
+) -> Result<wgpu::RenderPipeline, Error> {
     let device = &gpu.device;
     // Two programs that do not fit each other are found only here.
     let faults = device.push_error_scope(wgpu::ErrorFilter::Validation);
@@ -209,11 +210,8 @@ fn render_pipeline(
             });
             let causes: Vec<String> =
                 causes.map(|cause| cause.to_string().trim().to_owned()).collect();
-            let message = format!(
-                "the pass '{label}' cannot be built: its programs do not fit together: {}",
-                causes.last().map_or("", String::as_str)
-            );
-            Err(Failure { message, status: ExitStatus::Shader })
+            let reason = causes.last().cloned().unwrap_or_default();
+            Err(TechniqueError::Programs { pass: label.to_owned(), reason }.into())
         }
     }
 }

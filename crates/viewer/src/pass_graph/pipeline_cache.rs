@@ -3,12 +3,12 @@
 
 use std::sync::Arc;
 
-use edgemesh::command::Failure;
 use edgemesh_shaders::ShaderSource;
 use strokes::gpu::device::Gpu;
 use strokes::gpu::recent::Recent;
 
 use super::pipeline::{Geometry, PassPipeline, PipelineTarget, Programs};
+use crate::error::Error;
 use crate::technique::plan::Read;
 use crate::technique::program::Program;
 
@@ -64,7 +64,7 @@ impl PipelineCache {
         programs: Programs,
         geometry: Geometry,
         target: &PipelineTarget,
-    ) -> Result<PassPipeline, Failure> {
+    ) -> Result<PassPipeline, Error> {
         let is_it = |key: &Key| {
             (key.geometry, &key.target) == (geometry, target)
                 && key.reads == programs.reads

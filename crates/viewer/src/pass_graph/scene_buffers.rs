@@ -3,10 +3,10 @@
 
 use std::sync::Arc;
 
-use edgemesh::command::Failure;
 use strokes::gpu::device::Gpu;
 use strokes::mesh::{MeshBuffers, MeshInstance, MeshOptions};
 
+use crate::error::Error;
 use crate::scene::models::Scene;
 
 /// The models of a scene on the GPU.
@@ -23,7 +23,7 @@ impl SceneBuffers {
         gpu: &Gpu,
         scene: &Scene,
         needs: MeshOptions,
-    ) -> Result<Vec<MeshInstance>, Failure> {
+    ) -> Result<Vec<MeshInstance>, Error> {
         self.meshes.resize(scene.models.len(), None);
         let instance = |placed: &crate::scene::models::PlacedObject| {
             let mesh = self.mesh(gpu, scene, placed.model, needs)?;
@@ -38,7 +38,7 @@ impl SceneBuffers {
         scene: &Scene,
         model: usize,
         needs: MeshOptions,
-    ) -> Result<Arc<MeshBuffers>, Failure> {
+    ) -> Result<Arc<MeshBuffers>, Error> {
         let known =
             self.meshes[model].as_ref().filter(|mesh| mesh.options().layout == needs.layout);
         let mut options = needs;
@@ -52,7 +52,7 @@ impl SceneBuffers {
         }
         let loaded = &scene.models[model];
         let mesh = MeshBuffers::new(&gpu.device, &loaded.mesh, options)
-            .map_err(|error| Failure::fault(format!("{}: {error}", loaded.name)))?;
+            .map_err(|reason| Error::MeshTooLarge { model: loaded.name.clone(), reason })?;
         Ok(self.meshes[model].insert(Arc::new(mesh)).clone())
     }
 }

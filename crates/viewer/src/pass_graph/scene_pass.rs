@@ -1,6 +1,5 @@
 //! `simple_render`: the surfaces of the scene with a vertex and a fragment program.
 
-use edgemesh::command::Failure;
 use strokes::draw::targets::Targets;
 use strokes::gpu::timer::TimedPasses;
 
@@ -11,6 +10,7 @@ use super::params::Iteration;
 use super::pipeline::{Geometry, GroupBuffers, PassPipeline, Programs};
 use super::screen_pass::{color_attachment, screen_vertex};
 use super::surface::Surfaces;
+use crate::error::Error;
 use crate::technique::pass::Pass;
 use crate::technique::plan::{PassPlan, Target};
 
@@ -37,11 +37,11 @@ impl ScenePass {
         plan: &PassPlan,
         frame: &wgpu::BindGroupLayout,
         surfaces: &Surfaces,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         let buffers_of = |pipeline: &PassPipeline, pass: &Pass| {
             pipeline.buffers(&builder.gpu.device, pass, Iteration::default())
         };
-        let missing = || Failure::fault(format!("the pass '{}' has no program", pass.name));
+        let missing = || Error::Internal(format!("the pass '{}' has no program", pass.name));
         let target = builder.target(pass, plan);
         let vertex = plan.vertex.as_ref().ok_or_else(missing)?;
         let fragment = plan.fragment.as_ref().ok_or_else(missing)?;
@@ -89,7 +89,7 @@ impl ScenePass {
         plan: &PassPlan,
         sources: &mut Sources,
         timer: Option<TimedPasses>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Error> {
         let gpu = encoding.gpu;
         let mut bind = |pipeline: &PassPipeline, buffers: &GroupBuffers| {
             pipeline.bind(gpu, buffers, sources, None)
@@ -98,7 +98,7 @@ impl ScenePass {
         let background =
             background.map(|(pipeline, buffers)| bind(pipeline, buffers)).transpose()?;
         let of_looks = self.buffers.iter().map(|buffers| bind(&self.surfaces, buffers));
-        let of_looks = of_looks.collect::<Result<Vec<_>, Failure>>()?;
+        let of_looks = of_looks.collect::<Result<Vec<_>, Error>>()?;
         let (colors, depth) =
             self.attachments(encoding.framebuffer, encoding.is_fresh, plan, sources);
         if plan.target == Target::Framebuffer {

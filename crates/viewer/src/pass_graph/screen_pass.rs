@@ -1,6 +1,5 @@
 //! `process_texture`, `generate_texture`, `composite`: a program over a whole target.
 
-use edgemesh::command::{ExitStatus, Failure};
 use strokes::gpu::device::Gpu;
 use strokes::gpu::timer::TimedPasses;
 
@@ -9,6 +8,7 @@ use super::bindings::Sources;
 use super::build::Builder;
 use super::params::Iteration;
 use super::pipeline::{Geometry, GroupBuffers, PassPipeline, Programs};
+use crate::error::Error;
 use crate::technique::mistake::{Place, SourceText};
 use crate::technique::pass::Pass;
 use crate::technique::plan::{PassPlan, Read, ReadSource, Target};
@@ -24,16 +24,16 @@ pub(crate) struct ScreenPass {
 }
 
 /// The program that places the triangle over the target.
-pub(crate) fn screen_vertex() -> Result<Program, Failure> {
+pub(crate) fn screen_vertex() -> Result<Program, Error> {
     own_program("screen:screen", ProgramKind::Vertex)
 }
 
 /// A program of the project's own, whatever the user has beside it.
-pub(crate) fn own_program(name: &str, kind: ProgramKind) -> Result<Program, Failure> {
+pub(crate) fn own_program(name: &str, kind: ProgramKind) -> Result<Program, Error> {
     let place = Place { source: SourceText::new("", ""), span: 0..0 };
     ShaderFiles::default()
         .program(name, kind, &place)
-        .map_err(|mistakes| Failure { message: mistakes.to_string(), status: ExitStatus::Internal })
+        .map_err(|mistakes| Error::Internal(mistakes.text()))
 }
 
 impl ScreenPass {
@@ -42,7 +42,7 @@ impl ScreenPass {
         pass: &Pass,
         plan: &PassPlan,
         frame: &wgpu::BindGroupLayout,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         let pipeline = screen_pipeline(builder, pass, plan, frame, &builder.target(pass, plan))?;
         let buffers = pipeline.buffers(&builder.gpu.device, pass, Iteration::default());
         let is_generated = |read: &Read| matches!(read.source, ReadSource::Generated(_));
@@ -59,7 +59,7 @@ impl ScreenPass {
         plan: &PassPlan,
         sources: &mut Sources,
         timer: Option<TimedPasses>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Error> {
         // What is drawn before all else, of nothing that was drawn, is paper.
         if self.is_unwanted_paper && encoding.is_fresh {
             skip(encoder, timer);
@@ -89,10 +89,10 @@ pub(crate) fn screen_pipeline(
     plan: &PassPlan,
     frame: &wgpu::BindGroupLayout,
     target: &super::pipeline::PipelineTarget,
-) -> Result<PassPipeline, Failure> {
+) -> Result<PassPipeline, Error> {
     let vertex = screen_vertex()?;
     let Some(fragment) = &plan.fragment else {
-        return Err(Failure::fault(format!("the pass '{}' has no program", pass.name)));
+        return Err(Error::Internal(format!("the pass '{}' has no program", pass.name)));
     };
     let programs = Programs { label: &pass.name, vertex: &vertex, fragment, reads: &plan.reads };
     // Where only the framebuffer has a surface's group, there is none to bind.

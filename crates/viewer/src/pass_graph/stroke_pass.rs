@@ -7,13 +7,10 @@
 
 use std::sync::Arc;
 
-use edgemesh::command::{ExitStatus, Failure};
-use edgemesh_shaders::ShaderError;
 use strokes::gpu::device::Gpu;
 use strokes::gpu::target_formats::TargetFormats;
 use strokes::gpu::timer::TimedPasses;
 use strokes::render::drawing::Drawing;
-use strokes::render::error::RenderError;
 use strokes::render::frame_request::{Fill, FrameRequest};
 use strokes::render::pipelines::{DetectionStage, RendererOptions};
 use strokes::render::prepared_style::PreparedStyle;
@@ -21,6 +18,7 @@ use strokes::render::renderer::Renderer;
 
 use super::stroke_style::style_of_passes;
 use super::{Encoding, GraphOptions};
+use crate::error::Error;
 use crate::scene::models::Scene;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
@@ -73,18 +71,6 @@ pub(crate) fn needs_stencil(technique: &Technique, overrides: &[Technique]) -> b
     all.any(is_silhouette)
 }
 
-fn shader_failure(error: &ShaderError) -> Failure {
-    Failure { message: error.to_string(), status: ExitStatus::Shader }
-}
-
-fn failure(error: &RenderError) -> Failure {
-    let status = match error {
-        RenderError::Shader(_) => ExitStatus::Shader,
-        _ => ExitStatus::Internal,
-    };
-    Failure { message: error.to_string(), status }
-}
-
 impl StrokePasses {
     /// For strokes in targets of `formats`; takes what still fits out of `store`.
     pub(crate) fn new(
@@ -93,7 +79,7 @@ impl StrokePasses {
         formats: TargetFormats,
         folders: &[std::path::PathBuf],
         store: &mut StrokeStore,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         let GraphOptions { layout, stage, .. } = *options;
         let options = RendererOptions { layout, stage, formats }.supported();
         let known = store.renderers.iter().position(|known| *known.options() == options);
@@ -102,7 +88,7 @@ impl StrokePasses {
         let drawings = std::mem::take(&mut store.drawings);
         let renderer = match known {
             Some(at) => store.renderers.remove(at),
-            None => Renderer::new(gpu, options).map_err(|error| shader_failure(&error))?,
+            None => Renderer::new(gpu, options)?,
         };
         let drawings = if is_last { drawings } else { Vec::new() };
         Ok(Self { renderer, drawings: drawings.into_iter(), folders: folders.to_vec() })
@@ -130,7 +116,7 @@ impl StrokePasses {
         scene: &Scene,
         passes: &[&Pass],
         overrides: &[Technique],
-    ) -> Result<StrokeGroup, Failure> {
+    ) -> Result<StrokeGroup, Error> {
         let style = |passes: &[&Pass], folders: &[std::path::PathBuf]| {
             style_of_passes(passes, folders, &scene.frame, scene.thresholds)
         };
@@ -147,7 +133,7 @@ impl StrokePasses {
             let same = all[..at].iter().position(|known| known == style);
             prepared.push(match same {
                 Some(same) => prepared[same].clone(),
-                None => self.renderer.prepare(gpu, style).map_err(|error| failure(&error))?,
+                None => self.renderer.prepare(gpu, style)?,
             });
         }
         let of_object = |look: usize| prepared.get(look + 1).unwrap_or(&prepared[0]).clone();
@@ -163,7 +149,7 @@ impl StrokePasses {
         encoding: &mut Encoding,
         group: &mut StrokeGroup,
         timer: Option<TimedPasses>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Error> {
         let fill = match (encoding.has_depth, encoding.is_fresh) {
             (true, _) => Fill::Done,
             (false, true) => Fill::Clear([0.0; 4]),
@@ -179,9 +165,7 @@ impl StrokePasses {
             resolves: false,
             timer,
         };
-        self.renderer
-            .encode(encoding.gpu, encoder, &mut group.drawing, &request)
-            .map_err(|error| failure(&error))?;
+        self.renderer.encode(encoding.gpu, encoder, &mut group.drawing, &request)?;
         (encoding.is_fresh, encoding.has_depth) = (false, true);
         Ok(())
     }

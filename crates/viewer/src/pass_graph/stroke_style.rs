@@ -3,7 +3,6 @@
 
 use std::path::PathBuf;
 
-use edgemesh::command::Failure;
 use edgemesh::edge_mesh::MeshFrame;
 use edgemesh::line::class::LineClass;
 use edgemesh::line::kind::LineKind;
@@ -12,9 +11,11 @@ use strokes::style::brush::Brush;
 use strokes::style::drawing_style::{DrawingStyle, Layer, StrokeStyle, Width};
 use strokes::style::link_style::{BrushFit, CURVE_LENGTH, End, Join, LinkStyle};
 
+use crate::error::{Error, ImageError};
 use crate::technique::brush_file::brush_from_png;
 use crate::technique::class_pass::classes_of;
 use crate::technique::curve::parse_curve;
+use crate::technique::error::TechniqueError;
 use crate::technique::image_file;
 use crate::technique::pass::Pass;
 use crate::technique::texture_name::TextureSource;
@@ -34,11 +35,11 @@ pub(crate) fn style_of_passes(
     folders: &[PathBuf],
     frame: &MeshFrame,
     built: [f64; 2],
-) -> Result<DrawingStyle, Failure> {
+) -> Result<DrawingStyle, Error> {
     let styles = passes
         .iter()
         .map(|pass| Ok((*pass, style_of(pass, folders, frame)?)))
-        .collect::<Result<Vec<(&Pass, StrokeStyle)>, Failure>>()?;
+        .collect::<Result<Vec<(&Pass, StrokeStyle)>, Error>>()?;
     let style = |visibility: &str, class: LineClass| {
         let draws = |(pass, _): &&(&Pass, StrokeStyle)| {
             let classes = classes_of(pass.string("classes")).unwrap_or_default();
@@ -82,7 +83,7 @@ fn thresholds_of(passes: &[&Pass], built: [f64; 2]) -> Option<[f64; 2]> {
     }
 }
 
-fn style_of(pass: &Pass, folders: &[PathBuf], frame: &MeshFrame) -> Result<StrokeStyle, Failure> {
+fn style_of(pass: &Pass, folders: &[PathBuf], frame: &MeshFrame) -> Result<StrokeStyle, Error> {
     #[expect(clippy::cast_possible_truncation, reason = "a width or a distance")]
     let scaled = |value: f32| (f64::from(value) * frame.scale) as f32;
     let [r, g, b, a] = pass.numbers("color");
@@ -120,7 +121,7 @@ fn style_of(pass: &Pass, folders: &[PathBuf], frame: &MeshFrame) -> Result<Strok
     })
 }
 
-fn link_of(pass: &Pass) -> Result<LinkStyle, Failure> {
+fn link_of(pass: &Pass) -> Result<LinkStyle, Error> {
     let min_length = pass.number("min_length");
     let dash: [f32; 2] = pass.numbers("dash");
     Ok(LinkStyle {
@@ -153,29 +154,22 @@ fn link_of(pass: &Pass) -> Result<LinkStyle, Failure> {
     })
 }
 
-fn brush_of(pass: &Pass, folders: &[PathBuf]) -> Result<Option<Brush>, Failure> {
+fn brush_of(pass: &Pass, folders: &[PathBuf]) -> Result<Option<Brush>, Error> {
     let name = pass.texture("brush");
     if name.source == TextureSource::None {
         return Ok(None);
     }
-    let file = image_file::find(name, folders, pass.place_of("brush")).map_err(|mistake| {
-        Failure::fault(format!(
-            "{}: a brush is a PNG file, or one of the directory brushes",
-            mistake.message
-        ))
-    })?;
-    let failed =
-        |error: &dyn std::fmt::Display| Failure::fault(format!("{}: {error}", file.name()));
-    let bytes = file.bytes().map_err(|error| failed(&error))?;
-    brush_from_png(&file.name(), &bytes)
-        .map(Some)
-        .map_err(|error| Failure::fault(error.to_string()))
+    let file = image_file::find(name, folders, pass.place_of("brush"))
+        .map_err(|mistake| Error::BrushNotFound { what: mistake.message })?;
+    let unreadable = |error| Error::Image { file: file.name(), reason: ImageError::Io(error) };
+    let bytes = file.bytes().map_err(unreadable)?;
+    Ok(Some(brush_from_png(&file.name(), &bytes)?))
 }
 
-fn curve_of(pass: &Pass, variable: &str, most: f32) -> Result<[f32; CURVE_LENGTH], Failure> {
-    parse_curve(pass.string(variable), most).map_err(|what| Failure {
-        message: format!("{}.{variable}: {what}", pass.name),
-        status: edgemesh::command::ExitStatus::Shader,
+fn curve_of(pass: &Pass, variable: &str, most: f32) -> Result<[f32; CURVE_LENGTH], Error> {
+    parse_curve(pass.string(variable), most).map_err(|what| {
+        let (pass, variable) = (pass.name.clone(), variable.to_owned());
+        TechniqueError::Curve { pass, variable, what }.into()
     })
 }
 

@@ -18,6 +18,7 @@ use wgpu::util::DeviceExt as _;
 
 use super::material::MaterialUniform;
 use super::textures::{Images, averaged_levels, decode_image, upload};
+use crate::error::ImageError;
 use crate::scene::models::Scene;
 
 /// The vertex buffers of surfaces: positions, normals, texture coordinates, and the number of
@@ -199,8 +200,8 @@ impl ModelMaterials {
 }
 
 /// The levels of a material's texture.
-fn base_texture(texture: &edgemesh::model::Texture) -> Result<Vec<image::RgbaImage>, String> {
-    let bytes = texture.source.encoded().map_err(|error| format!("cannot be read: {error}"))?;
+fn base_texture(texture: &edgemesh::model::Texture) -> Result<Vec<image::RgbaImage>, ImageError> {
+    let bytes = texture.source.encoded()?;
     decode_image(&bytes).map(averaged_levels)
 }
 

@@ -4,10 +4,10 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::time::SystemTime;
 
-use edgemesh::command::Failure;
 use image::RgbaImage;
 use strokes::gpu::device::Gpu;
 
+use crate::error::{Error, ImageError};
 use crate::technique::image_file::ImageFile;
 use crate::technique::plan::TexturePlan;
 
@@ -126,20 +126,14 @@ pub(crate) struct Images {
 
 impl Images {
     /// The texture of an image.
-    pub(crate) fn view(
-        &mut self,
-        gpu: &Gpu,
-        file: &ImageFile,
-    ) -> Result<wgpu::TextureView, Failure> {
+    pub(crate) fn view(&mut self, gpu: &Gpu, file: &ImageFile) -> Result<wgpu::TextureView, Error> {
         Ok(match self.views.entry(file.clone()) {
             Entry::Occupied(known) => known.get().1.clone(),
             Entry::Vacant(new) => {
                 let changed = file.changed();
-                let failed = |error: &dyn std::fmt::Display| {
-                    Failure::fault(format!("{}: {error}", file.name()))
-                };
-                let bytes = file.bytes().map_err(|error| failed(&error))?;
-                let picture = decode_image(&bytes).map_err(|error| failed(&error))?;
+                let failed = |reason| Error::Image { file: file.name(), reason };
+                let bytes = file.bytes().map_err(ImageError::Io).map_err(failed)?;
+                let picture = decode_image(&bytes).map_err(failed)?;
                 let is_atlas = file.directory().is_some_and(|name| name == MIP_ATLASES);
                 let levels =
                     if is_atlas { atlas_levels(&picture) } else { averaged_levels(picture) };
@@ -168,16 +162,14 @@ const MIP_ATLASES: &str = "tonal_art_maps";
 pub(crate) const MAX_SIDE: u32 = 8192;
 
 /// Decodes a PNG or JPEG of at most [`MAX_SIDE`] a side.
-pub(crate) fn decode_image(bytes: &[u8]) -> Result<RgbaImage, String> {
-    let reader = image::ImageReader::new(std::io::Cursor::new(bytes)).with_guessed_format();
-    let mut reader = reader.map_err(|error| format!("cannot be read: {error}"))?;
+pub(crate) fn decode_image(bytes: &[u8]) -> Result<RgbaImage, ImageError> {
+    let mut reader = image::ImageReader::new(std::io::Cursor::new(bytes)).with_guessed_format()?;
     let mut limits = image::Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
     limits.max_image_height = Some(MAX_SIDE);
     limits.max_alloc = Some(u64::from(MAX_SIDE) * u64::from(MAX_SIDE) * 8);
     reader.limits(limits);
-    let picture = reader.decode().map_err(|error| format!("is no PNG or JPEG: {error}"))?;
-    Ok(picture.to_rgba8())
+    Ok(reader.decode()?.to_rgba8())
 }
 
 /// The levels of a mip atlas: the largest at the left, the others below each other at

@@ -6,9 +6,10 @@
 use std::path::Path;
 use std::time::Duration;
 
-use edgemesh::command::Failure;
 use image::codecs::gif::{GifEncoder, Repeat};
 use image::{Delay, Frame, RgbaImage};
+
+use crate::error::Error;
 
 /// How long a frame is shown: 25 a second.
 const FRAME_MS: u16 = 40;
@@ -45,13 +46,13 @@ impl AnimationKind {
 /// alpha, as an endless animation.
 ///
 /// # Errors
-/// The first failure of `draw`, or one of the encoder.
+/// The first error of `draw`, or [`Error::Encode`].
 pub fn encode_animation(
     kind: AnimationKind,
     count: u32,
     size: [u32; 2],
-    draw: impl FnMut(u32) -> Result<RgbaImage, Failure>,
-) -> Result<Vec<u8>, Failure> {
+    draw: impl FnMut(u32) -> Result<RgbaImage, Error>,
+) -> Result<Vec<u8>, Error> {
     match kind {
         AnimationKind::Gif => encode_gif(count, draw),
         AnimationKind::Apng => encode_apng(count, size, draw),
@@ -60,8 +61,8 @@ pub fn encode_animation(
 
 fn encode_gif(
     count: u32,
-    mut draw: impl FnMut(u32) -> Result<RgbaImage, Failure>,
-) -> Result<Vec<u8>, Failure> {
+    mut draw: impl FnMut(u32) -> Result<RgbaImage, Error>,
+) -> Result<Vec<u8>, Error> {
     let mut bytes = Vec::new();
     {
         let mut encoder = GifEncoder::new_with_speed(&mut bytes, GIF_SPEED);
@@ -78,8 +79,8 @@ fn encode_gif(
 fn encode_apng(
     count: u32,
     [width, height]: [u32; 2],
-    mut draw: impl FnMut(u32) -> Result<RgbaImage, Failure>,
-) -> Result<Vec<u8>, Failure> {
+    mut draw: impl FnMut(u32) -> Result<RgbaImage, Error>,
+) -> Result<Vec<u8>, Error> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgba);
@@ -95,8 +96,8 @@ fn encode_apng(
     Ok(bytes)
 }
 
-fn failed(error: impl std::fmt::Display) -> Failure {
-    Failure::fault(format!("the animation cannot be encoded: {error}"))
+fn failed(error: impl std::error::Error + Send + Sync + 'static) -> Error {
+    Error::Encode { what: "animation", reason: error.into() }
 }
 
 #[cfg(test)]
@@ -133,8 +134,8 @@ mod tests {
 
     #[test]
     fn a_frame_that_fails_ends_the_animation() {
-        let result = encode_animation(AnimationKind::Gif, 2, [1, 1], |_| Err(Failure::fault("no")));
-        assert_eq!(result.unwrap_err().message, "no");
+        let result = encode_animation(AnimationKind::Gif, 2, [1, 1], |_| Err(Error::Canceled));
+        assert!(matches!(result, Err(Error::Canceled)), "{result:?}");
     }
 
     #[test]

@@ -3,8 +3,9 @@
 use std::io::Write as _;
 use std::path::Path;
 
-use edgemesh::command::Failure;
 use image::{Rgba, RgbaImage};
+
+use crate::error::{Error, ImageError};
 
 /// Two pixels differ where a channel differs by more than this, of 255. Less is
 /// what adapters round apart; more would hide a stroke drawn in grey.
@@ -19,8 +20,8 @@ pub const DEFAULT_REFERENCE_THRESHOLD: f64 = 0.0004;
 /// `picture` has premultiplied alpha, as it comes from the GPU.
 ///
 /// # Errors
-/// Where the encoder fails.
-pub fn encode_png(picture: &RgbaImage, is_transparent: bool) -> Result<Vec<u8>, Failure> {
+/// [`Error::Encode`].
+pub fn encode_png(picture: &RgbaImage, is_transparent: bool) -> Result<Vec<u8>, Error> {
     encode_png_with_text(picture, is_transparent, None)
 }
 
@@ -33,9 +34,8 @@ pub fn encode_png_with_text(
     picture: &RgbaImage,
     is_transparent: bool,
     text: Option<(&str, &str)>,
-) -> Result<Vec<u8>, Failure> {
-    let failed =
-        |error: png::EncodingError| Failure::fault(format!("the PNG cannot be encoded: {error}"));
+) -> Result<Vec<u8>, Error> {
+    let failed = |error: png::EncodingError| Error::Encode { what: "PNG", reason: error.into() };
     let color = if is_transparent { png::ColorType::Rgba } else { png::ColorType::Rgb };
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, picture.width(), picture.height());
@@ -104,13 +104,12 @@ fn straight(Rgba([r, g, b, a]): Rgba<u8>) -> Rgba<u8> {
 /// Reads a PNG.
 ///
 /// # Errors
-/// Names the file and what is wrong with it.
-pub fn read_png(path: &Path) -> Result<RgbaImage, Failure> {
-    let failed =
-        |error: &dyn std::fmt::Display| Failure::fault(format!("{}: {error}", path.display()));
-    let bytes = std::fs::read(path).map_err(|error| failed(&error))?;
+/// [`Error::Image`].
+pub fn read_png(path: &Path) -> Result<RgbaImage, Error> {
+    let failed = |reason| Error::Image { file: path.display().to_string(), reason };
+    let bytes = std::fs::read(path).map_err(ImageError::Io).map_err(failed)?;
     let picture = image::load_from_memory_with_format(&bytes, image::ImageFormat::Png);
-    Ok(picture.map_err(|error| failed(&error))?.to_rgba8())
+    Ok(picture.map_err(ImageError::Decode).map_err(failed)?.to_rgba8())
 }
 
 /// What a comparison found.

@@ -3,13 +3,12 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use edgemesh::command::{ExitStatus, Failure};
 use edgemesh::edge_mesh::{Bounds, MeshFrame};
 use edgemesh::view::camera::{Camera, View};
 use image::RgbaImage;
 use strokes::draw::targets::Targets;
-use strokes::gpu::device::{Gpu, GpuError, ResourceError};
-use strokes::gpu::readback::{PendingRead, ReadbackError, read_picture};
+use strokes::gpu::device::{Gpu, ResourceError};
+use strokes::gpu::readback::{PendingRead, read_picture};
 use strokes::gpu::timer::GpuTimer;
 use strokes::graph::readback::GraphReadback;
 use strokes::mesh::layout::Layout;
@@ -17,11 +16,12 @@ use strokes::render::pipelines::DetectionStage;
 use strokes::view::live_lists::Tally;
 use strokes::view::tile::Tile;
 
+use crate::error::Error;
 use crate::pass_graph::{GraphOptions, PartOf, PassGraph, Seen};
 use crate::scene::lighting::Lighting;
 use crate::scene::models::Scene;
 use crate::technique::Technique;
-use crate::technique::mistake::Mistakes;
+use crate::technique::error::TechniqueError;
 use crate::technique::plan::{Plan, TexturePlan};
 use crate::technique::program::ShaderFiles;
 use crate::technique::texture_format::PassTexture;
@@ -132,15 +132,14 @@ impl PictureRenderer {
         technique: &Technique,
         looks: &[Technique],
         options: &PictureOptions,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         check_size(gpu, options.size)?;
         let shaders = ShaderFiles::new(&technique.folders, options.shaders.clone());
-        let plan =
-            Plan::of(technique, &shaders).map_err(|mistakes| technique_failure(&mistakes))?;
+        let plan = Plan::of(technique, &shaders)?;
         let graph_options = options.of_graph();
         let made = gpu.make(|| PassGraph::new(gpu, scene, technique, &plan, looks, &graph_options));
         let graph =
-            made.map_err(|error| resource_failure(&error, options.size, options.samples))??;
+            made.map_err(|error| resource_error(error, options.size, options.samples))??;
         Ok(Self {
             gpu: gpu.clone(),
             timer: timer_for(gpu, &graph),
@@ -164,11 +163,10 @@ impl PictureRenderer {
         technique: &Technique,
         looks: &[Technique],
         options: &PictureOptions,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Error> {
         check_size(&self.gpu, options.size)?;
         let shaders = ShaderFiles::new(&technique.folders, options.shaders.clone());
-        let plan =
-            Plan::of(technique, &shaders).map_err(|mistakes| technique_failure(&mistakes))?;
+        let plan = Plan::of(technique, &shaders)?;
         let graph_options = options.of_graph();
         let (gpu, options_before) = (&self.gpu, self.options.of_graph());
         let is_alike = (graph_options.layout, graph_options.stage)
@@ -179,7 +177,7 @@ impl PictureRenderer {
             None => PassGraph::new(gpu, scene, technique, &plan, looks, &graph_options),
         });
         let graph =
-            made.map_err(|error| resource_failure(&error, options.size, options.samples))??;
+            made.map_err(|error| resource_error(error, options.size, options.samples))??;
         self.timer = timer_for(gpu, &graph);
         self.graph = Some(graph);
         self.plan = plan;
@@ -192,12 +190,12 @@ impl PictureRenderer {
     ///
     /// # Errors
     /// Where it is too large for the adapter; then a [`Self::reload`] must come first.
-    pub fn resize(&mut self, size: [u32; 2]) -> Result<(), Failure> {
+    pub fn resize(&mut self, size: [u32; 2]) -> Result<(), Error> {
         check_size(&self.gpu, size)?;
         let (gpu, plan, samples) = (&self.gpu, &self.plan, self.options.samples);
         let mut graph = self.graph.take().ok_or_else(no_graph)?;
         gpu.make(|| graph.resize(&gpu.device, plan, size))
-            .map_err(|error| resource_failure(&error, size, samples))?;
+            .map_err(|error| resource_error(error, size, samples))?;
         self.graph = Some(graph);
         self.options.size = size;
         Ok(())
@@ -220,7 +218,7 @@ impl PictureRenderer {
         can
     }
 
-    fn graph(&self) -> Result<&PassGraph, Failure> {
+    fn graph(&self) -> Result<&PassGraph, Error> {
         self.graph.as_ref().ok_or_else(no_graph)
     }
 
@@ -228,7 +226,7 @@ impl PictureRenderer {
     ///
     /// # Errors
     /// Where the device is lost, or an image cannot be read.
-    pub fn render(&mut self, camera: &Camera) -> Result<(RgbaImage, FrameStatistics), Failure> {
+    pub fn render(&mut self, camera: &Camera) -> Result<(RgbaImage, FrameStatistics), Error> {
         let started = Instant::now();
         self.draw(camera)?;
         self.read(started)
@@ -245,7 +243,7 @@ impl PictureRenderer {
         view: &View,
         part: Tile,
         overview: Option<&Self>,
-    ) -> Result<(RgbaImage, FrameStatistics), Failure> {
+    ) -> Result<(RgbaImage, FrameStatistics), Error> {
         let started = Instant::now();
         let overview = overview.map(Self::graph).transpose()?.map(PassGraph::framebuffer);
         self.draw_first(view, Some(PartOf { part, overview }))?;
@@ -256,27 +254,27 @@ impl PictureRenderer {
     ///
     /// # Errors
     /// Where an image cannot be read.
-    pub fn draw_overview(&mut self, view: &View) -> Result<(), Failure> {
+    pub fn draw_overview(&mut self, view: &View) -> Result<(), Error> {
         self.draw_first(view, None)
     }
 
-    fn draw_first(&mut self, view: &View, part: Option<PartOf>) -> Result<(), Failure> {
+    fn draw_first(&mut self, view: &View, part: Option<PartOf>) -> Result<(), Error> {
         let graph = self.graph.as_mut().ok_or_else(no_graph)?;
         let (gpu, plan) = (&self.gpu, &self.plan);
         gpu.make(|| graph.forget_frames(&gpu.device, plan))
-            .map_err(|error| resource_failure(&error, self.options.size, self.options.samples))?;
+            .map_err(|error| resource_error(error, self.options.size, self.options.samples))?;
         self.submit(view, part)
     }
 
     /// Waits for the picture that was submitted, and reads it.
-    fn read(&self, started: Instant) -> Result<(RgbaImage, FrameStatistics), Failure> {
+    fn read(&self, started: Instant) -> Result<(RgbaImage, FrameStatistics), Error> {
         self.gpu
             .device
             .poll(wgpu::PollType::wait_indefinitely())
-            .map_err(|error| Failure::fault(format!("the graphics adapter was lost: {error}")))?;
+            .map_err(|reason| Error::DeviceLost { reason })?;
         let frame_ms = started.elapsed().as_secs_f64() * 1e3;
-        let picture = read_picture(&self.gpu, self.graph()?.picture()).map_err(lost)?;
-        let tally = self.graph()?.tally(&self.gpu).map_err(lost)?;
+        let picture = read_picture(&self.gpu, self.graph()?.picture())?;
+        let tally = self.graph()?.tally(&self.gpu)?;
         let statistics = FrameStatistics { tally, passes: self.read_passes()?, frame_ms };
         Ok((picture, statistics))
     }
@@ -286,12 +284,12 @@ impl PictureRenderer {
     ///
     /// # Errors
     /// Where the device is lost.
-    pub fn read_graph(&self, object: usize) -> Result<Option<GraphReadback>, Failure> {
+    pub fn read_graph(&self, object: usize) -> Result<Option<GraphReadback>, Error> {
         let group = self.graph()?.stroke_groups().next();
         let Some(object) = group.and_then(|group| group.drawing.objects().get(object)) else {
             return Ok(None);
         };
-        object.read_graph(&self.gpu).map_err(lost)
+        Ok(object.read_graph(&self.gpu)?)
     }
 
     /// The texture that passes call `<generated>:name`, as it is after the last picture.
@@ -321,7 +319,7 @@ impl PictureRenderer {
     ///
     /// # Errors
     /// Where an image cannot be read.
-    pub fn draw(&mut self, camera: &Camera) -> Result<(), Failure> {
+    pub fn draw(&mut self, camera: &Camera) -> Result<(), Error> {
         let view = self.view(camera, self.options.size);
         self.submit(&view, None)
     }
@@ -332,7 +330,7 @@ impl PictureRenderer {
         camera.view(&self.bounds, f64::from(width) / f64::from(height))
     }
 
-    fn submit(&mut self, view: &View, part: Option<PartOf>) -> Result<(), Failure> {
+    fn submit(&mut self, view: &View, part: Option<PartOf>) -> Result<(), Error> {
         let around = self.options.lighting.surroundings(view, &self.bounds, &self.frame);
         let seen = Seen { view, around: &around, part };
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
@@ -350,13 +348,13 @@ impl PictureRenderer {
     ///
     /// # Errors
     /// Where the device is lost.
-    pub fn begin_statistics(&self) -> Result<PendingStatistics, Failure> {
+    pub fn begin_statistics(&self) -> Result<PendingStatistics, Error> {
         let graph = self.graph()?;
         let objects = graph.counted_objects().iter();
         let tallies = objects.map(|object| object.begin_read_tallies(&self.gpu));
-        let tallies = tallies.collect::<Result<Vec<_>, _>>().map_err(lost)?;
+        let tallies = tallies.collect::<Result<Vec<_>, _>>()?;
         let ticks = self.timer.as_ref().map(|timer| timer.begin_read(&self.gpu));
-        let ticks = ticks.transpose().map_err(lost)?;
+        let ticks = ticks.transpose()?;
         Ok(PendingStatistics { tallies, ticks, started: Instant::now() })
     }
 
@@ -368,28 +366,28 @@ impl PictureRenderer {
     pub fn statistics(
         &self,
         pending: &PendingStatistics,
-    ) -> Result<Option<FrameStatistics>, Failure> {
+    ) -> Result<Option<FrameStatistics>, Error> {
         let mut sum = None;
         for pending in &pending.tallies {
-            let Some(tallies) = pending.poll(&self.gpu).map_err(lost)? else { return Ok(None) };
+            let Some(tallies) = pending.poll(&self.gpu)? else { return Ok(None) };
             let before = sum.unwrap_or_default();
             sum = Some(tallies.iter().fold(before, |sum: Tally, tally| sum.plus(tally)));
         }
         let mut passes_ms = Vec::new();
         if let (Some(timer), Some(ticks)) = (&self.timer, &pending.ticks) {
-            let Some(ticks) = ticks.poll(&self.gpu).map_err(lost)? else { return Ok(None) };
+            let Some(ticks) = ticks.poll(&self.gpu)? else { return Ok(None) };
             passes_ms = timer.times(&self.gpu, &ticks).passes_ms;
         }
         let frame_ms = pending.started.elapsed().as_secs_f64() * 1e3;
         Ok(Some(FrameStatistics { tally: sum, passes: self.named(passes_ms)?, frame_ms }))
     }
 
-    fn read_passes(&self) -> Result<Vec<(String, Option<f64>)>, Failure> {
+    fn read_passes(&self) -> Result<Vec<(String, Option<f64>)>, Error> {
         let times = self.timer.as_ref().map(|timer| timer.read(&self.gpu)).transpose();
-        self.named(times.map_err(lost)?.map_or_else(Vec::new, |times| times.passes_ms))
+        self.named(times?.map_or_else(Vec::new, |times| times.passes_ms))
     }
 
-    fn named(&self, passes_ms: Vec<f64>) -> Result<Vec<(String, Option<f64>)>, Failure> {
+    fn named(&self, passes_ms: Vec<f64>) -> Result<Vec<(String, Option<f64>)>, Error> {
         let times = passes_ms.into_iter().map(Some).chain(std::iter::repeat(None));
         Ok(self.graph()?.time_names().into_iter().zip(times).collect())
     }
@@ -400,55 +398,23 @@ fn timer_for(gpu: &Gpu, graph: &PassGraph) -> Option<GpuTimer> {
     GpuTimer::new(gpu, count)
 }
 
-/// A technique that could be checked and not be built has left nothing to draw.
-fn no_graph() -> Failure {
-    Failure {
-        message: "the technique could not be built; there is nothing to draw".into(),
-        status: ExitStatus::Shader,
-    }
+fn no_graph() -> Error {
+    TechniqueError::NotBuilt.into()
 }
 
-/// The failure that mistakes in a technique are: exit status 4.
-#[must_use]
-pub fn technique_failure(mistakes: &Mistakes) -> Failure {
-    let text = mistakes.to_string();
-    // The first one is announced as an error by who prints it.
-    let message = text.strip_prefix("error: ").unwrap_or(&text).trim_end().to_owned();
-    Failure { message, status: ExitStatus::Shader }
-}
-
-fn lost(error: ReadbackError) -> Failure {
-    Failure::fault(error.to_string())
-}
-
-fn resource_failure(error: &ResourceError, size: [u32; 2], samples: u32) -> Failure {
+fn resource_error(error: ResourceError, size: [u32; 2], samples: u32) -> Error {
     match error {
-        ResourceError::OutOfMemory => Failure::fault(format!(
-            "{error}: the picture alone, {}x{} with {samples} samples, needs {} MiB; a \
-             smaller one needs less, and one with --samples 1",
-            size[0],
-            size[1],
-            Targets::byte_count(size, samples) >> 20
-        )),
-        ResourceError::Fault(_) => {
-            Failure { message: error.to_string(), status: ExitStatus::Internal }
+        ResourceError::OutOfMemory => {
+            Error::OutOfMemory { size, samples, bytes: Targets::byte_count(size, samples) }
         }
+        ResourceError::Fault(what) => Error::AdapterFault(what),
     }
 }
 
-fn check_size(gpu: &Gpu, size: [u32; 2]) -> Result<(), Failure> {
+fn check_size(gpu: &Gpu, size: [u32; 2]) -> Result<(), Error> {
     let limit = gpu.device.limits().max_texture_dimension_2d;
-    if size.iter().any(|&side| side > limit) {
-        let [width, height] = size;
-        return Err(Failure::fault(format!(
-            "--size {width}x{height}: this adapter draws at most {limit} pixels a side at once"
-        )));
+    match size.iter().any(|&side| side > limit) {
+        true => Err(Error::PictureTooLarge { size, limit }),
+        false => Ok(()),
     }
-    Ok(())
-}
-
-/// The failure that a missing or unfit adapter is: exit status 3.
-#[must_use]
-pub fn adapter_failure(error: &GpuError) -> Failure {
-    Failure { message: error.to_string(), status: ExitStatus::NoAdapter }
 }

@@ -15,13 +15,13 @@
 //! Rejected: drawing large and cutting with a viewport, since a viewport may not be
 //! larger than a texture either.
 
-use edgemesh::command::Failure;
 use edgemesh::view::camera::Camera;
 use image::RgbaImage;
 use strokes::draw::targets::Targets;
 use strokes::gpu::device::Gpu;
 use strokes::view::tile::Tile;
 
+use crate::error::Error;
 use crate::picture::renderer::{FrameStatistics, PictureOptions, PictureRenderer};
 use crate::scene::models::Scene;
 use crate::technique::Technique;
@@ -62,7 +62,7 @@ enum Kind {
 }
 
 /// Is told how many parts are done, of how many; an error ends the picture.
-pub type Progress<'a> = &'a mut dyn FnMut(u32, u32) -> Result<(), Failure>;
+pub type Progress<'a> = &'a mut dyn FnMut(u32, u32) -> Result<(), Error>;
 
 impl AnySizeRenderer {
     /// As [`PictureRenderer::new`], for a picture of any size.
@@ -75,7 +75,7 @@ impl AnySizeRenderer {
         technique: &Technique,
         looks: &[Technique],
         options: &PictureOptions,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         let limit = gpu.device.limits().max_texture_dimension_2d;
         let fits = options.size.iter().all(|&side| side <= limit)
             && Targets::byte_count(options.size, options.samples) <= MAX_BYTES;
@@ -95,7 +95,7 @@ impl AnySizeRenderer {
         looks: &[Technique],
         options: &PictureOptions,
         max_part_px: u32,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         let renderer = |size| {
             let options = PictureOptions { size, ..options.clone() };
             PictureRenderer::new(gpu, scene, technique, looks, &options).map(Box::new)
@@ -126,7 +126,7 @@ impl AnySizeRenderer {
         technique: &Technique,
         looks: &[Technique],
         options: &PictureOptions,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Error> {
         let reload = |renderer: &mut PictureRenderer| {
             let options = PictureOptions { size: renderer.options().size, ..options.clone() };
             renderer.reload(scene, technique, looks, &options)
@@ -157,7 +157,7 @@ impl AnySizeRenderer {
         &mut self,
         camera: &Camera,
         progress: Progress,
-    ) -> Result<(RgbaImage, FrameStatistics), Failure> {
+    ) -> Result<(RgbaImage, FrameStatistics), Error> {
         let (part, overview, layout) = match &mut self.kind {
             Kind::Whole(renderer) => return renderer.render(camera),
             Kind::Parts { part, overview, layout } => (part, overview, layout),
@@ -185,7 +185,7 @@ impl AnySizeRenderer {
             });
         }
         progress(total, total)?;
-        let statistics = sum.ok_or_else(|| Failure::fault("a picture without parts"))?;
+        let statistics = sum.ok_or_else(|| Error::Internal("a picture without parts".into()))?;
         Ok((picture, statistics))
     }
 }
@@ -267,15 +267,9 @@ fn overview_size(size: [u32; 2], max_px: u32) -> [u32; 2] {
 }
 
 /// A picture of nothing, where there is memory for it.
-fn empty_picture(size: [u32; 2]) -> Result<RgbaImage, Failure> {
+fn empty_picture(size: [u32; 2]) -> Result<RgbaImage, Error> {
     let [width, height] = size;
-    let too_large = || {
-        let bytes = u128::from(width) * u128::from(height) * 4;
-        Failure::fault(format!(
-            "--size {width}x{height}: there is no memory for a picture of {} MiB",
-            bytes >> 20
-        ))
-    };
+    let too_large = || Error::NoMemoryForPicture { size };
     let bytes = u64::from(width) * u64::from(height);
     let bytes = bytes.checked_mul(4).and_then(|bytes| usize::try_from(bytes).ok());
     let bytes = bytes.ok_or_else(too_large)?;
@@ -318,7 +312,8 @@ mod tests {
 
     #[test]
     fn a_picture_that_no_memory_holds_is_told() {
-        let failure = empty_picture([u32::MAX; 2]).unwrap_err();
-        assert!(failure.message.contains("4294967295x4294967295"), "{}", failure.message);
+        let error = empty_picture([u32::MAX; 2]).unwrap_err();
+        assert!(matches!(error, Error::NoMemoryForPicture { .. }), "{error:?}");
+        assert!(error.to_string().contains("4294967295x4294967295"), "{error}");
     }
 }

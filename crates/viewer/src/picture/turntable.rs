@@ -4,11 +4,12 @@ use std::f64::consts::TAU;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use edgemesh::command::{Failure, write_file};
+use edgemesh::format::whole_file::write_file;
 use edgemesh::view::camera::Camera;
 use glam::DQuat;
 use image::RgbaImage;
 
+use crate::error::Error;
 use crate::picture::animation::{AnimationKind, encode_animation};
 use crate::picture::png::{as_stored, encode_png};
 
@@ -24,19 +25,19 @@ pub fn camera_at(camera: &Camera, step: u32, steps: u32) -> Camera {
 /// the path ends so, else numbered.
 ///
 /// # Errors
-/// Where a picture cannot be drawn or written.
+/// The first error of `draw`, [`Error::Encode`] or [`Error::Write`].
 pub fn write(
     path: &Path,
     steps: u32,
     size: [u32; 2],
     is_transparent: bool,
-    mut draw: impl FnMut(u32) -> Result<RgbaImage, Failure>,
-) -> Result<(), Failure> {
+    mut draw: impl FnMut(u32) -> Result<RgbaImage, Error>,
+) -> Result<(), Error> {
     if let Some(kind) = AnimationKind::of(path) {
         let bytes = encode_animation(kind, steps, size, |step| {
             draw(step).map(|picture| as_stored(&picture, is_transparent))
         })?;
-        return write_file(path, &bytes);
+        return Ok(write_file(path, &bytes)?);
     }
     for step in 0..steps {
         let bytes = encode_png(&draw(step)?, is_transparent)?;

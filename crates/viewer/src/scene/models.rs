@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use edgemesh::build::BuildOptions;
-use edgemesh::command::input::{InputOptions, Loaded};
-use edgemesh::command::{Failure, Listener};
 use edgemesh::edge_mesh::{Bounds, MeshFrame};
+use edgemesh::load::{LoadOptions, Loaded, Progress, load_scene};
 use glam::DMat4;
 
+use crate::error::Error;
 use crate::scene::scene_file::SceneObject;
 
 /// Models in memory.
@@ -42,12 +42,12 @@ impl Scene {
     /// has look number n.
     ///
     /// # Errors
-    /// The first model that cannot be read, or where the listener wants no more.
+    /// [`Error::Load`] for the first model that cannot be loaded, or if `progress` cancels.
     pub fn load(
         objects: &[SceneObject],
-        input: &InputOptions,
-        listener: Listener,
-    ) -> Result<Self, Failure> {
+        options: &LoadOptions,
+        progress: &dyn Progress,
+    ) -> Result<Self, Error> {
         let mut paths: Vec<PathBuf> = Vec::new();
         let mut placed = Vec::new();
         for (look, object) in objects.iter().enumerate() {
@@ -61,10 +61,9 @@ impl Scene {
         }
         // Transforms are in the numbers of the files.
         let is_moved = placed.iter().any(|object| object.world_from_object != DMat4::IDENTITY);
-        let built = input.creases.build_options();
         Ok(Self {
-            thresholds: [built.ridge_angle_rad, built.valley_angle_rad],
-            ..Self::placed(input.load_scene(&paths, is_moved, listener)?, placed)
+            thresholds: options.crease_angles_rad(),
+            ..Self::placed(load_scene(&paths, options, is_moved, progress)?, placed)
         })
     }
 

@@ -16,10 +16,34 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use edgemesh::command::Failure;
 use glam::{DMat4, DQuat, DVec3, EulerRot};
 use serde::Deserialize;
+use thiserror::Error;
 use toml::Spanned;
+
+/// Why a scene file was not read.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SceneFileError {
+    /// The operating system does not hand it out, or it is not UTF-8.
+    #[error("{}: cannot be read: {reason}", path.display())]
+    Io {
+        /// The scene file.
+        path: PathBuf,
+        /// What the operating system said.
+        reason: std::io::Error,
+    },
+    /// A line of it is wrong.
+    #[error("{}:{line}: {what}", path.display())]
+    Line {
+        /// The scene file.
+        path: PathBuf,
+        /// The line, counted from 1.
+        line: usize,
+        /// What is wrong with it.
+        what: String,
+    },
+}
 
 /// An object as its scene file has it.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,21 +100,37 @@ pub fn is_scene_file(path: &Path) -> bool {
     path.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"))
 }
 
+/// The objects of all models and scene files, in order.
+///
+/// # Errors
+/// As [`read_scene_file`].
+pub fn objects_of(paths: &[PathBuf]) -> Result<Vec<SceneObject>, SceneFileError> {
+    let mut objects = Vec::new();
+    for path in paths {
+        if is_scene_file(path) {
+            objects.extend(read_scene_file(path)?);
+        } else {
+            objects.push(SceneObject::plain(path));
+        }
+    }
+    Ok(objects)
+}
+
 /// Reads a scene file.
 ///
 /// # Errors
-/// Where it cannot be read, or something in it is wrong, with the line.
-pub fn read_scene_file(path: &Path) -> Result<Vec<SceneObject>, Failure> {
+/// [`SceneFileError`], if it cannot be read, or for the first line that is wrong.
+pub fn read_scene_file(path: &Path) -> Result<Vec<SceneObject>, SceneFileError> {
     let text = std::fs::read_to_string(path)
-        .map_err(|error| Failure::fault(format!("{}: cannot be read: {error}", path.display())))?;
+        .map_err(|reason| SceneFileError::Io { path: path.to_owned(), reason })?;
     parse(path, &text)
 }
 
-fn parse(path: &Path, text: &str) -> Result<Vec<SceneObject>, Failure> {
+fn parse(path: &Path, text: &str) -> Result<Vec<SceneObject>, SceneFileError> {
     let wrong = |span: Option<Range<usize>>, what: &str| {
         let before = span.and_then(|span| text.get(..span.start)).unwrap_or_default();
         let line = 1 + before.matches('\n').count();
-        Failure::fault(format!("{}:{line}: {what}", path.display()))
+        SceneFileError::Line { path: path.to_owned(), line, what: what.to_owned() }
     };
     let file: File = toml::from_str(text)
         .map_err(|error| wrong(error.span(), error.message().lines().next().unwrap_or_default()))?;
@@ -135,7 +175,7 @@ fn parse(path: &Path, text: &str) -> Result<Vec<SceneObject>, Failure> {
 mod tests {
     use super::*;
 
-    fn parsed(text: &str) -> Result<Vec<SceneObject>, Failure> {
+    fn parsed(text: &str) -> Result<Vec<SceneObject>, SceneFileError> {
         parse(Path::new("folder/scene.toml"), text)
     }
 
@@ -176,7 +216,7 @@ mod tests {
             ("", ":1:", "object"),
             ("object = []", ":1:", "[[object]]"),
         ] {
-            let message = parsed(text).unwrap_err().message;
+            let message = parsed(text).unwrap_err().to_string();
             assert!(message.contains(place) && message.contains(word), "{text:?}: {message}");
         }
     }

@@ -118,7 +118,7 @@ mod tests {
     fn classes_that_nobody_draws_cannot_be_set() {
         let mut fur = Library::shipped().technique("fur").unwrap().0;
         let error = fur.set("marked.width=3").unwrap_err();
-        assert!(error.contains("no pass of fur draws 'marked'"), "{error}");
+        assert!(error.what.contains("no pass of fur draws 'marked'"), "{error}");
         assert!(fur.set("contour.width=3").is_ok(), "that is a pass");
         assert_eq!(classes_of("ridge, edge"), Err("edge".to_owned()));
         assert_eq!(classes_of("all").unwrap().len(), LineClass::ALL.len());

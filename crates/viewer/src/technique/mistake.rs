@@ -183,6 +183,14 @@ impl Mistakes {
         Self { list: warnings }
     }
 
+    /// All of them as text, without the word `error:` before the first one and without the
+    /// last line end.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let text = self.to_string();
+        text.strip_prefix("error: ").unwrap_or(&text).trim_end().to_owned()
+    }
+
     /// `value`, or the mistakes where there are errors among them.
     ///
     /// # Errors

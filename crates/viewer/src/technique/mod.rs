@@ -13,6 +13,7 @@
 //! - [`value`], [`texture_name`]: types and values of variables.
 //! - [`descriptor`], [`core`]: the interface of a component, and what is in Rust.
 //! - [`library`]: the files that are shipped, and the user's own.
+//! - [`error`]: why a technique cannot be drawn.
 //! - [`mistake`]: everything that is wrong with a file, underlined.
 //! - [`loop_bound`]: loops of shaders that end.
 //! - [`program`]: what a shader wants to be given.
@@ -26,6 +27,7 @@ mod component_file;
 pub mod core;
 pub(crate) mod curve;
 pub mod descriptor;
+pub mod error;
 pub mod image_file;
 pub mod library;
 pub mod loop_bound;
@@ -44,6 +46,7 @@ pub mod write;
 
 use std::path::PathBuf;
 
+use self::error::SettingError;
 use self::mistake::{Mistake, Mistakes};
 use self::pass::Pass;
 
@@ -74,8 +77,13 @@ impl Technique {
     /// that of the strokes it was drawn by, and changed there.
     ///
     /// # Errors
-    /// What is wrong with the assignment, with the names there are.
-    pub fn set(&mut self, assignment: &str) -> Result<Mistakes, String> {
+    /// [`SettingError`], with the names that exist.
+    pub fn set(&mut self, assignment: &str) -> Result<Mistakes, SettingError> {
+        self.assign(assignment)
+            .map_err(|what| SettingError { assignment: assignment.to_owned(), what })
+    }
+
+    fn assign(&mut self, assignment: &str) -> Result<Mistakes, String> {
         let parts = assignment.split_once('=').and_then(|(path, value)| {
             path.trim().split_once('.').map(|(pass, variable)| (pass, variable, value.trim()))
         });
@@ -108,11 +116,12 @@ impl Technique {
     /// Lays a picture file on all visible strokes, whatever its name ends in.
     ///
     /// # Errors
-    /// Where no pass has visible strokes.
-    pub fn set_brush_file(&mut self, path: &str) -> Result<(), String> {
+    /// [`SettingError`], if no pass has visible strokes.
+    pub fn set_brush_file(&mut self, path: &str) -> Result<(), SettingError> {
+        let wrong = |what| SettingError { assignment: format!("strokes.brush={path}"), what };
         let source = texture_name::TextureSource::File(path.to_owned());
         let name = texture_name::TextureName { source, is_filtered: None };
-        for at in self.targets("strokes")? {
+        for at in self.targets("strokes").map_err(wrong)? {
             let pass = &mut self.passes[at];
             if let Some((index, _)) = pass.component.variable("brush") {
                 let value = value::Value::Texture(name.clone());

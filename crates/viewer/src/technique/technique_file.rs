@@ -135,7 +135,7 @@ fn pass_name(entry: &Entry, taken: &[&Pass], mistakes: &mut Mistakes) -> Option<
     let name = entry.node.text(mistakes)?;
     if !is_name(&name) {
         let message = format!("'{name}' cannot be the name of a pass");
-        let note = "names are letters, digits and _, as --set writes them";
+        let note = "names are letters, digits and _";
         mistakes.add(Mistake::error(&entry.node.place, message).note(note));
         return None;
     }

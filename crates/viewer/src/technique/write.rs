@@ -3,7 +3,8 @@
 //! The file that it came from is kept as it is, its comments and its own components
 //! included; only what was changed is changed in it.
 
-use toml_edit::{ArrayOfTables, DocumentMut, Item, Table};
+use thiserror::Error;
+use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, TomlError};
 
 use super::Technique;
 use super::changes::argument;
@@ -11,17 +12,28 @@ use super::descriptor::VariableDescriptor;
 use super::pass::Pass;
 use super::value::{Value, VariableType, color_text};
 
+/// Why a technique cannot be written: the file that it came from cannot be read again.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum WriteTechniqueError {
+    /// It is not TOML.
+    #[error("the technique cannot be written: {0}")]
+    Syntax(#[from] TomlError),
+    /// Its passes are not an array of tables.
+    #[error("the technique cannot be written: its passes are no tables")]
+    Passes,
+}
+
 /// The text of a file for `technique`, which was read from a file and changed since;
 /// `about` says what it shows.
 ///
 /// # Errors
-/// Where the file that it came from cannot be read again.
-pub fn written(technique: &Technique, about: &str) -> Result<String, String> {
+/// [`WriteTechniqueError`].
+pub fn written(technique: &Technique, about: &str) -> Result<String, WriteTechniqueError> {
     let source = technique.passes.first().map_or("", |pass| &pass.place.source.text);
-    let mut document: DocumentMut =
-        source.parse().map_err(|error| format!("the technique cannot be written: {error}"))?;
+    let mut document: DocumentMut = source.parse()?;
     let tables = document.get("pass").and_then(Item::as_array_of_tables).cloned();
-    let tables = tables.ok_or("the technique cannot be written: its passes are no tables")?;
+    let tables = tables.ok_or(WriteTechniqueError::Passes)?;
     // The passes that were there are those of the file, in its order.
     let mut known = tables.iter();
     let mut last: Option<Table> = None;

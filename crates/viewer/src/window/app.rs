@@ -7,11 +7,12 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use edgemesh::command::{Failure, write_file};
+use edgemesh::format::whole_file::write_file;
 use egui::{CentralPanel, Panel, Sense, Ui};
 
 use super::background::{Background, Tell};
 use super::canvas::Canvas;
+use super::error_text::{error_text, saving_text};
 use super::hands::Hands;
 use super::loading::{self, Built, LoadedScene, Loading, ToLoad};
 use super::opening::{Kept, Lost, watch_device};
@@ -20,6 +21,7 @@ use super::session::{Request, Session, Work};
 use super::thumbnails::{self, Thumbnail};
 use super::watching::{Change, Watching};
 use super::{desktop, panels, style};
+use crate::error::Error;
 use crate::technique::write::written;
 
 /// The key under which the window remembers.
@@ -69,10 +71,13 @@ impl Window {
         context: &eframe::CreationContext,
         kept: Arc<Mutex<Option<Kept>>>,
         lost: Arc<Lost>,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, Error> {
+        let missing = |what: &str| Error::Window(what.to_owned());
         let before = kept.lock().unwrap_or_else(PoisonError::into_inner).take();
-        let Kept { mut session, to_load, is_new } = before.ok_or("there is nothing to show")?;
-        let window = context.wgpu_render_state.clone().ok_or("the window has no device")?;
+        let Kept { mut session, to_load, is_new } =
+            before.ok_or_else(|| missing("there is nothing to show"))?;
+        let window = context.wgpu_render_state.clone();
+        let window = window.ok_or_else(|| missing("the window has no device"))?;
         let faults = Arc::new(Mutex::new(Vec::new()));
         watch_device(&window.device, &context.egui_ctx, &lost, &faults);
         if is_new {
@@ -83,7 +88,7 @@ impl Window {
         }
         style::apply(&context.egui_ctx);
         desktop::follow_theme(&context.egui_ctx);
-        let mut canvas = Canvas::new(&window).map_err(|error| error.to_string())?;
+        let mut canvas = Canvas::new(&window)?;
         session.adapter.clone_from(&canvas.gpu().info.name);
         if let Some(scene) = &session.scene {
             canvas.take_scene(scene.clone(), None);
@@ -115,8 +120,8 @@ impl Window {
         if let Some(recipe) = what.recipe {
             self.session.recipe = recipe;
         }
-        if let Err(failure) = self.session.take_scene(models, scene.clone(), objects) {
-            self.session.messages.error(failure.message);
+        if let Err(error) = self.session.take_scene(models, scene.clone(), objects) {
+            self.session.messages.error(error_text(&error));
         }
         self.canvas.take_scene(scene, renderer);
     }
@@ -124,20 +129,16 @@ impl Window {
     /// Begins to load models; what was being loaded is no longer wanted.
     fn load(&mut self, what: ToLoad, context: &egui::Context) {
         let recipe = what.recipe.as_ref().unwrap_or(&self.session.recipe);
-        let options = match recipe.picture_options(self.size) {
-            Ok(options) => options,
-            Err(failure) => return self.session.messages.error(failure.message),
-        };
         let request = loading::Request {
             models: what.models.clone(),
-            arguments: recipe.arguments.clone(),
+            load: recipe.load_options(),
             gpu: Some(self.canvas.gpu().clone()),
             library: self.session.library.clone(),
             built: Built {
                 technique: recipe.appearance.technique.clone(),
                 is_transparent: recipe.appearance.is_transparent,
             },
-            options,
+            options: recipe.picture_options(self.size),
         };
         let context = context.clone();
         let wake = move || context.request_repaint();
@@ -173,7 +174,7 @@ impl Window {
         {
             match loaded {
                 Ok(loaded) => self.take_loaded(what, loaded),
-                Err(failure) => self.session.messages.error(failure.message),
+                Err(error) => self.session.messages.error(error_text(&error)),
             }
         }
         let mut done = Vec::new();
@@ -186,7 +187,7 @@ impl Window {
         for result in done {
             match result {
                 Ok(note) => self.session.messages.note(note),
-                Err(failure) => self.session.messages.error(failure.message),
+                Err(error) => self.session.messages.error(saving_text(&error)),
             }
         }
         self.session.work.clear();
@@ -233,8 +234,8 @@ impl Window {
         let Some(change) = self.watching.as_ref().and_then(Watching::take) else { return };
         match self.session.read_again() {
             Ok(()) => self.canvas.forget(change),
-            Err(failure) if change == Change::Settled => {
-                self.session.messages.technique = Some(failure.message);
+            Err(error) if change == Change::Settled => {
+                self.session.messages.technique = Some(error_text(&error));
             }
             Err(_) => {}
         }
@@ -363,9 +364,10 @@ impl Window {
         let appearance = &self.session.recipe.appearance;
         let about = appearance.technique.about.clone();
         let saved = written(&appearance.technique, &about)
-            .and_then(|text| write_file(path, text.as_bytes()).map_err(|failure| failure.message));
+            .map_err(Error::from)
+            .and_then(|text| Ok(write_file(path, text.as_bytes())?));
         match saved {
-            Err(what) => self.session.messages.error(what),
+            Err(error) => self.session.messages.error(error_text(&error)),
             Ok(()) => {
                 let name = path.display().to_string();
                 self.session.messages.note(format!("saved as {name}"));
@@ -379,7 +381,7 @@ impl Window {
         let Some(scene) = self.session.scene.clone() else { return };
         let looks = match self.session.object_looks() {
             Ok(looks) => looks,
-            Err(failure) => return self.session.messages.error(failure.message),
+            Err(error) => return self.session.messages.error(error_text(&error)),
         };
         let order = Order {
             recipe: self.session.recipe.clone(),
@@ -396,7 +398,7 @@ impl Window {
     /// Saves something on another thread.
     fn save_aside(
         &mut self,
-        body: impl FnOnce(Tell) -> Result<String, Failure> + Send + 'static,
+        body: impl FnOnce(Tell) -> Result<String, Error> + Send + 'static,
         context: &egui::Context,
     ) {
         let context = context.clone();
@@ -429,7 +431,7 @@ impl Window {
                 return self.session.messages.error(what);
             };
             match self.session.take_words(&words) {
-                Err(failure) => self.session.messages.error(failure.message),
+                Err(error) => self.session.messages.error(error_text(&error)),
                 Ok(None) => {}
                 Ok(Some(recipe)) => {
                     let models = recipe.models.clone();

@@ -6,7 +6,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
-use edgemesh::command::{ExitStatus, Failure};
+use crate::error::Error;
 
 /// What is told while work is done: each stage as it begins; false ends the work.
 pub type Tell<'a> = &'a (dyn Fn(&str) -> bool + Sync);
@@ -14,7 +14,7 @@ pub type Tell<'a> = &'a (dyn Fn(&str) -> bool + Sync);
 /// Work under way. What is dropped is cancelled: it ends at its next stage.
 #[derive(Debug)]
 pub struct Background<T> {
-    result: Receiver<Result<T, Failure>>,
+    result: Receiver<Result<T, Error>>,
     stage: Arc<Mutex<String>>,
     is_cancelled: Arc<AtomicBool>,
     /// Since when.
@@ -26,7 +26,7 @@ impl<T: Send + 'static> Background<T> {
     #[must_use]
     pub fn start(
         wake: impl Fn() + Send + Sync + 'static,
-        body: impl FnOnce(Tell) -> Result<T, Failure> + Send + 'static,
+        body: impl FnOnce(Tell) -> Result<T, Error> + Send + 'static,
     ) -> Self {
         let (sender, result) = channel();
         let stage = Arc::new(Mutex::new(String::new()));
@@ -42,8 +42,7 @@ impl<T: Send + 'static> Background<T> {
             let work = std::panic::AssertUnwindSafe(|| body(&tell));
             let done = std::panic::catch_unwind(work).unwrap_or_else(|_| {
                 let stage = told.lock().unwrap_or_else(PoisonError::into_inner).clone();
-                let message = format!("internal error while {stage}; please report it");
-                Err(Failure { message, status: ExitStatus::Internal })
+                Err(Error::Internal(format!("internal error while {stage}; please report it")))
             });
             // Nobody waits for what was cancelled.
             let _ = sender.send(done);
@@ -60,7 +59,7 @@ impl<T: Send + 'static> Background<T> {
 
     /// What came out, once it is done.
     #[must_use]
-    pub fn take(&self) -> Option<Result<T, Failure>> {
+    pub fn take(&self) -> Option<Result<T, Error>> {
         self.result.try_recv().ok()
     }
 
@@ -70,7 +69,7 @@ impl<T: Send + 'static> Background<T> {
     }
 
     #[cfg(test)]
-    pub(super) fn wait(&self) -> Result<T, Failure> {
+    pub(super) fn wait(&self) -> Result<T, Error> {
         self.result.recv_timeout(std::time::Duration::from_secs(60)).unwrap()
     }
 }
@@ -95,7 +94,7 @@ mod tests {
                 assert!(tell("first"));
                 sender.send(()).unwrap();
                 wait.recv().unwrap();
-                if tell("second") { Ok(7) } else { Err(Failure::fault("it was cancelled")) }
+                if tell("second") { Ok(7) } else { Err(Error::Canceled) }
             },
         );
         receiver.recv().unwrap();
@@ -103,11 +102,11 @@ mod tests {
         assert!(work.take().is_none());
         work.cancel();
         go_on.send(()).unwrap();
-        assert_eq!(work.wait().unwrap_err().message, "it was cancelled");
+        assert!(matches!(work.wait(), Err(Error::Canceled)));
     }
 
     #[test]
-    fn a_panic_is_a_failure() {
+    fn a_panic_is_an_error() {
         let work: Background<()> = Background::start(
             || {},
             |tell| {
@@ -115,7 +114,7 @@ mod tests {
                 panic!("of a test");
             },
         );
-        let message = work.wait().unwrap_err().message;
+        let message = work.wait().unwrap_err().to_string();
         assert_eq!(message, "internal error while counting; please report it");
     }
 }

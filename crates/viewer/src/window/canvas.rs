@@ -7,10 +7,10 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use edgemesh::command::{ExitStatus, Failure};
 use edgemesh_shaders::ShaderError;
 use strokes::gpu::device::Gpu;
 
+use super::error_text::error_text;
 use super::inspection::Inspection;
 use super::loading::Built;
 use super::picture_paint::{PaintedPicture, PicturePainter};
@@ -18,6 +18,7 @@ use super::recipe::Appearance;
 use super::session::Session;
 use super::viewpoint::Viewpoint;
 use super::watching::Change;
+use crate::error::Error;
 use crate::picture::renderer::{
     FrameStatistics, PendingStatistics, PictureOptions, PictureRenderer,
 };
@@ -220,10 +221,8 @@ impl Sheet {
             }
             // It may just be half saved.
             Err(_) if self.is_doubted => {}
-            Err(failure) if failure.status == ExitStatus::Shader => {
-                session.messages.technique = Some(failure.message);
-            }
-            Err(failure) => session.messages.error(failure.message),
+            Err(Error::Technique(error)) => session.messages.technique = Some(error.to_string()),
+            Err(error) => session.messages.error(error_text(&error)),
         }
         self.failed = Some(wanted);
         false
@@ -242,11 +241,11 @@ impl Sheet {
         session: &Session,
         scene: &Arc<Scene>,
         wanted: &Drawn,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Error> {
         let options = PictureOptions {
             lighting: wanted.appearance.lighting.clone(),
             is_transparent: wanted.appearance.is_transparent,
-            ..session.recipe.picture_options(wanted.size)?
+            ..session.recipe.picture_options(wanted.size)
         };
         let technique = &wanted.appearance.technique;
         let is_same = |built: &Built| {

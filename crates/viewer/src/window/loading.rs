@@ -4,18 +4,20 @@
 //!   files --read, build--> Scene --upload--> PictureRenderer --> the window takes both
 //! ```
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use edgemesh::command::{ExitStatus, Failure, Listener};
+use edgemesh::load::{LoadOptions, Stage};
 use strokes::gpu::device::Gpu;
 
 use super::background::{Background, Tell};
 use super::recipe::Recipe;
-use crate::command::picture_arguments::{PictureArguments, objects_of};
+use crate::error::Error;
 use crate::picture::renderer::{PictureOptions, PictureRenderer};
 use crate::scene::models::Scene;
-use crate::scene::scene_file::SceneObject;
+use crate::scene::object_techniques::object_techniques;
+use crate::scene::scene_file::{SceneObject, objects_of};
 use crate::technique::Technique;
 use crate::technique::library::Library;
 
@@ -39,7 +41,7 @@ pub struct Request {
     /// Models and scene files.
     pub models: Vec<PathBuf>,
     /// How they are read.
-    pub arguments: PictureArguments,
+    pub load: LoadOptions,
     /// The device to upload to; none where nothing is drawn.
     pub gpu: Option<Gpu>,
     /// Techniques and components.
@@ -75,24 +77,28 @@ pub struct LoadedScene {
 /// Reads the models of a request, and uploads them.
 ///
 /// # Errors
-/// The first model that cannot be read or is too large, or where `tell` wants no more.
-pub fn load(request: Request, tell: Tell) -> Result<LoadedScene, Failure> {
-    let listener = Listener::Other(tell);
+/// For the first model that cannot be loaded or is too large, or if `tell` cancels.
+pub fn load(request: Request, tell: Tell) -> Result<LoadedScene, Error> {
+    let go_on = |what: &str| match tell(what) {
+        true => ControlFlow::Continue(()),
+        false => ControlFlow::Break(()),
+    };
     let objects = objects_of(&request.models)?;
-    let scene = Scene::load(&objects, &request.arguments.input, listener)?;
+    let scene = Scene::load(&objects, &request.load, &|stage: Stage| go_on(&stage.to_string()))?;
     let renderer = match &request.gpu {
         None => None,
         Some(gpu) => {
-            listener.begin("uploading")?;
-            let Request { built, options, .. } = &request;
+            if go_on("uploading").is_break() {
+                return Err(Error::Canceled);
+            }
+            let Request { built, options, library, .. } = &request;
             let technique = &built.technique;
-            let looks =
-                request.arguments.object_techniques(&objects, &request.library, technique, true)?;
-            // What is wrong with a technique is no fault of the models: the window tells it.
-            let made = PictureRenderer::new(gpu, &scene, technique, &looks, options);
-            match made {
-                Err(failure) if failure.status != ExitStatus::Shader => return Err(failure),
-                made => made.ok().map(|made| (made, built.clone())),
+            let looks = object_techniques(&objects, library, technique, &mut |_| ())?;
+            match PictureRenderer::new(gpu, &scene, technique, &looks, options) {
+                Ok(made) => Some((made, built.clone())),
+                // The models are not at fault: the window reports the technique's mistakes.
+                Err(Error::Technique(_)) => None,
+                Err(error) => return Err(error),
             }
         }
     };
@@ -106,16 +112,17 @@ mod tests {
     fn start(model: &str) -> Background<LoadedScene> {
         let library = Library::shipped();
         let recipe = Recipe::of_words(&[model.to_owned()], &library).unwrap();
+        let load = recipe.load_options();
         let technique = recipe.appearance.technique;
         let request = Request {
             models: recipe.models,
-            arguments: recipe.arguments,
+            load,
             gpu: None,
             library,
             built: Built { technique, is_transparent: false },
             options: PictureOptions::default(),
         };
-        Background::start(|| {}, |tell| load(request, tell))
+        Background::start(|| {}, |tell| super::load(request, tell))
     }
 
     #[test]
@@ -123,7 +130,7 @@ mod tests {
         let loading = start("demo:");
         assert_eq!(loading.wait().unwrap().scene.models.len(), 1);
         assert!(loading.stage().starts_with("building"), "{}", loading.stage());
-        let failure = start("no such.obj").wait().unwrap_err();
-        assert!(failure.message.contains("no such.obj"), "{}", failure.message);
+        let error = start("no such.obj").wait().unwrap_err().to_string();
+        assert!(error.contains("no such.obj"), "{error}");
     }
 }

@@ -5,19 +5,21 @@
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use edgemesh::build::{BuildOptions, set_marks};
-use edgemesh::command::marks::{SideMarks, marks_text, read_marks, side_file};
-use edgemesh::command::{Failure, write_file};
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::edge_mesh::record::EdgeFlags;
+use edgemesh::format::whole_file::write_file;
+use edgemesh::load::LoadError;
+use edgemesh::load::marks::{SideMarks, marks_text, read_marks, side_file};
 use glam::{DVec2, DVec3};
 
 use super::navigation::Canvas;
 use super::picking::hit;
 use super::viewpoint::Viewpoint;
+use crate::error::Error;
 use crate::scene::models::Scene;
 
 /// Edges that are being marked.
@@ -160,12 +162,8 @@ impl Marking {
     /// command line names that; says which were written.
     ///
     /// # Errors
-    /// Where a model is from no file, or a side file cannot be read or written.
-    pub fn save(
-        &mut self,
-        scene: &Scene,
-        marks: Option<&PathBuf>,
-    ) -> Result<Vec<PathBuf>, Failure> {
+    /// [`Error::MarksWithoutFile`], or if a side file cannot be read or written.
+    pub fn save(&mut self, scene: &Scene, marks: Option<&Path>) -> Result<Vec<PathBuf>, Error> {
         let mut by_model: BTreeMap<usize, Vec<&MarkChange>> = BTreeMap::new();
         for change in &self.changes {
             by_model.entry(change.model).or_default().push(change);
@@ -173,14 +171,15 @@ impl Marking {
         let mut written = Vec::new();
         for (model, changes) in by_model {
             let loaded = &scene.models[model];
-            let source = loaded.source.as_ref().ok_or_else(|| {
-                Failure::fault(format!(
-                    "{}: marks can be saved for models that are files, not for this one",
-                    loaded.name
-                ))
-            })?;
-            let path = marks.cloned().unwrap_or_else(|| side_file(&source.path));
-            let mut side = if path.is_file() { read_marks(&path)? } else { SideMarks::default() };
+            let source = loaded
+                .source
+                .as_ref()
+                .ok_or_else(|| Error::MarksWithoutFile { model: loaded.name.clone() })?;
+            let path = marks.map_or_else(|| side_file(&source.path), Path::to_owned);
+            let mut side = match path.is_file() {
+                true => read_marks(&path).map_err(LoadError::from)?,
+                false => SideMarks::default(),
+            };
             for change in changes {
                 for pair in &change.pairs {
                     let [a, b] = pair.map(|vertex| source.file_vertices[vertex as usize]);
@@ -265,8 +264,7 @@ fn shortest_path(mesh: &EdgeMesh, start: u32, end: u32) -> Option<Vec<u32>> {
 
 #[cfg(test)]
 mod tests {
-    use edgemesh::command::Listener;
-    use edgemesh::command::input::InputOptions;
+    use edgemesh::load::{LoadOptions, NoProgress};
 
     use super::*;
     use crate::scene::scene_file::SceneObject;
@@ -275,10 +273,10 @@ mod tests {
     const STRIP: &str = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\n\
                          f 1 2 5 4\nf 2 3 6 5\nl 1 4\n";
 
-    fn load(path: &std::path::Path) -> Arc<Scene> {
+    fn load(path: &Path) -> Arc<Scene> {
         let object = SceneObject::plain(path);
-        let scene = Scene::load(&[object], &InputOptions::default(), Listener::Nobody);
-        Arc::new(scene.unwrap_or_else(|failure| panic!("{}", failure.message)))
+        let scene = Scene::load(&[object], &LoadOptions::default(), &NoProgress);
+        Arc::new(scene.unwrap_or_else(|error| panic!("{error}")))
     }
 
     fn marked(scene: &Scene) -> Vec<[u32; 2]> {

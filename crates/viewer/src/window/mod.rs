@@ -16,13 +16,14 @@
 //!   `saving`, `thumbnails`: pictures drawn on the side.
 //! - `opening`: the window opens, and again where its device was lost.
 //! - `style`: what the window looks like. `desktop`: light or dark as the desktop is, and its
-//!   dialogs.
+//!   dialogs. `error_text`: errors as the window words them.
 //! - `app`: one frame of the window. `hands`: pointer and keys. `panels`: what is beside the picture.
 
 mod app;
 pub mod background;
 mod canvas;
 mod desktop;
+mod error_text;
 pub mod hands;
 pub mod inspection;
 pub mod light_hand;

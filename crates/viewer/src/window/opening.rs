@@ -1,12 +1,10 @@
 //! Opens the window, and opens another one where the graphics device was lost: the device
 //! is the window's too, so it cannot be replaced beneath it.
 
-use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use edgemesh::command::{ExitStatus, Failure};
 use strokes::gpu::device;
 
 use super::app::Window;
@@ -14,7 +12,8 @@ use super::loading::ToLoad;
 use super::recipe::Recipe;
 use super::remembered::Remembered;
 use super::session::Session;
-use crate::command::picture_arguments::PictureArguments;
+use crate::error::Error;
+use crate::technique::library::Library;
 
 /// What the window is called, and where it remembers.
 const APP_ID: &str = "edgemesh";
@@ -31,12 +30,10 @@ const RECOVERY_TIME: Duration = Duration::from_secs(10);
 /// the same session.
 ///
 /// # Errors
-/// Where something is wrong with the command line, there is no adapter or no display, or
-/// the device was lost again and again.
-pub(crate) fn run(models: &[PathBuf], arguments: PictureArguments) -> Result<(), Failure> {
-    let library = arguments.library.load();
-    let recipe = Recipe::new(models, arguments, &library)?;
-    let adapter = recipe.arguments.adapter.clone();
+/// If there is no adapter or no display; [`Error::AdapterLost`], if the device was lost again
+/// and again.
+pub(crate) fn run(library: Library, recipe: Recipe) -> Result<(), Error> {
+    let adapter = recipe.adapter().map(str::to_owned);
     let to_load = Some(ToLoad { models: recipe.models.clone(), recipe: None });
     let session = Session::new(library, recipe, Remembered::default());
     let kept = Arc::new(Mutex::new(Some(Kept { session, to_load, is_new: true })));
@@ -65,15 +62,8 @@ pub(crate) fn run(models: &[PathBuf], arguments: PictureArguments) -> Result<(),
         losses.push(Instant::now());
         losses.retain(|loss| loss.elapsed() < RECOVERY_TIME);
         if losses.len() > MOST_RECOVERIES {
-            return Err(Failure {
-                message: format!(
-                    "the graphics adapter was lost {} times within {} seconds; try another one \
-                     with --adapter, or a newer driver",
-                    losses.len(),
-                    RECOVERY_TIME.as_secs()
-                ),
-                status: ExitStatus::NoAdapter,
-            });
+            let (times, seconds) = (losses.len(), RECOVERY_TIME.as_secs());
+            return Err(Error::AdapterLost { times, seconds });
         }
         log::warn!("the graphics adapter was lost; the window opens again");
     }
@@ -134,7 +124,7 @@ fn open(
     kept: &Arc<Mutex<Option<Kept>>>,
     lost: &Arc<Lost>,
     adapter: Option<&str>,
-) -> Result<(), Failure> {
+) -> Result<(), Error> {
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Edgemesh")
@@ -155,7 +145,7 @@ fn open(
         options,
         Box::new(move |context| Ok(Box::new(Window::new(context, creator_kept, creator_lost)?))),
     );
-    made.map_err(|error| window_failure(&error))
+    made.map_err(window_error)
 }
 
 /// The adapter and the device, asked for as `viewer render` does.
@@ -170,28 +160,24 @@ fn window_setup(adapter: Option<&str>) -> egui_wgpu::WgpuSetupCreateNew {
     setup
 }
 
-fn window_failure(error: &eframe::Error) -> Failure {
+fn window_error(error: eframe::Error) -> Error {
     match error {
         eframe::Error::Wgpu(egui_wgpu::WgpuError::CreateSurfaceError(error)) => {
             // Without any adapter there is nothing to make a surface for.
             let none = device::choose(&[], None, None).err();
-            let message = none.map_or_else(|| error.to_string(), |error| error.to_string());
-            Failure { message, status: ExitStatus::NoAdapter }
+            none.map_or_else(|| Error::WindowAdapter(error.to_string()), Error::Adapter)
         }
         eframe::Error::Wgpu(error) => {
             let text = error.to_string();
-            let message = text.strip_prefix("Adapter selection failed: ").unwrap_or(&text);
-            Failure { message: message.to_owned(), status: ExitStatus::NoAdapter }
+            let what = text.strip_prefix("Adapter selection failed: ").unwrap_or(&text);
+            Error::WindowAdapter(what.to_owned())
         }
-        eframe::Error::AppCreation(error) => Failure::fault(error.to_string()),
-        _ if has_no_display() => Failure::fault(
-            "no window can be opened, as there is no display (neither DISPLAY nor WAYLAND_DISPLAY \
-             is set); viewer render draws without one",
-        ),
-        error => Failure::fault(format!(
-            "no window can be opened: {error}; is the display there that DISPLAY or \
-             WAYLAND_DISPLAY names? viewer render draws without one"
-        )),
+        eframe::Error::AppCreation(error) => match error.downcast::<Error>() {
+            Ok(error) => *error,
+            Err(error) => Error::Window(error.to_string()),
+        },
+        _ if has_no_display() => Error::NoDisplay,
+        error => Error::NoWindow { reason: error.to_string() },
     }
 }
 

@@ -67,8 +67,7 @@ fn distance_to([a, b, c]: [DVec3; 3], start: DVec3, direction: DVec3) -> Option<
 
 #[cfg(test)]
 mod tests {
-    use edgemesh::command::Listener;
-    use edgemesh::command::input::{DEMO, InputOptions};
+    use edgemesh::load::{DEMO, LoadOptions, NoProgress};
 
     use super::*;
     use crate::scene::scene_file::SceneObject;
@@ -76,7 +75,7 @@ mod tests {
     #[test]
     fn a_ray_meets_the_nearest_side_of_the_demo() {
         let object = SceneObject::plain(DEMO.as_ref());
-        let scene = Scene::load(&[object], &InputOptions::default(), Listener::Nobody).unwrap();
+        let scene = Scene::load(&[object], &LoadOptions::default(), &NoProgress).unwrap();
         // At a vertex of the model, from outside.
         let mesh = &scene.models[0].mesh;
         let [x, y, z] = mesh.positions[0];

@@ -13,13 +13,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Parser as _;
-use edgemesh::command::Failure;
-use edgemesh::command::input::DEMO;
 use edgemesh::edge_mesh::MeshFrame;
+use edgemesh::load::{DEMO, LoadOptions};
 
 use super::viewpoint::Viewpoint;
-use crate::command::picture_arguments::PictureArguments;
-use crate::picture::renderer::{PictureOptions, technique_failure};
+use crate::arguments::PictureArguments;
+use crate::error::Error;
+use crate::picture::renderer::PictureOptions;
 use crate::scene::lighting::{Light, Lighting};
 use crate::technique::Technique;
 use crate::technique::changes::changes;
@@ -36,7 +36,7 @@ pub struct Recipe {
     /// Where it is seen from; none until the models are there.
     pub viewpoint: Option<Viewpoint>,
     /// What the window leaves as the command line has it, and how models are read.
-    pub arguments: PictureArguments,
+    arguments: PictureArguments,
 }
 
 /// How a picture looks: what undo and redo go through.
@@ -66,15 +66,15 @@ impl Recipe {
     /// The recipe of a command line; without models, that of the demo.
     ///
     /// # Errors
-    /// What is wrong with the technique, its settings or the light.
-    pub fn new(
+    /// If something is wrong with the technique, its settings or the light.
+    pub(crate) fn new(
         models: &[PathBuf],
         arguments: PictureArguments,
         library: &Library,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Error> {
         let original = technique(library, &arguments.technique)?;
         let mut changed = original.clone();
-        arguments.change(&mut changed, true)?;
+        arguments.change(&mut changed, &mut |_| ())?;
         let appearance = Appearance {
             technique_name: arguments.technique.clone(),
             original,
@@ -90,22 +90,23 @@ impl Recipe {
     /// Reads the words of [`Self::words`].
     ///
     /// # Errors
-    /// Where they are no command line of this kind, or what they name is not there.
-    pub fn of_words(words: &[String], library: &Library) -> Result<Self, Failure> {
+    /// [`Error::CommandLine`], and if something is wrong with the technique, its settings or
+    /// the light.
+    pub fn of_words(words: &[String], library: &Library) -> Result<Self, Error> {
         let read = Words::try_parse_from(words);
-        let read = read.map_err(|error| Failure::usage(error.to_string().trim().to_owned()))?;
+        let read = read.map_err(|error| Error::CommandLine(error.to_string().trim().to_owned()))?;
         Self::new(&read.models, read.arguments, library)
     }
 
     /// Takes the viewpoint of the command line for the models, which lie in `frame`.
     ///
     /// # Errors
-    /// Where the camera looks nowhere.
+    /// [`Error::Camera`].
     pub fn take_viewpoint(
         &mut self,
         bounds: &edgemesh::edge_mesh::Bounds,
         frame: &MeshFrame,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Error> {
         let options = &self.arguments.camera;
         let camera = options.camera(bounds, frame)?;
         let mut view = Viewpoint::of_camera(&camera, frame, options.fov);
@@ -140,15 +141,54 @@ impl Recipe {
     }
 
     /// How the picture is drawn at a size in pixels.
-    ///
-    /// # Errors
-    /// Never for arguments that were read once.
-    pub fn picture_options(&self, size: [u32; 2]) -> Result<PictureOptions, Failure> {
-        Ok(PictureOptions {
-            lighting: self.appearance.lighting.clone(),
+    #[must_use]
+    pub fn picture_options(&self, size: [u32; 2]) -> PictureOptions {
+        PictureOptions {
             is_transparent: self.appearance.is_transparent,
-            ..self.arguments.picture_options(size)?
-        })
+            ..self.arguments.picture_options(size, self.appearance.lighting.clone())
+        }
+    }
+
+    /// How the models are read and built.
+    #[must_use]
+    pub fn load_options(&self) -> LoadOptions {
+        self.arguments.input.load_options()
+    }
+
+    /// The file of marks, if one is named.
+    #[must_use]
+    pub fn marks_file(&self) -> Option<&Path> {
+        self.arguments.input.marks.as_deref()
+    }
+
+    /// A part of the name of the adapter that draws, if one is named.
+    #[must_use]
+    pub fn adapter(&self) -> Option<&str> {
+        self.arguments.adapter.as_deref()
+    }
+
+    /// The folder that shaders are taken from instead of the shipped ones.
+    #[must_use]
+    pub fn shader_folder(&self) -> Option<&Path> {
+        self.arguments.library.shaders.as_deref()
+    }
+
+    /// Reads techniques and components from their folders.
+    #[must_use]
+    pub fn read_library(&self) -> Library {
+        self.arguments.library.load()
+    }
+
+    /// Takes the folders and the adapter of another recipe: they are those of a machine, not
+    /// of a picture.
+    pub(super) fn take_machine(&mut self, other: &Self) {
+        self.arguments.library = other.arguments.library.clone();
+        self.arguments.adapter.clone_from(&other.arguments.adapter);
+    }
+
+    /// Takes how models are read and edges lie in memory from another recipe.
+    pub(super) fn take_arguments(&mut self, other: &Self) {
+        self.arguments = other.arguments.clone();
     }
 
     /// What the window calls it.
@@ -174,7 +214,7 @@ impl Appearance {
     ///
     /// # Errors
     /// Everything that is wrong with it.
-    pub fn take_technique(&mut self, library: &Library, name: &str) -> Result<(), Failure> {
+    pub fn take_technique(&mut self, library: &Library, name: &str) -> Result<(), Error> {
         self.original = technique(library, name)?;
         self.technique = self.original.clone();
         name.clone_into(&mut self.technique_name);
@@ -186,13 +226,13 @@ impl Appearance {
     ///
     /// # Errors
     /// Everything that is wrong with it.
-    pub fn read_again(&mut self, library: &Library) -> Result<(), Failure> {
+    pub fn read_again(&mut self, library: &Library) -> Result<(), Error> {
         let settings = changes(&self.original, &self.technique).unwrap_or_default();
         let name = self.technique_name.clone();
         self.take_technique(library, &name)?;
         for setting in settings {
-            if let Err(what) = self.technique.set(&setting) {
-                log::info!("{setting} is left out: {what}");
+            if let Err(error) = self.technique.set(&setting) {
+                log::info!("left out: {error}");
             }
         }
         Ok(())
@@ -205,9 +245,8 @@ impl Appearance {
     }
 }
 
-fn technique(library: &Library, name: &str) -> Result<Technique, Failure> {
-    let found = library.technique(name).map_err(|mistakes| technique_failure(&mistakes))?;
-    Ok(found.0)
+fn technique(library: &Library, name: &str) -> Result<Technique, Error> {
+    Ok(library.technique(name)?.0)
 }
 
 fn lighting_options(lighting: &Lighting) -> Vec<(&'static str, String)> {

@@ -6,11 +6,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use edgemesh::command::{Failure, write_file};
+use edgemesh::format::whole_file::write_file;
 use strokes::gpu::device::Gpu;
 
 use super::background::Tell;
 use super::recipe::Recipe;
+use crate::error::Error;
 use crate::picture::png::{encode_png, encode_png_with_text, read_png_text};
 use crate::picture::tiles::AnySizeRenderer;
 use crate::picture::turntable;
@@ -42,17 +43,17 @@ pub struct Order {
 /// Draws and writes; says what was written.
 ///
 /// # Errors
-/// Where it cannot be drawn or written, or `tell` wants no more.
-pub fn save(order: &Order, tell: Tell) -> Result<String, Failure> {
+/// If it cannot be drawn or written; [`Error::Canceled`] if `tell` returns false.
+pub fn save(order: &Order, tell: Tell) -> Result<String, Error> {
     let Order { recipe, scene, looks, size, path, turntable, gpu } = order;
     let tell = |what: &str| match tell(what) {
         true => Ok(()),
-        false => Err(Failure::fault("it was cancelled; what was written stays")),
+        false => Err(Error::Canceled),
     };
     tell(&format!("drawing {}", path.display()))?;
-    let viewpoint = recipe.viewpoint.ok_or_else(|| Failure::fault("there is no model to draw"))?;
+    let viewpoint = recipe.viewpoint.ok_or_else(|| Error::NoModel)?;
     let camera = viewpoint.camera(&scene.frame);
-    let options = recipe.picture_options(*size)?;
+    let options = recipe.picture_options(*size);
     let technique = &recipe.appearance.technique;
     let mut renderer = AnySizeRenderer::new(gpu, scene, technique, looks, &options)?;
     if let &Some(steps) = turntable {
@@ -79,12 +80,12 @@ pub fn save(order: &Order, tell: Tell) -> Result<String, Failure> {
 ///
 /// # Errors
 /// Where they cannot be written.
-pub fn save_window(path: &Path, pixels: &egui::ColorImage, tell: Tell) -> Result<String, Failure> {
+pub fn save_window(path: &Path, pixels: &egui::ColorImage, tell: Tell) -> Result<String, Error> {
     tell(&format!("writing {}", path.display()));
     let [width, height] = pixels.size.map(edgemesh::index::to_u32);
     let texels = pixels.pixels.iter().flat_map(egui::Color32::to_array).collect();
     let picture = image::RgbaImage::from_raw(width, height, texels);
-    let picture = picture.ok_or_else(|| Failure::fault("the window gave too few pixels"))?;
+    let picture = picture.ok_or_else(|| Error::Window("the window gave too few pixels".into()))?;
     write_file(path, &encode_png(&picture, false)?)?;
     Ok(format!("saved as {}", path.display()))
 }

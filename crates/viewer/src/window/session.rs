@@ -6,18 +6,20 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-use edgemesh::command::Failure;
-use edgemesh::command::input::DEMO;
+use edgemesh::load::DEMO;
 use egui::util::undoer::{Settings, Undoer};
 
+use super::error_text::error_text;
 use super::inspection::Inspection;
 use super::marking::Marking;
 use super::messages::Messages;
 use super::recipe::{Appearance, Recipe, shell_line};
 use super::remembered::Remembered;
 use super::viewpoint::{NamedView, Viewpoint};
+use crate::error::Error;
 use crate::picture::renderer::FrameStatistics;
 use crate::scene::models::Scene;
+use crate::scene::object_techniques::object_techniques;
 use crate::scene::scene_file::SceneObject;
 use crate::technique::Technique;
 use crate::technique::library::Library;
@@ -212,7 +214,7 @@ impl Session {
         models: Vec<PathBuf>,
         scene: Arc<Scene>,
         objects: Vec<SceneObject>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Error> {
         let is_first = self.recipe.viewpoint.is_none();
         let is_same = self.recipe.models == models && !is_first;
         self.remembered.opened(&models);
@@ -245,8 +247,8 @@ impl Session {
     ///
     /// # Errors
     /// What is wrong with it; it stays as it was.
-    pub fn read_again(&mut self) -> Result<(), Failure> {
-        let library = self.recipe.arguments.library.load();
+    pub fn read_again(&mut self) -> Result<(), Error> {
+        let library = self.recipe.read_library();
         let mut appearance = self.recipe.appearance.clone();
         appearance.read_again(&library)?;
         self.library = library;
@@ -258,7 +260,7 @@ impl Session {
     #[must_use]
     pub fn watched_folders(&self) -> Vec<PathBuf> {
         let mut folders = self.recipe.appearance.technique.folders.clone();
-        folders.extend(self.recipe.arguments.library.shaders.clone());
+        folders.extend(self.recipe.shader_folder().map(Path::to_owned));
         folders
     }
 
@@ -268,12 +270,9 @@ impl Session {
     ///
     /// # Errors
     /// Where it cannot be read; everything stays as it was.
-    pub fn take_words(&mut self, words: &[String]) -> Result<Option<Recipe>, Failure> {
+    pub fn take_words(&mut self, words: &[String]) -> Result<Option<Recipe>, Error> {
         let mut recipe = Recipe::of_words(words, &self.library)?;
-        // Folders and the adapter are those of this machine.
-        let own = &self.recipe.arguments;
-        recipe.arguments.library = own.library.clone();
-        recipe.arguments.adapter.clone_from(&own.adapter);
+        recipe.take_machine(&self.recipe);
         let is_there = recipe.models.iter().all(|path| path.is_file() || path == Path::new(DEMO));
         let is_open = recipe.models == self.recipe.models;
         if is_open || !is_there {
@@ -281,14 +280,14 @@ impl Session {
                 recipe.take_viewpoint(&scene.bounds, &scene.frame)?;
                 self.recipe.viewpoint = recipe.viewpoint;
             }
-            self.recipe.appearance = recipe.appearance;
             if is_open {
-                self.recipe.arguments = recipe.arguments;
+                self.recipe.take_arguments(&recipe);
             } else {
                 // The models that are open were read as the arguments say that are here.
                 let names = crate::window::remembered::name_of(&recipe.models);
                 self.messages.note(format!("{names} is not there; the rest was taken"));
             }
+            self.recipe.appearance = recipe.appearance;
             return Ok(None);
         }
         Ok(Some(recipe))
@@ -306,7 +305,7 @@ impl Session {
                 let share = self.comparison.as_ref().map_or(0.5, |known| known.share);
                 self.comparison = Some(Comparison { appearance, share });
             }
-            Err(failure) => self.messages.technique = Some(failure.message),
+            Err(error) => self.messages.technique = Some(error_text(&error)),
         }
     }
 
@@ -328,7 +327,7 @@ impl Session {
                 self.recipe.appearance = appearance;
                 self.messages.technique = None;
             }
-            Err(failure) => self.messages.technique = Some(failure.message),
+            Err(error) => self.messages.technique = Some(error_text(&error)),
         }
     }
 
@@ -364,10 +363,9 @@ impl Session {
     ///
     /// # Errors
     /// What is wrong with one of them.
-    pub fn object_looks(&self) -> Result<Vec<Technique>, Failure> {
-        let (arguments, library) = (&self.recipe.arguments, &self.library);
+    pub fn object_looks(&self) -> Result<Vec<Technique>, Error> {
         let technique = &self.recipe.appearance.technique;
-        arguments.object_techniques(&self.objects, library, technique, true)
+        object_techniques(&self.objects, &self.library, technique, &mut |_| ())
     }
 
     /// Goes to one of the sides, and fits the models.

@@ -3,13 +3,13 @@
 
 use std::sync::mpsc::Sender;
 
-use edgemesh::command::input::{DEMO, InputOptions};
-use edgemesh::command::{Failure, Listener};
+use edgemesh::load::{DEMO, LoadOptions, NoProgress};
 use edgemesh::view::camera::Camera;
 use image::RgbaImage;
 use strokes::gpu::device::Gpu;
 
 use super::background::Tell;
+use crate::error::Error;
 use crate::picture::png::as_stored;
 use crate::picture::renderer::{PictureOptions, PictureRenderer};
 use crate::scene::models::Scene;
@@ -32,9 +32,9 @@ pub fn draw(
     library: &Library,
     sender: &Sender<Thumbnail>,
     tell: Tell,
-) -> Result<(), Failure> {
+) -> Result<(), Error> {
     let object = SceneObject::plain(DEMO.as_ref());
-    let scene = Scene::load(&[object], &InputOptions::default(), Listener::Nobody)?;
+    let scene = Scene::load(&[object], &LoadOptions::default(), &NoProgress)?;
     let camera = Camera::default_view(&scene.bounds);
     // A little nearer than the whole bounding sphere.
     let camera = Camera { eye: camera.target + (camera.eye - camera.target) * 0.72, ..camera };
@@ -42,7 +42,7 @@ pub fn draw(
     let mut renderer: Option<PictureRenderer> = None;
     for name in library.technique_names() {
         if !tell(&format!("drawing {name}")) {
-            return Err(Failure::fault("it was cancelled"));
+            return Err(Error::Canceled);
         }
         let Ok((technique, _)) = library.technique(name) else { continue };
         let made = match &mut renderer {

@@ -2,7 +2,7 @@
 //! very numbers that the window draws with.
 
 use clap::Parser as _;
-use edgemesh::command::options::CameraOptions;
+use edgemesh::arguments::CameraArguments;
 use edgemesh::edge_mesh::{Bounds, MeshFrame};
 use edgemesh::view::camera::{
     Camera, DEFAULT_DIRECTION, DEFAULT_DISTANCE_RADII, DEFAULT_FOV_Y_DEG,
@@ -222,7 +222,7 @@ impl Viewpoint {
         #[command(no_binary_name = true, disable_help_flag = true)]
         struct Pasted {
             #[command(flatten)]
-            camera: CameraOptions,
+            camera: CameraArguments,
         }
         let words = camera_words(text);
         if words.is_empty() {

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-use crate::watch::Watcher;
+use crate::watch::{WatchError, Watcher};
 
 /// How often the thread asks whether anyone still wants to know.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -35,8 +35,11 @@ impl Watching {
     /// Watches folders; `wake` is called when something has changed.
     ///
     /// # Errors
-    /// Where a folder cannot be watched.
-    pub fn start(folders: &[PathBuf], wake: impl Fn() + Send + 'static) -> Result<Self, String> {
+    /// [`WatchError`].
+    pub fn start(
+        folders: &[PathBuf],
+        wake: impl Fn() + Send + 'static,
+    ) -> Result<Self, WatchError> {
         let mut watcher = Watcher::new(folders, &[])?;
         let (sender, changes) = channel();
         let is_over = Arc::new(AtomicBool::new(false));

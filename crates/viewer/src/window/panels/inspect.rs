@@ -136,12 +136,12 @@ fn repairs(ui: &mut Ui, session: &Session) {
     let Some(scene) = &session.scene else { return };
     ui.heading("What was repaired");
     for model in &scene.models {
-        let warnings = model.report.warnings();
-        if warnings.is_empty() {
+        let lines = model.report.warning_lines(&model.name, "");
+        if lines.is_empty() {
             ui.weak(format!("{}: nothing", model.name.trim_end_matches(':')));
         }
-        for warning in warnings {
-            ui.label(edgemesh::command::warning_line(&model.name, "", warning));
+        for line in lines {
+            ui.label(line);
         }
     }
 }

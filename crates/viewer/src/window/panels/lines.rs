@@ -9,6 +9,7 @@ use crate::technique::core::CoreComponent;
 use crate::technique::mistake::Mistakes;
 use crate::technique::pass::Pass;
 use crate::technique::value::Value;
+use crate::window::error_text::error_text;
 use crate::window::session::Session;
 
 /// The line panel.
@@ -53,14 +54,14 @@ fn marks(ui: &mut Ui, session: &mut Session) {
         if ui.add_enabled(has_changes, egui::Button::new("Save marks")).clicked()
             && let Some(scene) = &session.scene
         {
-            let file = session.recipe.arguments.input.marks.as_ref();
+            let file = session.recipe.marks_file();
             match session.marking.save(scene, file) {
                 Ok(files) => {
                     let names: Vec<String> =
                         files.iter().map(|path| path.display().to_string()).collect();
                     session.messages.note(format!("saved as {}", names.join(", ")));
                 }
-                Err(failure) => session.messages.error(failure.message),
+                Err(error) => session.messages.error(error_text(&error)),
             }
         }
     });

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use edgemesh::command::input::DEMO;
+use edgemesh::load::DEMO;
 use egui::{Rect, Ui, UiBuilder, vec2};
 
 use super::keys::key_of;

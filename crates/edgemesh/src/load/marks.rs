@@ -2,12 +2,37 @@
 //! the model's file; behind `-` a pair whose edge is not marked, though the model has a
 //! line there; `#` begins a comment.
 //!
-//! `MODEL.marks` beside a model is read with it; `--marks` names another.
+//! `MODEL.marks` beside a model is read with it.
 
 use std::fmt::Write as _;
+use std::io;
 use std::path::{Path, PathBuf};
 
-use super::Failure;
+use thiserror::Error;
+
+/// Why a side file could not be read.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum MarksError {
+    /// The operating system does not hand it out, or it is not UTF-8.
+    #[error("{}: cannot be read: {reason}", path.display())]
+    Io {
+        /// The side file.
+        path: PathBuf,
+        /// What the operating system said.
+        reason: io::Error,
+    },
+    /// A line of it is wrong.
+    #[error("{}:{line}: {what}", path.display())]
+    Line {
+        /// The side file.
+        path: PathBuf,
+        /// The line, counted from 1.
+        line: usize,
+        /// What is wrong with it.
+        what: String,
+    },
+}
 
 /// The marks of a side file, as pairs of vertices counted from 0.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -29,12 +54,15 @@ pub fn side_file(model: &Path) -> PathBuf {
 /// Reads a side file.
 ///
 /// # Errors
-/// Where it cannot be read, and the first line that is wrong.
-pub fn read_marks(path: &Path) -> Result<SideMarks, Failure> {
+/// [`MarksError`], if it cannot be read, or for the first line that is wrong.
+pub fn read_marks(path: &Path) -> Result<SideMarks, MarksError> {
     let text = std::fs::read_to_string(path)
-        .map_err(|error| Failure::fault(format!("{}: cannot be read: {error}", path.display())))?;
-    parse_marks(&text)
-        .map_err(|(line, what)| Failure::fault(format!("{}:{line}: {what}", path.display())))
+        .map_err(|reason| MarksError::Io { path: path.to_owned(), reason })?;
+    parse_marks(&text).map_err(|(line, what)| MarksError::Line {
+        path: path.to_owned(),
+        line,
+        what,
+    })
 }
 
 /// The text of a side file.

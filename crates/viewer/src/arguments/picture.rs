@@ -1,24 +1,25 @@
-//! What a picture is made of, as command lines say it: for `render` and the window alike.
+//! Everything that makes a picture but the models and its size.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::{Args, ValueEnum};
-use edgemesh::command::Failure;
-use edgemesh::command::input::InputOptions;
-use edgemesh::command::options::CameraOptions;
+use edgemesh::arguments::{CameraArguments, InputArguments};
 use edgemesh_brushes::BRUSH_NAMES;
 use strokes::mesh::layout::Layout;
 use strokes::render::pipelines::DetectionStage;
 
-use super::options::{LibraryOptions, LightingOptions, set};
+use super::library::LibraryArguments;
+use super::lighting::LightingArguments;
+use crate::error::Error;
 use crate::picture::renderer::PictureOptions;
-use crate::scene::scene_file::{SceneObject, is_scene_file, read_scene_file};
+use crate::scene::lighting::Lighting;
 use crate::technique::Technique;
 use crate::technique::library::Library;
+use crate::technique::mistake::Mistakes;
 
 /// Everything that makes a picture but the models and its size.
 #[derive(Debug, Clone, Args)]
-pub struct PictureArguments {
+pub(crate) struct PictureArguments {
     /// How it looks: a technique by its name, or a file that describes one; see
     /// viewer techniques list
     #[arg(long, value_name = "NAME|FILE", default_value = "ink")]
@@ -31,9 +32,9 @@ pub struct PictureArguments {
     #[arg(long, value_name = "FILE")]
     pub(crate) brush: Option<String>,
     #[command(flatten)]
-    pub(crate) library: LibraryOptions,
+    pub(crate) library: LibraryArguments,
     #[command(flatten)]
-    pub(crate) lighting: LightingOptions,
+    pub(crate) lighting: LightingArguments,
     /// How the edges lie in memory; the replicated layouts are the paper's
     #[arg(long, value_name = "LAYOUT", default_value = "indexed")]
     layout: LayoutName,
@@ -50,9 +51,9 @@ pub struct PictureArguments {
     #[arg(long)]
     pub(crate) transparent: bool,
     #[command(flatten)]
-    pub(crate) camera: CameraOptions,
+    pub(crate) camera: CameraArguments,
     #[command(flatten)]
-    pub(crate) input: InputOptions,
+    pub(crate) input: InputArguments,
 }
 
 /// The layouts by name.
@@ -98,49 +99,56 @@ impl From<PathName> for DetectionStage {
 }
 
 impl PictureArguments {
-    /// The files, and the technique as they and the options have it.
-    pub(super) fn technique(&self, is_quiet: bool) -> Result<(Library, Technique), Failure> {
-        let library = self.library.load();
-        let mut technique = self.library.technique(&library, &self.technique, is_quiet)?;
-        self.change(&mut technique, is_quiet)?;
-        Ok((library, technique))
+    /// The technique with what the arguments change in it. `warn` receives what was put
+    /// right.
+    ///
+    /// # Errors
+    /// [`Error::Technique`], and as [`Self::change`].
+    pub(crate) fn technique(
+        &self,
+        library: &Library,
+        warn: &mut dyn FnMut(&Mistakes),
+    ) -> Result<Technique, Error> {
+        let (mut technique, warnings) = library.technique(&self.technique)?;
+        warn(&warnings);
+        self.change(&mut technique, warn)?;
+        Ok(technique)
     }
 
-    /// Changes a technique as the options say.
-    pub(crate) fn change(&self, technique: &mut Technique, is_quiet: bool) -> Result<(), Failure> {
+    /// Changes a technique as the arguments say. `warn` receives what was put right.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for what does not fit, [`Error::NoSuchBrush`].
+    pub(crate) fn change(
+        &self,
+        technique: &mut Technique,
+        warn: &mut dyn FnMut(&Mistakes),
+    ) -> Result<(), Error> {
         match self.brush.as_deref() {
             None => {}
             Some(name) if name == "none" || BRUSH_NAMES.contains(&name) => {
-                set(technique, &format!("strokes.brush={name}"), is_quiet)?;
+                warn(&technique.set(&format!("strokes.brush={name}"))?);
             }
-            Some(path) => {
-                if !Path::new(path).is_file() {
-                    let names = BRUSH_NAMES.join(", ");
-                    return Err(Failure::fault(format!(
-                        "--brush {path}: there is no such file; a brush is a PNG file, or one of \
-                         none, {names}"
-                    )));
-                }
-                technique.set_brush_file(path).map_err(Failure::usage)?;
-            }
+            Some(path) if Path::new(path).is_file() => technique.set_brush_file(path)?,
+            Some(path) => return Err(Error::NoSuchBrush { path: path.to_owned() }),
         }
         for assignment in &self.set {
-            set(technique, assignment, is_quiet)?;
+            warn(&technique.set(assignment)?);
         }
         Ok(())
     }
 
-    /// How a scene is drawn at a size in pixels.
-    pub(crate) fn picture_options(&self, size: [u32; 2]) -> Result<PictureOptions, Failure> {
-        Ok(PictureOptions {
+    /// How a scene is drawn in a light, at a size in pixels.
+    pub(crate) fn picture_options(&self, size: [u32; 2], lighting: Lighting) -> PictureOptions {
+        PictureOptions {
             size,
             samples: if self.samples == "1" { 1 } else { 4 },
             layout: self.layout.into(),
             stage: self.detection.into(),
             is_transparent: self.transparent,
-            lighting: self.lighting.lighting()?,
+            lighting,
             shaders: self.library.shaders.clone(),
-        })
+        }
     }
 
     /// The arguments that the window does not change, as a command line has them: how
@@ -173,45 +181,4 @@ impl PictureArguments {
         }
         words
     }
-
-    /// The technique of each object: its own or `default`, and what it sets; empty where
-    /// no object has anything of its own.
-    pub(crate) fn object_techniques(
-        &self,
-        objects: &[SceneObject],
-        library: &Library,
-        default: &Technique,
-        is_quiet: bool,
-    ) -> Result<Vec<Technique>, Failure> {
-        let of_object = |object: &SceneObject| {
-            let mut technique = match &object.technique {
-                Some(name) => self.library.technique(library, name, is_quiet)?,
-                None => default.clone(),
-            };
-            for setting in &object.settings {
-                set(&mut technique, setting, is_quiet).map_err(|failure| Failure {
-                    message: format!("{}: {}", object.model.display(), failure.message),
-                    ..failure
-                })?;
-            }
-            Ok(technique)
-        };
-        if objects.iter().all(|object| object.technique.is_none() && object.settings.is_empty()) {
-            return Ok(Vec::new());
-        }
-        objects.iter().map(of_object).collect()
-    }
-}
-
-/// The objects of all models and scene files, in order.
-pub fn objects_of(models: &[PathBuf]) -> Result<Vec<SceneObject>, Failure> {
-    let mut objects = Vec::new();
-    for path in models {
-        if is_scene_file(path) {
-            objects.extend(read_scene_file(path)?);
-        } else {
-            objects.push(SceneObject::plain(path));
-        }
-    }
-    Ok(objects)
 }

@@ -1,0 +1,21 @@
+//! Loading, with the stages on the terminal.
+
+use std::path::Path;
+
+use super::progress::TerminalProgress;
+use crate::arguments::InputArguments;
+use crate::load::{LoadError, LoadOptions, Loaded, load};
+
+/// Loads one input of a verb; `with_fill` is for verbs that keep what shading needs.
+///
+/// # Errors
+/// As [`load`].
+pub(super) fn load_input(
+    input: &InputArguments,
+    path: &Path,
+    with_fill: bool,
+    is_quiet: bool,
+) -> Result<Loaded, LoadError> {
+    let options = LoadOptions { with_fill, ..input.load_options() };
+    load(path, &options, &TerminalProgress::new(is_quiet))
+}

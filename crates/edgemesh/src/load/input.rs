@@ -1,0 +1,271 @@
+//! From files, or standard input, to edge meshes.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use glam::DVec3;
+
+use super::error::LoadError;
+use super::loaded::{Loaded, ModelSource};
+use super::marks::{SideMarks, read_marks, side_file};
+use super::options::{InputFormat, LoadOptions};
+use super::progress::{Progress, Running, Stage};
+use crate::build::{BuildOptions, box_of, build_with_file_vertices, reclassify};
+use crate::edge_mesh::{EdgeMesh, MeshFrame};
+use crate::format::edge_mesh_file::{HEADER_BYTES, is_edge_mesh, parse, stated_length};
+use crate::format::read::{Format, read_model_as, read_model_stream};
+use crate::model::Model;
+use crate::report::Report;
+
+/// The path that stands for the embedded model, a torus knot.
+pub const DEMO: &str = "demo:";
+
+/// The path that stands for standard input.
+pub const STANDARD_INPUT: &str = "-";
+
+const DEMO_MODEL: &[u8] = include_bytes!("../../../../models/torus_knot.obj");
+
+/// An input before it is built.
+enum Input {
+    /// With its file, if it comes from one.
+    Model(Box<Model>, Report, Option<PathBuf>),
+    Stored(Box<EdgeMesh>, String, Report),
+}
+
+/// Reads one input and builds its edge mesh. `path` is a file, [`DEMO`] or
+/// [`STANDARD_INPUT`].
+///
+/// # Errors
+/// [`LoadError`], if the input or its marks cannot be read, an option does not apply to it,
+/// there is a warning and the options are strict, or `progress` cancels.
+pub fn load(
+    path: &Path,
+    options: &LoadOptions,
+    progress: &dyn Progress,
+) -> Result<Loaded, LoadError> {
+    // Marks that are wrong are reported before a long read.
+    let build = options.build_options(given_marks(options)?);
+    let input = read(path, options, progress)?;
+    finish(input, options, &build, progress)
+}
+
+/// Reads several inputs that lie in one scene, in one frame: that of all of them, unless
+/// `keeps_coordinates` asks for the numbers of the files.
+///
+/// # Errors
+/// As [`load`], for the first one that fails.
+pub fn load_scene(
+    paths: &[PathBuf],
+    options: &LoadOptions,
+    keeps_coordinates: bool,
+    progress: &dyn Progress,
+) -> Result<Vec<Loaded>, LoadError> {
+    let inputs: Vec<Input> =
+        paths.iter().map(|path| read(path, options, progress)).collect::<Result<_, _>>()?;
+    let frame = match keeps_coordinates {
+        true => Some(MeshFrame::default()),
+        false => Some(frame_of(&inputs)).filter(|_| inputs.len() > 1),
+    };
+    let build = BuildOptions { frame, ..options.build_options(given_marks(options)?) };
+    inputs.into_iter().map(|input| finish(input, options, &build, progress)).collect()
+}
+
+fn given_marks(options: &LoadOptions) -> Result<SideMarks, LoadError> {
+    Ok(options.marks.as_deref().map(read_marks).transpose()?.unwrap_or_default())
+}
+
+fn read(path: &Path, options: &LoadOptions, progress: &dyn Progress) -> Result<Input, LoadError> {
+    let _running = Running::begin(progress, Stage::Reading(path))?;
+    if path == Path::new(STANDARD_INPUT) {
+        return read_standard_input(options);
+    }
+    if path == Path::new(DEMO) {
+        let (model, report) = read_model_stream(DEMO_MODEL, path, Some(Format::Obj))?;
+        return Ok(Input::Model(Box::new(model), report, None));
+    }
+    let format = match options.format {
+        Some(InputFormat::Model(format)) => Some(format),
+        None if !is_edge_mesh_file(path) => None,
+        Some(InputFormat::EdgeMesh) | None => {
+            let stream = File::open(path).map_err(|error| unreadable(path, error))?;
+            return stored(path, stream, options);
+        }
+    };
+    let (model, report) = read_model_as(path, format)?;
+    Ok(Input::Model(Box::new(model), report, Some(path.to_owned())))
+}
+
+fn read_standard_input(options: &LoadOptions) -> Result<Input, LoadError> {
+    let stream = io::stdin().lock();
+    let name = Path::new("(standard input)");
+    match options.format {
+        None => Err(LoadError::FormatNeeded),
+        Some(InputFormat::EdgeMesh) => stored(name, stream, options),
+        Some(InputFormat::Model(format)) => {
+            let (model, report) = read_model_stream(stream, name, Some(format))?;
+            Ok(Input::Model(Box::new(model), report, None))
+        }
+    }
+}
+
+/// Reads an edge mesh file.
+fn stored(path: &Path, stream: impl Read, options: &LoadOptions) -> Result<Input, LoadError> {
+    let file = path.display().to_string();
+    if options.welding.is_some() || options.marks.is_some() {
+        return Err(LoadError::ModelsOnly { file });
+    }
+    let bytes = read_edge_mesh(stream).map_err(|error| unreadable(path, error))?;
+    match parse(&bytes) {
+        Ok(stored) => Ok(Input::Stored(Box::new(stored.to_mesh()), file, stored.report().clone())),
+        Err(reason) => Err(LoadError::EdgeMeshFile { file, reason }),
+    }
+}
+
+fn finish(
+    input: Input,
+    options: &LoadOptions,
+    build: &BuildOptions,
+    progress: &dyn Progress,
+) -> Result<Loaded, LoadError> {
+    let loaded = match input {
+        Input::Model(model, mut report, path) => {
+            let _running = Running::begin(progress, Stage::Building(&model.name))?;
+            let mut build = build.clone();
+            let side = path.as_deref().map(side_file).filter(|side| side.is_file());
+            if let Some(side) = side.filter(|_| options.marks.is_none()) {
+                let SideMarks { marked, unmarked } = read_marks(&side)?;
+                (build.marks, build.unmarked) = (marked, unmarked);
+            }
+            let (mesh, file_vertices) = build_with_file_vertices(&model, &build, &mut report);
+            let source = path.map(|path| ModelSource { path, file_vertices });
+            Loaded { source, ..Loaded::new(model.name, mesh, report) }
+        }
+        Input::Stored(mut mesh, name, report) => {
+            if let Some(frame) = build.frame {
+                mesh.set_frame(frame);
+            }
+            if options.has_crease_angles() {
+                reclassify(&mut mesh, build);
+            }
+            Loaded::new(name, *mesh, report)
+        }
+    };
+    if options.is_strict && !loaded.report.warnings().is_empty() {
+        return Err(LoadError::Warnings { file: loaded.name, report: loaded.report });
+    }
+    Ok(loaded)
+}
+
+fn unreadable(path: &Path, reason: io::Error) -> LoadError {
+    LoadError::Io { path: path.to_owned(), reason }
+}
+
+/// The bytes of an edge mesh: those of its stated length and one more, by which one that
+/// goes on is known; of anything else only the header.
+///
+/// The memory grows with what is read, not with what is stated.
+fn read_edge_mesh(mut stream: impl Read) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    stream.by_ref().take(HEADER_BYTES).read_to_end(&mut bytes)?;
+    if let Some(length) = stated_length(&bytes) {
+        let rest = length.saturating_sub(bytes.len() as u64).saturating_add(1);
+        stream.take(rest).read_to_end(&mut bytes)?;
+    }
+    Ok(bytes)
+}
+
+/// The frame that all inputs share.
+fn frame_of(inputs: &[Input]) -> MeshFrame {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for input in inputs {
+        let own = match input {
+            Input::Model(model, ..) => box_of(model),
+            Input::Stored(mesh, ..) => mesh.box_in_file(),
+        };
+        (low, high) = (low.min(own.0), high.max(own.1));
+    }
+    MeshFrame::of_box(low, high)
+}
+
+/// Whether the file at `path` begins as an edge mesh does. Pipes are not read, since what is
+/// read from them is gone.
+fn is_edge_mesh_file(path: &Path) -> bool {
+    let is_file = path.metadata().is_ok_and(|metadata| metadata.is_file());
+    let mut head = [0; 8];
+    is_file
+        && File::open(path).and_then(|mut file| file.read_exact(&mut head)).is_ok()
+        && is_edge_mesh(&head)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+    use std::ops::ControlFlow;
+
+    use super::*;
+    use crate::build::Welding;
+    use crate::format::edge_mesh_file::to_bytes;
+    use crate::load::NoProgress;
+    use crate::load::marks::MarksError;
+
+    fn error(path: &Path, options: &LoadOptions) -> LoadError {
+        load(path, options, &NoProgress).unwrap_err()
+    }
+
+    #[test]
+    fn errors_are_typed_and_name_no_option_of_a_command() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, bytes: &[u8]| {
+            let path = folder.path().join(name);
+            std::fs::write(&path, bytes).unwrap();
+            path
+        };
+        let demo = load(DEMO.as_ref(), &LoadOptions::default(), &NoProgress).unwrap();
+        let bytes = to_bytes(&demo.mesh, DEMO, &demo.report, &[]).unwrap();
+        let (stored, cut) = (write("a.edgemesh", &bytes), write("b.edgemesh", &bytes[..99]));
+        let twice = write("twice.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 3\n");
+        let wrong_marks = write("wrong.marks", b"1 2\n3\n");
+        let default = LoadOptions::default;
+        let off = LoadOptions { welding: Some(Welding::Off), ..default() };
+        let marked = LoadOptions { marks: Some(wrong_marks), ..default() };
+        let strict = LoadOptions { is_strict: true, ..default() };
+        let errors = [
+            error(Path::new(STANDARD_INPUT), &default()),
+            error(&stored, &off),
+            error(&cut, &default()),
+            error(&twice, &marked),
+            error(&twice, &strict),
+            error(&folder.path().join("none.obj"), &default()),
+        ];
+        assert!(matches!(errors[0], LoadError::FormatNeeded), "{:?}", errors[0]);
+        assert!(matches!(errors[1], LoadError::ModelsOnly { .. }), "{:?}", errors[1]);
+        assert!(matches!(errors[2], LoadError::EdgeMeshFile { .. }), "{:?}", errors[2]);
+        let LoadError::Marks(MarksError::Line { line: 2, .. }) = errors[3] else {
+            panic!("{:?}", errors[3]);
+        };
+        assert!(matches!(errors[4], LoadError::Warnings { .. }), "{:?}", errors[4]);
+        assert!(matches!(errors[5], LoadError::Read(_)), "{:?}", errors[5]);
+        for error in errors {
+            assert!(!error.to_string().contains("--"), "{error}");
+        }
+        assert!(load(&twice, &default(), &NoProgress).is_ok());
+    }
+
+    #[test]
+    fn stages_come_in_order_and_can_cancel() {
+        let stages = RefCell::new(Vec::new());
+        let note = |stage: Stage| {
+            stages.borrow_mut().push(stage.to_string());
+            ControlFlow::Continue(())
+        };
+        assert!(load(DEMO.as_ref(), &LoadOptions::default(), &note).is_ok());
+        assert_eq!(stages.into_inner(), ["reading demo:", "building demo:"]);
+        let cancel = |stage: Stage| match stage {
+            Stage::Building(_) => ControlFlow::Break(()),
+            Stage::Reading(_) => ControlFlow::Continue(()),
+        };
+        let canceled = load(DEMO.as_ref(), &LoadOptions::default(), &cancel).unwrap_err();
+        assert!(matches!(canceled, LoadError::Canceled), "{canceled:?}");
+    }
+}

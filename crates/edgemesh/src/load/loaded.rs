@@ -1,0 +1,36 @@
+//! What loading gives.
+
+use std::path::PathBuf;
+
+use crate::edge_mesh::EdgeMesh;
+use crate::report::Report;
+
+/// An edge mesh with its name and its report.
+#[derive(Debug, Clone)]
+pub struct Loaded {
+    /// The name of the file in messages.
+    pub name: String,
+    /// The edge mesh.
+    pub mesh: EdgeMesh,
+    /// What was repaired or dropped.
+    pub report: Report,
+    /// The model's file; `None` for standard input and for edge mesh files.
+    pub source: Option<ModelSource>,
+}
+
+/// The model file of an edge mesh.
+#[derive(Debug, Clone)]
+pub struct ModelSource {
+    /// The file.
+    pub path: PathBuf,
+    /// For each vertex of the mesh a vertex of the file, counted from 0.
+    pub file_vertices: Vec<u32>,
+}
+
+impl Loaded {
+    /// An edge mesh that comes from no file.
+    #[must_use]
+    pub const fn new(name: String, mesh: EdgeMesh, report: Report) -> Self {
+        Self { name, mesh, report, source: None }
+    }
+}

@@ -1,0 +1,16 @@
+//! What was put right in techniques, on standard error.
+
+use crate::technique::mistake::Mistakes;
+
+/// Prints mistakes.
+#[expect(clippy::print_stderr, reason = "messages of a command")]
+pub(super) fn print_mistakes(mistakes: &Mistakes, is_quiet: bool) {
+    if !is_quiet && !mistakes.list.is_empty() {
+        eprint!("{mistakes}");
+    }
+}
+
+/// Prints what is put right while a technique is read and changed.
+pub(super) fn warn(is_quiet: bool) -> impl FnMut(&Mistakes) {
+    move |mistakes| print_mistakes(mistakes, is_quiet)
+}

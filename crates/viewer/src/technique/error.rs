@@ -1,0 +1,50 @@
+//! What is wrong with a technique.
+
+use edgemesh_shaders::ShaderError;
+use thiserror::Error;
+
+use super::mistake::Mistakes;
+
+/// Why a technique cannot be drawn.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum TechniqueError {
+    /// Mistakes in its file or its shaders, underlined. The text has no `error:` before the
+    /// first one.
+    #[error("{}", .0.text())]
+    Mistakes(Mistakes),
+    /// A shader of the stroke renderer is wrong.
+    #[error(transparent)]
+    Shader(#[from] ShaderError),
+    /// The programs of a pass do not fit together.
+    #[error("the pass '{pass}' cannot be built: its programs do not fit together: {reason}")]
+    Programs {
+        /// The pass.
+        pass: String,
+        /// What the device said.
+        reason: String,
+    },
+    /// A curve of a pass is wrong.
+    #[error("{pass}.{variable}: {what}")]
+    Curve {
+        /// The pass.
+        pass: String,
+        /// The variable.
+        variable: String,
+        /// What it should be.
+        what: String,
+    },
+    /// It was checked and could not be built, so there is nothing to draw.
+    #[error("the technique could not be built; there is nothing to draw")]
+    NotBuilt,
+}
+
+/// A setting `PASS.VARIABLE=VALUE` does not fit a technique.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{assignment}: {what}")]
+pub struct SettingError {
+    /// The setting.
+    pub assignment: String,
+    /// What is wrong with it, with the names that exist.
+    pub what: String,
+}
