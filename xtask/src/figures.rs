@@ -1,5 +1,5 @@
-//! `cargo xtask figures FOLDER`: figures of the papers, drawn anew beside what they are
-//! to show, as pictures and a page in `docs/`.
+//! `cargo xtask figures FOLDER`: redraws figures of the papers as pictures and a page in
+//! `docs/`.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -13,15 +13,15 @@ const SIZE: &str = "320x320";
 
 /// A figure of a paper.
 struct Figure {
-    /// Its pictures are called by it.
+    /// Prefix of the names of its pictures.
     name: &'static str,
     title: &'static str,
-    /// What it is to show, and what is seen here.
+    /// What the figure shows.
     text: &'static str,
     panels: &'static [Panel],
 }
 
-/// A picture: what is under it, a model, and the options of `viewer render`.
+/// A picture: its caption, its model, and the options of `viewer render`.
 struct Panel(&'static str, &'static str, &'static str);
 
 const CORRIDOR: &str = "docs/figures/corridor.obj";
@@ -32,10 +32,10 @@ const FIGURES: [Figure; 15] = [
     Figure {
         name: "thesis-3.2",
         title: "NPRView thesis, section 3.2: derivatives of a picture",
-        text: "The gradient by the Sobel operator (Equations 3.1 to 3.3) is large at edges and \
+        text: "The gradient from the Sobel operator (Equations 3.1 to 3.3) is large at edges and \
                points across them; the Laplacian of the Gaussian (Equation 3.6) crosses zero \
-               there. Of a lit picture both find light as well as shape, which is why the \
-               detectors below read normals and depths.",
+               there. In a shaded picture both find light as well as shape. The detectors below \
+               therefore read normals and depths.",
         panels: &[
             Panel(
                 "gradient, above a threshold",
@@ -43,12 +43,12 @@ const FIGURES: [Figure; 15] = [
                 "--technique docs/figures/derivatives.toml",
             ),
             Panel(
-                "its size",
+                "gradient magnitude",
                 "spot",
                 "--technique docs/figures/derivatives.toml --set gradient.show=intensities",
             ),
             Panel(
-                "its orientation",
+                "gradient orientation",
                 "spot",
                 "--technique docs/figures/derivatives.toml --set gradient.show=orientation",
             ),
@@ -61,9 +61,9 @@ const FIGURES: [Figure; 15] = [
     },
     Figure {
         name: "thesis-3.9",
-        title: "NPRView thesis, Figure 3.9: a contour that normals do not show",
-        text: "One plate is before another that it is parallel to. Their normals are the same, so \
-               only the depth tells them apart.",
+        title: "NPRView thesis, Figure 3.9: a contour that normals miss",
+        text: "One plate lies in front of another, parallel one. Their normals are equal, so only \
+               the depth separates them.",
         panels: &[
             Panel("light", "docs/figures/plates.obj", "--technique phong"),
             Panel("normals", "docs/figures/plates.obj", "--technique outline_normals"),
@@ -73,10 +73,10 @@ const FIGURES: [Figure; 15] = [
     Figure {
         name: "thesis-3.11",
         title: "NPRView thesis, Figure 3.11: thresholds of depth differences",
-        text: "At a threshold of 0.3 the rims of low boxes are missed; at 0.05 floor and wall are \
-               edges all over, since they are seen at a low angle. The Laplacian has no trouble \
-               with planes but misses what is low (same threshold), and the distance from the \
-               plane through each pixel has neither fault.",
+        text: "At a threshold of 0.3, the detector misses the outlines of low boxes; at 0.05, it \
+               marks the whole floor and wall as edges, because they are seen at a grazing angle. \
+               The Laplacian handles planes well but misses low boxes at the same threshold. The \
+               distance from the plane through each pixel has neither fault.",
         panels: &[
             Panel("differences, 0.3", CORRIDOR, "0.3"),
             Panel("differences, 0.05", CORRIDOR, "0.05"),
@@ -94,9 +94,9 @@ const FIGURES: [Figure; 15] = [
     },
     Figure {
         name: "thesis-3.14",
-        title: "NPRView thesis, Figure 3.14: a crease that depths do not show",
-        text: "The groove between the halves is narrower than a pixel: no depth is sampled in it, \
-               and both detectors of depth see a plane. The normals bend toward it from both \
+        title: "NPRView thesis, Figure 3.14: a crease that depths miss",
+        text: "The groove between the halves is narrower than a pixel: no depth sample falls into \
+               it, and both depth detectors see a plane. The normals bend toward it from both \
                sides.",
         panels: &[
             Panel(
@@ -123,9 +123,9 @@ const FIGURES: [Figure; 15] = [
     },
     Figure {
         name: "thesis-3.15",
-        title: "NPRView thesis, Figure 3.15: smooth edges taken for creases",
-        text: "Smooth normals hide the polygons of a model from the detector of normals. The depth \
-               knows nothing of them: with a low threshold every edge of the mesh is found.",
+        title: "NPRView thesis, Figure 3.15: smooth edges mistaken for creases",
+        text: "Smooth normals hide the polygons of a model from the detector of normals. Depths do \
+               not: with a low threshold, every edge of the mesh is found.",
         panels: &[
             Panel("normals", "spot", "--technique outline_normals"),
             Panel(
@@ -138,9 +138,9 @@ const FIGURES: [Figure; 15] = [
     Figure {
         name: "thesis-3.16",
         title: "NPRView thesis, Figure 3.16: normals and depths compared",
-        text: "Blue edges are found by normals, red ones by depths, black ones by both: each \
-               detector finds what the other misses. With a lower depth threshold the depths \
-               find more, and polygon edges that are to be smooth show.",
+        text: "Blue edges are found in normals, red ones in depths, black ones in both: each \
+               detector finds what the other misses. With a lower depth threshold, the depth \
+               detector finds more, but polygon edges that should be smooth show up.",
         panels: &[
             Panel("depths", "suzanne", "--technique debug_depth"),
             Panel("normals", "suzanne", "--technique debug_normals"),
@@ -155,7 +155,8 @@ const FIGURES: [Figure; 15] = [
     Figure {
         name: "thesis-3.19",
         title: "NPRView thesis, Figure 3.19: the combined detector",
-        text: "Edges of regions alone are green: here the ring of another material around a hole.",
+        text: "Edges found between regions only are green: here, the ring of another material \
+               around a hole.",
         panels: &[
             Panel("light", "models/bracket.obj", "--technique phong"),
             Panel(
@@ -172,27 +173,28 @@ const FIGURES: [Figure; 15] = [
     },
     Figure {
         name: "thesis-4.3",
-        title: "NPRView thesis, Figure 4.3: toon maps by the vertex and by the pixel",
-        text: "By the vertex, borders of steps follow the triangles of a coarse ball, and its \
-               highlight, which is between vertices, is gone; by the pixel they are round.",
+        title: "NPRView thesis, Figure 4.3: toon maps per vertex and per pixel",
+        text: "Per vertex, the borders of the steps follow the triangles of a coarse ball, and its \
+               highlight, which lies between vertices, is missing. Per pixel, the borders are \
+               round.",
         panels: &[
             Panel(
-                "by the vertex, three steps",
+                "per vertex, three steps",
                 "docs/figures/ball.obj",
                 "--technique docs/figures/toon_map.toml --set by_vertex.render=true --set by_pixel.render=false --set by_vertex.toon_map=toon_maps:three_steps:0",
             ),
             Panel(
-                "by the pixel, three steps",
+                "per pixel, three steps",
                 "docs/figures/ball.obj",
                 "--technique docs/figures/toon_map.toml --set by_pixel.toon_map=toon_maps:three_steps:0",
             ),
             Panel(
-                "by the vertex, spectrum",
+                "per vertex, spectrum",
                 "docs/figures/ball.obj",
                 "--technique docs/figures/toon_map.toml --set by_vertex.render=true --set by_pixel.render=false --set by_vertex.toon_map=toon_maps:spectrum:0",
             ),
             Panel(
-                "by the pixel, spectrum",
+                "per pixel, spectrum",
                 "docs/figures/ball.obj",
                 "--technique docs/figures/toon_map.toml --set by_pixel.toon_map=toon_maps:spectrum:0",
             ),
@@ -201,7 +203,7 @@ const FIGURES: [Figure; 15] = [
     Figure {
         name: "thesis-4.4",
         title: "NPRView thesis, Figures 4.4 and 4.5: toon maps",
-        text: "One model, and the maps that its light is looked up in.",
+        text: "One model with five toon maps.",
         panels: &[
             Panel("two steps", "spot", "--technique toon"),
             Panel(
@@ -217,8 +219,7 @@ const FIGURES: [Figure; 15] = [
     Figure {
         name: "card-mitchell-1",
         title: "Card and Mitchell, Figure 1: light, fins, and filtered outlines",
-        text: "Fins stand out from the contour; filters outline creases and what is before \
-               something else as well.",
+        text: "Fins stand out from the contour. Filters also outline creases and occlusions.",
         panels: &[
             Panel("light", "spot", "--technique phong --set fill.clear_color=#ffffff"),
             Panel("fins", "spot", "--technique fins"),
@@ -230,16 +231,16 @@ const FIGURES: [Figure; 15] = [
         title: "Card and Mitchell, Figure 4: cartoon light",
         text: "Bands of diffuse light and one of highlights, with outlines.",
         panels: &[
-            Panel("as it is", "teapot", "--technique cartoon"),
+            Panel("default", "teapot", "--technique cartoon"),
             Panel("five bands of light", "teapot", "--technique cartoon --set fill.band_count=5"),
             Panel("no highlight", "teapot", "--technique cartoon --set fill.has_specular=false"),
         ],
     },
     Figure {
         name: "card-mitchell-9",
-        title: "Card and Mitchell, Figure 9: edges of normals, of depths, and both",
-        text: "Normals show the creases of the lid and where the spout goes into the body, depths \
-               what is before something else; together they are an outline.",
+        title: "Card and Mitchell, Figure 9: edges in normals, in depths, and in both",
+        text: "Normals show the creases of the lid and the joint between spout and body; depths \
+               show where one part lies in front of another. Together they form an outline.",
         panels: &[
             Panel(
                 "normals",
@@ -257,10 +258,10 @@ const FIGURES: [Figure; 15] = [
     Figure {
         name: "card-mitchell-thick",
         title: "Card and Mitchell, thickening outlines with morphology",
-        text: "Lines of two pixels, after one and four dilations, and as wide by jump flooding, \
-               whose ends and corners are round.",
+        text: "Lines two pixels wide, after one and four dilations, and equally wide lines from \
+               jump flooding, whose ends and corners are round.",
         panels: &[
-            Panel("as found", "spot", "--technique outline_thick --set thicken.pass_count=0"),
+            Panel("as detected", "spot", "--technique outline_thick --set thicken.pass_count=0"),
             Panel("one dilation", "spot", "--technique outline_thick --set thicken.pass_count=1"),
             Panel("four dilations", "spot", "--technique outline_thick --set thicken.pass_count=4"),
             Panel("flooded, 10 pixels", "spot", "--technique outline_wide"),
@@ -268,10 +269,10 @@ const FIGURES: [Figure; 15] = [
     },
     Figure {
         name: "card-mitchell-clip",
-        title: "Card and Mitchell: what is cut, what goes through itself, and what is broken",
-        text: "Filters outline the cut of a clip plane, the line where spout and body of the \
-               teapot go through each other though no edge of the mesh is there, and a soup of \
-               triangles that share nothing.",
+        title: "Card and Mitchell: cut, self-intersecting and broken models",
+        text: "Filters outline the cut of a clip plane, the line where the teapot's spout passes \
+               through its body although no edge of the mesh lies there, and a soup of triangles \
+               that share nothing.",
         panels: &[
             Panel("cut", "teapot", "--technique outline_planes --clip 0,0,-1,0.5"),
             Panel("spout through body", "teapot", "--technique outline_planes"),
@@ -281,7 +282,7 @@ const FIGURES: [Figure; 15] = [
                 "--technique outline_planes --clip 0,0,-1,0",
             ),
             Panel(
-                "boxes through each other, with open sides",
+                "intersecting boxes with open sides",
                 "docs/figures/soup.obj",
                 "--technique outline_planes",
             ),
@@ -290,13 +291,13 @@ const FIGURES: [Figure; 15] = [
     Figure {
         name: "chiang-5",
         title: "Chiang et al., Figure 5: the extra depth filter",
-        text: "Without it every bend of the surface that the normal map shows is an edge; with it \
-               only those at which the depth changes as well. As printed, gradients keep their \
-               signs, and edges from bright to dark are missed.",
+        text: "Without the filter, every bend of the surface in the normal map is an edge; with \
+               it, only those with a change in depth. With the gradient as printed in the paper, \
+               derivatives keep their signs, and edges from bright to dark are missed.",
         panels: &[
             Panel("with the filter", "stanford-bunny", "--technique sobel"),
             Panel(
-                "without it",
+                "without the filter",
                 "stanford-bunny",
                 "--technique sobel --set edges.extra_filter=false",
             ),
@@ -309,7 +310,7 @@ const FIGURES: [Figure; 15] = [
     },
 ];
 
-/// Draws the figures; `models` is the folder of those that are not the project's own.
+/// Draws the figures; `models` is the folder with the models that are not part of this project.
 pub(crate) fn run(models: &str) -> Result<(), Failure> {
     let programs = programs::build()?;
     adapter::ensure(&programs.viewer)?;
@@ -353,9 +354,9 @@ fn picture_name(figure: &Figure, number: usize) -> String {
 
 fn page() -> String {
     let mut page =
-        "# Figures of the papers\n\nDrawn anew, each beside what it is to show, on other \
-                    models than theirs.\n`cargo xtask figures FOLDER` draws this page; under each \
-                    figure is what draws its pictures one by one.\n"
+        "# Figures of the papers\n\nRedrawn on other models than those of the papers.\n`cargo \
+                    xtask figures FOLDER` draws the pictures and writes this page. Below each \
+                    figure are the commands that draw its pictures.\n"
             .to_owned();
     for figure in &FIGURES {
         let _ = write!(page, "\n## {}\n\n{}\n\n|", figure.title, figure.text);
@@ -375,8 +376,8 @@ fn page() -> String {
         page.push_str("```\n");
     }
     page.push_str(
-        "\nModels: Spot by Keenan Crane; Suzanne of Blender; the teapot by Martin Newell; the \
-         bunny of the Stanford 3D Scanning Repository; all others are the project's own.\n",
+        "\nModels: Spot by Keenan Crane; Suzanne from Blender; the teapot by Martin Newell; the \
+         bunny from the Stanford 3D Scanning Repository. The others are part of this project.\n",
     );
     page
 }

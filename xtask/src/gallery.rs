@@ -1,5 +1,5 @@
-//! `cargo xtask gallery MODEL...`: each technique that ships on some models, as pictures
-//! and a page in `docs/`.
+//! `cargo xtask gallery MODEL...`: draws each technique on some models, as pictures and a
+//! page in `docs/`.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use std::process::Command;
 use crate::failure::Failure;
 use crate::{adapter, programs};
 
-/// Who made models that are known.
+/// Credits of models, by file name.
 const CREDITS: [(&str, &str); 2] =
     [("spot", "Spot by Keenan Crane"), ("fandisk", "the fan disk by Hugues Hoppe")];
 
@@ -39,7 +39,7 @@ pub(crate) fn run(models: &[&str]) -> Result<(), Failure> {
         .map_err(|error| Failure::file("write", &page, error))
 }
 
-/// The techniques by name, with what each shows.
+/// The names and descriptions of the techniques.
 fn techniques(viewer: &Path) -> Result<Vec<(String, String)>, Failure> {
     let mut command = Command::new(viewer);
     command.args(["techniques", "list", "--folder", "/"]);
@@ -68,10 +68,11 @@ fn page_of(techniques: &[(String, String)], models: &[PathBuf]) -> String {
         })
         .map(|(_, credit)| *credit)
         .collect();
-    let mut page = "# Gallery\n\nEvery technique that ships, drawn by `viewer render MODEL -o \
-                    OUT.png --technique NAME` with nothing else set.\n`cargo xtask gallery \
-                    MODEL...` draws this page anew.\n\n|  |"
-        .to_owned();
+    let mut page =
+        "# Gallery\n\nEvery technique that comes with Edgemesh, drawn by `viewer render \
+                    MODEL -o OUT.png --technique NAME` with default settings.\n`cargo xtask \
+                    gallery MODEL...` draws the pictures and writes this page.\n\n|  |"
+            .to_owned();
     for _ in models {
         page += " |";
     }
