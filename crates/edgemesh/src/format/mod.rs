@@ -6,4 +6,6 @@
 
 pub mod edge_mesh_file;
 pub mod export;
+mod little_endian;
 pub mod read;
+pub(crate) mod validate;

@@ -1,9 +1,10 @@
-//! Parses a part of an OBJ file as if it were all of it.
+//! Parses a chunk of an OBJ file as if it were a whole file.
 //!
-//! Idea: nearly every line is `v`, `vt`, `vn` or `f` in its plainest form. Those
-//! are read in place, byte by byte; the first thing out of the ordinary sends
-//! the line to the general way, which joins continued lines, drops comments
-//! and splits words. Both give the same for a plain line, and a test says so.
+//! Idea: nearly every line is a `v`, `vt`, `vn` or `f` in its plainest form. The
+//! plain parser reads those in place, byte by byte. At the first unusual byte it
+//! hands the line to the general parser, which joins continued lines, drops
+//! comments and splits words. For a plain line both give the same result, which a
+//! test checks.
 
 use memchr::memchr2;
 
@@ -17,81 +18,82 @@ use crate::index::{NONE, to_u32};
 use crate::model::{Corner, Model, Segment};
 use crate::report::{Place, Report, WarningCode};
 
-/// What a chunk says; lines count from its own first, which is 1.
+/// The content of a chunk; its first line is line 1.
 #[derive(Debug, Default)]
-pub(super) struct Part {
-    /// Elements and polygons; all indices are [`ChunkIndex`]es.
+pub(super) struct ParsedChunk {
+    /// Elements and polygons, with [`ChunkIndex`]es.
     pub(super) model: Model,
-    /// How many lines it has.
+    /// The number of lines.
     pub(super) line_count: u32,
-    /// Statements that change the state, in order.
-    pub(super) changes: Vec<Change>,
-    /// Files that `mtllib` names, with the line.
+    /// The changes of the state, in order.
+    pub(super) changes: Vec<StateChange>,
+    /// The `mtllib` statements, with their lines.
     pub(super) libraries: Vec<(String, u32)>,
-    /// What was found and kept.
+    /// The warnings.
     pub(super) report: Report,
-    /// What ended the parsing, with its line.
-    pub(super) error: Option<PartError>,
+    /// The error that ended the parsing.
+    pub(super) error: Option<ChunkError>,
 }
 
-/// What cannot be kept.
+/// An error in a line of a chunk.
 #[derive(Debug)]
-pub(super) struct PartError {
+pub(super) struct ChunkError {
     pub(super) kind: ReadErrorKind,
     pub(super) line: u32,
     pub(super) what: String,
 }
 
-/// A change of the state from one polygon on.
+/// A change of the state that applies to the polygons after it.
 #[derive(Debug)]
-pub(super) struct Change {
-    /// The first polygon of the chunk that it is for.
+pub(super) struct StateChange {
+    /// The first polygon of the chunk that has the new state.
     pub(super) polygon: u32,
-    pub(super) what: ChangeKind,
+    pub(super) state: NewState,
 }
 
-/// What changes.
+/// The part of the state that changes, with its new value.
 #[derive(Debug)]
-pub(super) enum ChangeKind {
+pub(super) enum NewState {
+    /// The name of a material (`usemtl`).
     Material(String),
+    /// The name of a group or object (`g`, `o`).
     Group(String),
+    /// The number of a smoothing group, 0 for none (`s`).
     Smoothing(u32),
 }
 
 /// Parses `text`, which begins and ends with whole statements.
-pub(super) fn parse_chunk(text: &[u8]) -> Part {
-    let mut parser = Parser { text, at: 0, line: 0, corners: Vec::new(), part: Part::default() };
-    // A guess that is seldom too small: 43 bytes a triangle, two a vertex.
-    parser.part.model.corner_positions.reserve(text.len() / 14);
-    parser.part.model.polygon_lines.reserve(text.len() / 42);
-    parser.part.model.positions.reserve(text.len() / 84);
+pub(super) fn parse_chunk(text: &[u8]) -> ParsedChunk {
+    let mut parser = Parser { text, at: 0, line: 0, corners: Vec::new(), chunk: ParsedChunk::default() };
+    // Seldom too small: 43 bytes a triangle, and two triangles a vertex.
+    parser.chunk.model.corner_positions.reserve(text.len() / 14);
+    parser.chunk.model.polygon_lines.reserve(text.len() / 42);
+    parser.chunk.model.positions.reserve(text.len() / 84);
     while parser.at < text.len() {
         parser.line = parser.line.saturating_add(1);
         if let Some(next) = parser.plain_line() {
             parser.at = next;
-        } else if let Err((kind, line, what)) = parser.any_line() {
-            parser.part.error = Some(PartError { kind, line, what });
+        } else if let Err(error) = parser.any_line() {
+            parser.chunk.error = Some(error);
             break;
         }
     }
-    parser.part.line_count = parser.line;
-    parser.part
+    parser.chunk.line_count = parser.line;
+    parser.chunk
 }
-
-type Failure = (ReadErrorKind, u32, String);
 
 struct Parser<'a> {
     text: &'a [u8],
     at: usize,
-    /// The line at `at`, counted from 1.
+    /// The line of the byte `at`, counted from 1.
     line: u32,
-    /// The corners of the face at hand.
+    /// The corners of the current face.
     corners: Vec<Corner>,
-    part: Part,
+    chunk: ParsedChunk,
 }
 
-/// The plain way. Each function gives the place behind the line, or `None`
-/// where the line takes the general way; nothing has been kept then.
+/// The plain parser. Each function returns the offset after what it has read, or
+/// `None` if the line needs the general parser; it has stored nothing then.
 impl Parser<'_> {
     #[inline]
     fn plain_line(&mut self) -> Option<usize> {
@@ -104,12 +106,12 @@ impl Parser<'_> {
             b"f " => self.plain_face(),
             b"vn" => {
                 let (normal, end) = self.plain_numbers::<3>(self.at + 2)?;
-                self.part.model.normals.push(normal.map(attribute));
+                self.chunk.model.normals.push(normal.map(attribute));
                 Some(end)
             }
             b"vt" => {
                 let (texcoord, end) = self.plain_numbers::<2>(self.at + 2)?;
-                self.part.model.texcoords.push(texcoord.map(attribute));
+                self.chunk.model.texcoords.push(texcoord.map(attribute));
                 Some(end)
             }
             _ => None,
@@ -121,7 +123,7 @@ impl Parser<'_> {
         let mut numbers = [0.0; N];
         let mut at = from;
         for number in &mut numbers {
-            at = self.behind_blanks(at);
+            at = self.after_blanks(at);
             if self.text[at - 1] != b' ' {
                 return None;
             }
@@ -137,12 +139,12 @@ impl Parser<'_> {
         self.corners.clear();
         let mut at = self.at + 1;
         loop {
-            let start = self.behind_blanks(at);
+            let start = self.after_blanks(at);
             if let Some(end) = self.line_end(start) {
                 if self.corners.len() < 3 {
                     return None;
                 }
-                self.part.model.push_polygon(&self.corners, self.line);
+                self.chunk.model.push_polygon(&self.corners, self.line);
                 return Some(end);
             }
             if start == at {
@@ -171,7 +173,7 @@ impl Parser<'_> {
         Some((corner, at))
     }
 
-    /// One to nine digits, which cannot overflow; 0 is not plain.
+    /// One to nine digits, which cannot overflow; 0 is left to the general parser.
     #[inline]
     fn plain_index(&self, from: usize) -> Option<(u32, usize)> {
         let mut index = 0_u32;
@@ -189,14 +191,14 @@ impl Parser<'_> {
     }
 
     #[inline]
-    fn behind_blanks(&self, mut at: usize) -> usize {
+    fn after_blanks(&self, mut at: usize) -> usize {
         while self.text.get(at) == Some(&b' ') {
             at += 1;
         }
         at
     }
 
-    /// The place behind the line end at `at`, if there is one.
+    /// The offset after the line end at `at`, if there is one.
     #[inline]
     fn line_end(&self, at: usize) -> Option<usize> {
         match self.text.get(at) {
@@ -204,24 +206,24 @@ impl Parser<'_> {
             Some(b'\n') => Some(at + 1),
             Some(b'\r') if self.text.get(at + 1) == Some(&b'\n') => Some(at + 2),
             Some(b' ') => {
-                let behind = self.behind_blanks(at);
-                if self.text.get(behind) == Some(&b' ') { None } else { self.line_end(behind) }
+                let after = self.after_blanks(at);
+                if self.text.get(after) == Some(&b' ') { None } else { self.line_end(after) }
             }
             _ => None,
         }
     }
 }
 
-/// A texture coordinate or part of a normal in 32 bits.
+/// A texture coordinate, or a coordinate of a normal, in 32 bits.
 #[expect(clippy::cast_possible_truncation, reason = "an attribute needs no more")]
 const fn attribute(number: f64) -> f32 {
     number as f32
 }
 
-/// The general way.
+/// The general parser.
 impl Parser<'_> {
-    /// Reads the statement at `at`, with the lines that it goes on in.
-    fn any_line(&mut self) -> Result<(), Failure> {
+    /// Reads the statement at `at`, with its continuation lines.
+    fn any_line(&mut self) -> Result<(), ChunkError> {
         let first_line = self.line;
         let line = self.next_line();
         let Some(start) = line.strip_suffix(b"\\") else {
@@ -233,7 +235,7 @@ impl Parser<'_> {
             let line = self.next_line();
             joined.push(b' ');
             match line.strip_suffix(b"\\") {
-                Some(part) => joined.extend_from_slice(part),
+                Some(line) => joined.extend_from_slice(line),
                 None => {
                     joined.extend_from_slice(line);
                     break;
@@ -243,7 +245,7 @@ impl Parser<'_> {
         self.statement(first_line, &joined)
     }
 
-    /// The line at `at` without blanks around it; LF, CRLF and a lone CR end it.
+    /// The line at `at` without surrounding blanks; it ends with LF, CR LF or CR.
     fn next_line<'b>(&mut self) -> &'b [u8]
     where
         Self: 'b,
@@ -258,30 +260,30 @@ impl Parser<'_> {
         line.trim_ascii()
     }
 
-    fn statement(&mut self, line: u32, text: &[u8]) -> Result<(), Failure> {
+    fn statement(&mut self, line: u32, text: &[u8]) -> Result<(), ChunkError> {
         let (keyword, rest) = split_keyword(text);
         let values = without_comment(rest);
         match keyword {
             b"v" => self.vertex(line, values)?,
             b"vt" => {
                 let texcoord = attributes(values);
-                self.part.model.texcoords.push(texcoord);
+                self.chunk.model.texcoords.push(texcoord);
             }
             b"vn" => {
                 let normal = attributes(values);
-                self.part.model.normals.push(normal);
+                self.chunk.model.normals.push(normal);
             }
             b"f" | b"fo" => self.face(line, values)?,
             b"l" => self.polyline(line, values)?,
-            b"s" => self.change(ChangeKind::Smoothing(smoothing_group(values))),
-            b"usemtl" => self.change(ChangeKind::Material(name_of(rest))),
-            b"g" | b"o" => self.change(ChangeKind::Group(name_of(rest))),
-            b"mtllib" => self.part.libraries.push((name_of(rest), line)),
+            b"s" => self.change(NewState::Smoothing(smoothing_group(values))),
+            b"usemtl" => self.change(NewState::Material(name_of(rest))),
+            b"g" | b"o" => self.change(NewState::Group(name_of(rest))),
+            b"mtllib" => self.chunk.libraries.push((name_of(rest), line)),
             b"curv" | b"curv2" | b"surf" | b"cstype" | b"vp" | b"deg" | b"bmat" | b"parm"
             | b"trim" | b"hole" | b"end" => {
                 self.warn(WarningCode::Unsupported, line, || {
                     let word = String::from_utf8_lossy(keyword);
-                    format!("'{word}': free-form curves and surfaces are not read")
+                    format!("'{word}': free-form curves and surfaces are not supported")
                 });
             }
             _ => {}
@@ -289,26 +291,26 @@ impl Parser<'_> {
         Ok(())
     }
 
-    fn change(&mut self, what: ChangeKind) {
-        let polygon = to_u32(self.part.model.polygon_count());
-        self.part.changes.push(Change { polygon, what });
+    fn change(&mut self, state: NewState) {
+        let polygon = to_u32(self.chunk.model.polygon_count());
+        self.chunk.changes.push(StateChange { polygon, state });
     }
 
     fn warn(&mut self, code: WarningCode, line: u32, message: impl FnOnce() -> String) {
-        self.part.report.warn(code, Some(Place::Line(line)), message);
+        self.chunk.report.warn(code, Some(Place::Line(line)), message);
     }
 
-    fn vertex(&mut self, line: u32, values: &[u8]) -> Result<(), Failure> {
+    fn vertex(&mut self, line: u32, values: &[u8]) -> Result<(), ChunkError> {
         let mut numbers = [1.0; 6];
         let mut count = 0;
         for (number, word) in numbers.iter_mut().zip(words(values)) {
             match self.number(line, word) {
                 Some(value) => *number = value,
-                // What is behind the position may be anything.
+                // Whatever follows the position.
                 None if count >= 3 => break,
                 None => {
                     let what = format!("'{}' is not a number", String::from_utf8_lossy(word));
-                    return Err((ReadErrorKind::Number, line, what));
+                    return Err(ChunkError { kind: ReadErrorKind::Number, line, what });
                 }
             }
             count += 1;
@@ -316,24 +318,24 @@ impl Parser<'_> {
         let [x, y, z, r, g, b] = numbers;
         if count < 3 {
             let what = format!("a vertex needs three numbers, this one has {count}");
-            return Err((ReadErrorKind::Number, line, what));
+            return Err(ChunkError { kind: ReadErrorKind::Number, line, what });
         }
-        // Four numbers are a point with its weight, six or seven have a colour.
+        // Four numbers are a point and its weight; six or seven have a color.
         self.keep_vertex([x, y, z], (count == 6).then(|| [r, g, b].map(attribute)));
         Ok(())
     }
 
-    /// A number; one with a broken exponent is read without it.
+    /// A number; a broken exponent is left out with a warning.
     fn number(&mut self, line: u32, word: &[u8]) -> Option<f64> {
         if let Some(number) = parse_number(word) {
             return Some(number);
         }
-        let (number, length) = parse_prefix(word)?;
+        let (number, length) = parse_prefix(word).filter(|(number, _)| number.is_finite())?;
         let is_exponent = matches!(word[length..], [b'+' | b'-', b'e' | b'E', ..]);
         if is_exponent {
             self.warn(WarningCode::Syntax, line, || {
                 let word = String::from_utf8_lossy(word);
-                format!("'{word}' was read as {number}: its exponent is broken")
+                format!("'{word}' has a broken exponent; it was read as {number}")
             });
         }
         is_exponent.then_some(number)
@@ -341,14 +343,14 @@ impl Parser<'_> {
 
     #[inline]
     fn keep_vertex(&mut self, position: [f64; 3], color: Option<[f32; 3]>) {
-        // NaN compares as not within.
+        // False for NaN.
         let is_finite = position.iter().all(|coordinate| coordinate.abs() <= LARGEST_COORDINATE);
         if !is_finite {
             self.warn(WarningCode::NonFinite, self.line, || {
                 "a vertex is not finite; faces that use it were dropped".into()
             });
         }
-        let model = &mut self.part.model;
+        let model = &mut self.chunk.model;
         if color.is_some() || !model.colors.is_empty() {
             model.colors.resize(model.positions.len(), [1.0; 3]);
             model.colors.push(color.unwrap_or([1.0; 3]));
@@ -356,7 +358,7 @@ impl Parser<'_> {
         model.positions.push(if is_finite { position } else { [f64::NAN; 3] });
     }
 
-    fn face(&mut self, line: u32, values: &[u8]) -> Result<(), Failure> {
+    fn face(&mut self, line: u32, values: &[u8]) -> Result<(), ChunkError> {
         let mut corners = std::mem::take(&mut self.corners);
         corners.clear();
         for word in words(values) {
@@ -364,26 +366,26 @@ impl Parser<'_> {
         }
         if corners.len() < 3 {
             self.warn(WarningCode::Degenerate, line, || {
-                format!("a face of {} corners was dropped", corners.len())
+                format!("a face with {} corners was dropped", corners.len())
             });
         } else {
-            self.part.model.push_polygon(&corners, line);
+            self.chunk.model.push_polygon(&corners, line);
         }
         self.corners = corners;
         Ok(())
     }
 
-    fn corner(&mut self, line: u32, word: &[u8]) -> Result<Corner, Failure> {
+    fn corner(&mut self, line: u32, word: &[u8]) -> Result<Corner, ChunkError> {
         let mut parts = word.split(|&byte| byte == b'/');
         let [position, texcoord, normal] = [(); 3].map(|()| parts.next().unwrap_or_default());
         let wrong = |why: &str| {
             let word = String::from_utf8_lossy(word);
-            (ReadErrorKind::Index, line, format!("face corner '{word}': {why}"))
+            ChunkError { kind: ReadErrorKind::Index, line, what: format!("face corner '{word}' {why}") }
         };
         if parts.next().is_some() {
             return Err(wrong("has too many slashes"));
         }
-        let model = &self.part.model;
+        let model = &self.chunk.model;
         let counts = [model.texcoords.len(), model.normals.len()];
         let position = parse_index(position, model.positions.len()).map_err(|why| wrong(&why))?.0;
         let texcoord = self.attribute_index(line, texcoord, counts[0]);
@@ -407,26 +409,25 @@ impl Parser<'_> {
         )
     }
 
-    /// `l`: from vertex to vertex; texture coordinates behind a slash are left
-    /// out.
-    fn polyline(&mut self, line: u32, values: &[u8]) -> Result<(), Failure> {
+    /// `l`: a segment from each vertex to the next; texture coordinates are ignored.
+    fn polyline(&mut self, line: u32, values: &[u8]) -> Result<(), ChunkError> {
         let mut last = None;
         for word in words(values) {
             let index = word.split(|&byte| byte == b'/').next().unwrap_or_default();
-            let end = parse_index(index, self.part.model.positions.len()).map_err(|why| {
+            let end = parse_index(index, self.chunk.model.positions.len()).map_err(|why| {
                 let word = String::from_utf8_lossy(word);
-                (ReadErrorKind::Index, line, format!("line vertex '{word}': {why}"))
+                ChunkError { kind: ReadErrorKind::Index, line, what: format!("line vertex '{word}' {why}") }
             })?;
             if let Some(start) = last.replace(end.0) {
-                self.part.model.segments.push(Segment { ends: [start, end.0], line });
+                self.chunk.model.segments.push(Segment { ends: [start, end.0], line });
             }
         }
         Ok(())
     }
 }
 
-/// A texture coordinate or normal; what is missing or no number becomes 0,
-/// since no line hangs on it.
+/// A texture coordinate or normal; a missing or malformed number becomes 0, because
+/// the geometry does not depend on it.
 fn attributes<const N: usize>(values: &[u8]) -> [f32; N] {
     let mut numbers = [0.0; N];
     for (number, word) in numbers.iter_mut().zip(words(values)) {
@@ -439,19 +440,19 @@ fn attributes<const N: usize>(values: &[u8]) -> [f32; N] {
 mod tests {
     use super::*;
 
-    /// Parses without the plain way.
-    fn parse_in_general(text: &[u8]) -> Part {
-        let mut parser = Parser { text, at: 0, line: 0, corners: vec![], part: Part::default() };
+    /// Parses without the plain parser.
+    fn parse_in_general(text: &[u8]) -> ParsedChunk {
+        let mut parser = Parser { text, at: 0, line: 0, corners: vec![], chunk: ParsedChunk::default() };
         while parser.at < text.len() {
             parser.line += 1;
             parser.any_line().unwrap();
         }
-        parser.part.line_count = parser.line;
-        parser.part
+        parser.chunk.line_count = parser.line;
+        parser.chunk
     }
 
     #[test]
-    fn both_ways_give_the_same() {
+    fn both_parsers_give_the_same() {
         let lines = [
             "v 1 2 3",
             "v  1.5  -2e3 .25 ",
@@ -478,24 +479,24 @@ mod tests {
             "# text",
             "f 1  2  3",
         ];
-        let mut plain = 0;
+        let mut cases = 0;
         for end in ["\n", "\r\n", "\r"] {
             for (first, second) in lines.iter().flat_map(|a| lines.map(|b| (a, b))) {
                 let text = format!("{first}{end}{second}");
-                let (ours, general) =
+                let (plain, general) =
                     (parse_chunk(text.as_bytes()), parse_in_general(text.as_bytes()));
-                assert_eq!(format!("{:?}", ours.model), format!("{:?}", general.model), "{text:?}");
-                assert_eq!(ours.report, general.report, "{text:?}");
-                assert_eq!(ours.line_count, general.line_count, "{text:?}");
-                plain += 1;
+                assert_eq!(format!("{:?}", plain.model), format!("{:?}", general.model), "{text:?}");
+                assert_eq!(plain.report, general.report, "{text:?}");
+                assert_eq!(plain.line_count, general.line_count, "{text:?}");
+                cases += 1;
             }
         }
-        assert!(plain > 1000, "{plain} cases");
+        assert!(cases > 1000, "{cases} cases");
     }
 
     #[test]
-    fn numbers_side_by_side_are_not_plain() {
-        let part = parse_chunk(b"v 1-2 3\n");
-        assert!(part.error.is_some_and(|error| error.what.contains("'1-2'")));
+    fn numbers_without_a_blank_between_are_not_plain() {
+        let chunk = parse_chunk(b"v 1-2 3\n");
+        assert!(chunk.error.is_some_and(|error| error.what.contains("'1-2'")));
     }
 }
