@@ -79,7 +79,8 @@ fn check_runs(mesh: &StoredMesh<'_>) -> Result<(), Flaw> {
     let runs = &*mesh.fill_runs;
     let flaw = |element: usize, what: String| Flaw { tag: Tag::FILL_RUNS, element, what };
     if runs.is_empty() != mesh.fill_indices.is_empty() {
-        let what = format!("there are {} for a fill of {} indices", runs.len(), mesh.fill_indices.len());
+        let what =
+            format!("there are {} for a fill of {} indices", runs.len(), mesh.fill_indices.len());
         return Err(flaw(0, what));
     }
     let mut least = 0;
@@ -291,10 +292,7 @@ mod tests {
         };
         assert_eq!(with_second(0), "FRUN, element 1: begins at triangle 0, out of order");
         assert_eq!(with_second(1), "FRUN, element 1: names triangle 1; there are 1");
-        assert_eq!(
-            with_second(NONE),
-            "FRUN, element 1: names triangle 4294967295; there are 1"
-        );
+        assert_eq!(with_second(NONE), "FRUN, element 1: names triangle 4294967295; there are 1");
         let what = error_of(Draft::with_materials(), |draft| draft.resize("FRUN", 0));
         assert_eq!(what, "FRUN, element 0: there are 0 for a fill of 3 indices");
         let what = error_of(Draft::with_materials(), |draft| {
@@ -422,7 +420,7 @@ mod tests {
         draft.section("MTRL").bytes[..48].fill(255);
         assert!(parse(&draft.to_bytes()).is_ok());
     }
-    
+
     /// Uses the indices of a mesh in all ways in which later code does.
     fn use_all(mesh: &StoredMesh<'_>) {
         let mut mesh = mesh.to_mesh();

@@ -44,7 +44,8 @@ impl Header {
             None => MAGIC.starts_with(bytes),
         };
         if !has_magic {
-            let what = "is not an edge mesh: it does not begin with 'EDGEMESH'; build one from the model";
+            let what =
+                "is not an edge mesh: it does not begin with 'EDGEMESH'; build one from the model";
             return Err(FileError::new(FileErrorKind::Magic, what));
         }
         let cut = || truncated(TABLE_START as u64, bytes.len());

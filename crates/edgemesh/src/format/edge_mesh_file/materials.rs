@@ -222,10 +222,12 @@ mod tests {
             (sections.pictures.as_slice(), sections.picture_ends.as_slice()),
             (&b"onethree"[..], &[3, 3, 8][..])
         );
-        let pictures: Vec<u32> = sections.materials.iter().map(|material| material.picture).collect();
+        let pictures: Vec<u32> =
+            sections.materials.iter().map(|material| material.picture).collect();
         assert_eq!(pictures, [0, 1, 2, 0, 1]);
         let names = materials.iter().map(names).collect();
-        let found = to_materials(&sections.materials, &sections.picture_ends, &sections.pictures, names);
+        let found =
+            to_materials(&sections.materials, &sections.picture_ends, &sections.pictures, names);
         assert_eq!(found, materials);
     }
 
@@ -243,7 +245,10 @@ mod tests {
             textured("b", bytes(b"picture")),
         ];
         assert_eq!(*found, expected);
-        assert!(matches!(with_pictures(&found), Ok(Cow::Borrowed(_))), "all pictures are in memory");
+        assert!(
+            matches!(with_pictures(&found), Ok(Cow::Borrowed(_))),
+            "all pictures are in memory"
+        );
         drop(folder);
         let error = with_pictures(&materials).unwrap_err();
         assert_eq!((error.kind, error.place.clone()), (FileErrorKind::Texture, None));

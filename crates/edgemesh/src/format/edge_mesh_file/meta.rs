@@ -124,8 +124,12 @@ pub(super) fn to_json(mesh: &StoredMesh<'_>) -> Result<Vec<u8>, FileError> {
         materials: mesh.materials.iter().map(MaterialNames::of).collect(),
         groups: mesh.groups.to_vec(),
     };
-    serde_json::to_vec(&meta)
-        .map_err(|error| FileError::new(FileErrorKind::Meta, format!("the report cannot be written as JSON: {error}")))
+    serde_json::to_vec(&meta).map_err(|error| {
+        FileError::new(
+            FileErrorKind::Meta,
+            format!("the report cannot be written as JSON: {error}"),
+        )
+    })
 }
 
 /// Reads the JSON of a file.

@@ -122,7 +122,8 @@ impl<'a> Sections<'a> {
         for (index, section) in table.iter().enumerate() {
             let begin = section.offset;
             if begin < end || begin % ALIGNMENT as u64 != 0 {
-                let what = format!("begins at byte {begin}, not at a multiple of 16 after the table");
+                let what =
+                    format!("begins at byte {begin}, not at a multiple of 16 after the table");
                 return Err(section.error(index, &what));
             }
             if section.of(file).is_none() {
@@ -227,11 +228,15 @@ mod tests {
         let twice = error(|table| table[1].tag = table[0].tag);
         assert!(twice.starts_with("byte 80: section NUMS occurs twice"), "{twice}");
         let size = error(|table| (table[0].element_bytes, table[0].count) = (2, 8));
-        assert!(size.starts_with("byte 56: section NUMS has elements of 2 bytes instead of 4"), "{size}");
+        assert!(
+            size.starts_with("byte 56: section NUMS has elements of 2 bytes instead of 4"),
+            "{size}"
+        );
         for offset in [WHERE + 4, 96, 0] {
             let file = file(|table| (table[1].offset, table[1].count) = (offset, 0));
             let error = Sections::read(&file, 2).unwrap_err().to_string();
-            let expected = format!("byte 80: section OTHR begins at byte {offset}, not at a multiple");
+            let expected =
+                format!("byte 80: section OTHR begins at byte {offset}, not at a multiple");
             assert!(error.starts_with(&expected), "{error}");
         }
     }

@@ -93,9 +93,7 @@ fn mesh_contents<'a>(mesh: &'a StoredMesh<'_>) -> Vec<SectionContent<'a>> {
 }
 
 /// The sections of materials that are not empty.
-fn material_contents(
-    materials: &MaterialSections,
-) -> impl Iterator<Item = SectionContent<'_>> {
+fn material_contents(materials: &MaterialSections) -> impl Iterator<Item = SectionContent<'_>> {
     let contents = [
         SectionContent::new(Tag::MATERIALS, &materials.materials),
         SectionContent::new(Tag::PICTURE_ENDS, &materials.picture_ends),

@@ -22,7 +22,10 @@ pub(super) fn hard_classes(records: &[EdgeRecord]) -> EdgeFlags {
 }
 
 /// The vertices along a chain; a loop ends with its first vertex.
-pub(super) fn chain_vertices<'a>(mesh: &'a EdgeMesh, chain: &Chain) -> impl Iterator<Item = u32> + 'a {
+pub(super) fn chain_vertices<'a>(
+    mesh: &'a EdgeMesh,
+    chain: &Chain,
+) -> impl Iterator<Item = u32> + 'a {
     let links = &mesh.chains.links[chain.link_range()];
     let first = links.first().map(|link| link_ends(mesh, link)[0]);
     first.into_iter().chain(links.iter().map(|link| link_ends(mesh, link)[1]))

@@ -281,7 +281,8 @@ mod tests {
         assert_eq!(fold.values, [2, 2, 2, 3, 2, 2]);
         let classes = [EdgeFlags::BOUNDARY, EdgeFlags::VALLEY, EdgeFlags::BOUNDARY];
         let counts = [2, 1, 2].into_iter().zip(classes);
-        let expected: Vec<ClassRun> = counts.map(|(count, classes)| ClassRun { count, classes }).collect();
+        let expected: Vec<ClassRun> =
+            counts.map(|(count, classes)| ClassRun { count, classes }).collect();
         assert_eq!(fold.hard_classes, expected);
     }
 

@@ -54,7 +54,8 @@ pub(super) fn write_gltf(mesh: &EdgeMesh, name: &str, out: &mut impl Write) -> i
         let uri = format!("data:application/octet-stream;base64,{}", BASE64_STANDARD.encode(&data));
         document["buffers"] = json!([{"byteLength": data.len(), "uri": uri}]);
     }
-    let mut serializer = serde_json::Serializer::with_formatter(&mut *out, LineFormatter::default());
+    let mut serializer =
+        serde_json::Serializer::with_formatter(&mut *out, LineFormatter::default());
     document.serialize(&mut serializer)?;
     out.write_all(b"\n")
 }

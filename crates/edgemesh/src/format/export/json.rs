@@ -49,7 +49,8 @@ use crate::index::{NONE, to_u32};
 /// # Errors
 /// Those of `out`.
 pub(super) fn write_json(mesh: &EdgeMesh, name: &str, out: &mut impl Write) -> io::Result<()> {
-    let mut serializer = serde_json::Serializer::with_formatter(&mut *out, LineFormatter::default());
+    let mut serializer =
+        serde_json::Serializer::with_formatter(&mut *out, LineFormatter::default());
     Document { mesh, name }.serialize(&mut serializer)?;
     out.write_all(b"\n")
 }

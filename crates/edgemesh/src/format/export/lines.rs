@@ -77,7 +77,8 @@ mod tests {
     #[test]
     fn lines_break_at_two_depths() {
         let mut bytes = Vec::new();
-        let mut serializer = serde_json::Serializer::with_formatter(&mut bytes, LineFormatter::default());
+        let mut serializer =
+            serde_json::Serializer::with_formatter(&mut bytes, LineFormatter::default());
         let document = json!({"a": [[1, [2]], {"b": 3, "c": []}], "d": {"e": [4, 5]}, "f": []});
         document.serialize(&mut serializer).unwrap();
         let expected =

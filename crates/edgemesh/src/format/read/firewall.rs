@@ -127,7 +127,7 @@ fn drop_polygons(model: &mut Model, is_finite: &[bool], report: &mut Report) {
                 let count = model.corner_range(polygon).len();
                 let place = Some(model.polygon_place(polygon));
                 report.warn(WarningCode::Degenerate, place, || {
-                    format!("a face with {count} corners was dropped")
+                    format!("a face needs three corners, this one has {count}; it was dropped")
                 });
                 return false;
             }

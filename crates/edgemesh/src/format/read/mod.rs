@@ -95,9 +95,7 @@ fn read_source(source: &Source, format: Format) -> Result<(Model, Report), ReadE
         Format::Obj => obj::read_obj(source, &mut report),
         Format::Ply => ply::read_ply(source, &mut report),
         Format::Stl => stl::read_stl(source, &mut report),
-        Format::Gltf | Format::Glb => {
-            gltf::read_gltf(source, validate::gltf::check, &mut report)
-        }
+        Format::Gltf | Format::Glb => gltf::read_gltf(source, validate::gltf::check, &mut report),
         Format::Wrl => vrml::read_vrml(source, &mut report),
     };
     // A panic may leave the report half written; the caller does not get it then.

@@ -86,6 +86,8 @@ mod tests {
         let file = File::create(folder.path().join("large.png")).unwrap();
         file.set_len(MAX_PICTURE_BYTES + 1).unwrap();
         let source = Source { name: "model", folder: Some(folder.path()), bytes: b"" };
-        assert!(picture_beside(&source, "large.png").unwrap_err().contains("is larger than 256 MiB"));
+        assert!(
+            picture_beside(&source, "large.png").unwrap_err().contains("is larger than 256 MiB")
+        );
     }
 }

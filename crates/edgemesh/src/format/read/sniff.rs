@@ -82,10 +82,12 @@ fn by_magic(head: &[u8]) -> Option<Format> {
 fn by_name(head: &[u8], named: Option<Format>, is_utf16: bool) -> Result<Format, String> {
     let is_binary = head.contains(&0) && !is_utf16;
     match named {
-        Some(Format::Wrl) => Err("text that does not begin with '#VRML', so not a VRML file".into()),
-        Some(Format::Ply) => Err("data that does not begin with 'ply', so not a PLY file".into()),
-        Some(Format::Glb) => Err("data that does not begin with 'glTF', so not binary glTF".into()),
-        Some(Format::Gltf) => Err("text that does not begin with '{', so not a glTF file".into()),
+        Some(Format::Wrl) => Err("text without '#VRML' at its start, which VRML needs".into()),
+        Some(Format::Ply) => Err("data without 'ply' at its start, which PLY needs".into()),
+        Some(Format::Glb) => {
+            Err("data without 'glTF' at its start, which binary glTF needs".into())
+        }
+        Some(Format::Gltf) => Err("text without '{' at its start, which glTF needs".into()),
         Some(Format::Stl) => Ok(Format::Stl),
         Some(Format::Obj) | None if is_binary => Err("binary data".into()),
         // Text of unknown kind: OBJ is the only format without a signature.

@@ -92,7 +92,8 @@ impl Asset<'_> {
         let elements = match json.buffer_view {
             Some(view) => {
                 let offset = json.byte_offset.unwrap_or_default().0;
-                let layout = ElementLayout { view: view.value(), offset, count: json.count.0, size };
+                let layout =
+                    ElementLayout { view: view.value(), offset, count: json.count.0, size };
                 Some(self.elements(&layout, &part)?)
             }
             None => self.check_zeros(json.count.0, &part).map(|()| None)?,

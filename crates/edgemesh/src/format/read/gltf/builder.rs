@@ -261,12 +261,7 @@ impl<'a> ModelBuilder<'a> {
         }
     }
 
-    fn add_triangles(
-        &mut self,
-        triangles: &[[u32; 3]],
-        primitive: Primitive,
-        range: VertexRange,
-    ) {
+    fn add_triangles(&mut self, triangles: &[[u32; 3]], primitive: Primitive, range: VertexRange) {
         for &[a, b, c] in triangles {
             let corners = if range.is_mirrored { [a, c, b] } else { [a, b, c] };
             self.model.push_polygon(&corners.map(|corner| range.corner(corner)), 0);
@@ -468,7 +463,10 @@ mod tests {
         let error = sample.read_primitive(&primitive).unwrap_err();
         assert_eq!(error.kind, ReadErrorKind::Index);
         assert_eq!(error.place, Some(Place::Part("meshes[0].primitives[0]".into())));
-        assert!(error.what.starts_with("index 5 of accessors[1] names vertex 3 (counted from 0) of 3"), "{error}");
+        assert!(
+            error.what.starts_with("index 5 of accessors[1] names vertex 3 (counted from 0) of 3"),
+            "{error}"
+        );
     }
 
     #[test]

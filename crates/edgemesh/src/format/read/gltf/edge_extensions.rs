@@ -18,8 +18,8 @@ use serde_json::Value;
 
 use super::super::error::{ReadError, ReadErrorKind};
 use super::accessor::Accessor;
-use super::topology::polyline;
 use super::primitive::Primitive;
+use super::topology::polyline;
 use crate::report::{Report, WarningCode};
 
 const VISIBILITY: &str = "EXT_mesh_primitive_edge_visibility";
@@ -118,7 +118,10 @@ impl Reader<'_> {
         let needed = (6 * self.triangles.len()).div_ceil(8);
         if bytes.len() != needed {
             let count = self.triangles.len();
-            let what = format!("has {} bytes of visibility, and {count} triangles need {needed}", bytes.len());
+            let what = format!(
+                "has {} bytes of visibility, and {count} triangles need {needed}",
+                bytes.len()
+            );
             return Err(self.error(VISIBILITY, what));
         }
         Ok(bytes.into_iter().flat_map(|[byte]| [0, 2, 4, 6].map(|shift| (byte >> shift) & 3)))
@@ -129,7 +132,9 @@ impl Reader<'_> {
         let indices = self.accessor(OUTLINE, json.indices)?.unsigned::<1>()?.into_flattened();
         match indices.as_chunks() {
             (pairs, []) => Ok(pairs.to_vec()),
-            _ => Err(self.error(OUTLINE, format!("has an odd number of indices, {}", indices.len()))),
+            _ => {
+                Err(self.error(OUTLINE, format!("has an odd number of indices, {}", indices.len())))
+            }
         }
     }
 

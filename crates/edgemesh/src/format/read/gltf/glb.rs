@@ -61,7 +61,8 @@ fn check_header<'a>(source: &Source<'a>, report: &mut Report) -> Result<&'a [u8]
         return fail(ReadErrorKind::Truncated, bytes.len() as u64, what);
     };
     if version != 2 {
-        let what = format!("binary glTF version {version} is not supported; convert it to version 2");
+        let what =
+            format!("binary glTF version {version} is not supported; convert it to version 2");
         return fail(ReadErrorKind::Format, 4, what);
     }
     let Some(whole) = bytes.get(..length as usize) else {

@@ -40,10 +40,7 @@ impl<'a> Primitive<'a> {
     ///
     /// # Errors
     /// As [`Asset::accessor`].
-    pub(super) fn attribute(
-        &self,
-        semantic: Semantic,
-    ) -> Result<Option<Accessor<'a>>, ReadError> {
+    pub(super) fn attribute(&self, semantic: Semantic) -> Result<Option<Accessor<'a>>, ReadError> {
         let part = || format!("{}.attributes", self.part());
         let index = self.json.attributes.get(&Checked::Valid(semantic));
         index.map(|index| self.asset.accessor(index.value(), part)).transpose()

@@ -70,7 +70,8 @@ fn find_parents(asset: &Asset) -> Result<Vec<u32>, ReadError> {
             let part = || format!("nodes[{at}].children");
             asset.get(nodes, child, "nodes", part)?;
             if parents[child] != NONE {
-                let what = format!("nodes[{child}] is already a child of nodes[{}]", parents[child]);
+                let what =
+                    format!("nodes[{child}] is already a child of nodes[{}]", parents[child]);
                 return Err(asset.error(ReadErrorKind::Cycle, part(), what));
             }
             parents[child] = to_u32(at);

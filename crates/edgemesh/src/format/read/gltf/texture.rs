@@ -62,7 +62,9 @@ impl PictureCache {
         let set = moved_set.unwrap_or(info.tex_coord.into());
         if set != 0 {
             report.warn(WarningCode::Unsupported, Some(Place::Part(part())), || {
-                format!("uses texture coordinate set {set}; only set 0 is supported, so it was left out")
+                format!(
+                    "uses texture coordinate set {set}; only set 0 is supported, so it was left out"
+                )
             });
             return None;
         }
@@ -72,15 +74,15 @@ impl PictureCache {
             });
         }
         let texture = info.index.value();
-        let image = asset.image_of(texture).map_err(|(place, what)| warn_left_out(report, place, &what));
+        let image =
+            asset.image_of(texture).map_err(|(place, what)| warn_left_out(report, place, &what));
         let image = image.ok()?;
         if let Some(picture) = self.pictures.get(&image) {
             return picture.clone();
         }
         let picture = self.read_picture(asset, image);
-        let picture = picture
-            .map_err(|what| warn_left_out(report, format!("images[{image}]"), &what))
-            .ok();
+        let picture =
+            picture.map_err(|what| warn_left_out(report, format!("images[{image}]"), &what)).ok();
         self.pictures.insert(image, picture.clone());
         picture
     }
@@ -232,7 +234,8 @@ mod tests {
         ] {
             let (texture, report) = read(&one, &textures, &images);
             assert_eq!(texture, None, "{textures} {images}");
-            let warning = report.warnings().iter().find(|warning| warning.code == WarningCode::Material);
+            let warning =
+                report.warnings().iter().find(|warning| warning.code == WarningCode::Material);
             let warning = warning.unwrap_or_else(|| panic!("{textures} {images}: {report:?}"));
             assert_eq!((warning.count, &warning.place), (1, &Some(Place::Part(place.into()))));
             assert!(warning.message.contains(what), "{textures} {images}: {}", warning.message);

@@ -3,21 +3,21 @@
 //! Source: Alias|Wavefront, *Advanced Visualizer Manual*, appendix B1, and what
 //! programs write.
 //!
-//! Idea: the text is cut at line ends into chunks. Each is parsed as if it were a
-//! file ([`chunk`]), all in parallel, and then they are merged in their order
+//! Idea: the text is cut at line ends into blocks. Each is parsed as if it were a
+//! file ([`block`]), all in parallel, and then they are merged in their order
 //! ([`merge`]): relative indices and line numbers become absolute, and the state at
-//! the end of a chunk (material, group, smoothing) begins the next one. The result
+//! the end of a block (material, group, smoothing) begins the next one. The result
 //! does not depend on where the text was cut.
 //!
 //! ```text
-//! bytes --split--> texts --parse--> chunks --merge--> Model <-- materials, mtl
+//! bytes --split--> texts --parse--> blocks --merge--> Model <-- materials, mtl
 //! ```
 //!
 //! Rejected: `tobj` and `obj-rs`, which report no lines, lose polygons, smoothing
 //! groups or `l` statements, and refuse files that other programs write. Tests
 //! compare this reader with both.
 
-mod chunk;
+mod block;
 mod materials;
 mod merge;
 mod mtl;
@@ -28,7 +28,7 @@ use std::borrow::Cow;
 use memchr::memchr;
 use rayon::prelude::*;
 
-use self::chunk::parse_chunk;
+use self::block::parse_block;
 use self::merge::merge;
 use super::byte_order_mark::without_mark;
 use super::error::{ReadError, ReadErrorKind};
@@ -36,9 +36,9 @@ use super::source::Source;
 use crate::model::Model;
 use crate::report::Report;
 
-/// Bytes of a chunk: large enough to hide its overhead, small enough that a file of
+/// Bytes of a block: large enough to hide its overhead, small enough that a file of
 /// some megabytes keeps every core busy.
-const CHUNK_BYTES: usize = 1 << 20;
+const BLOCK_BYTES: usize = 1 << 20;
 
 /// Reads an OBJ file in UTF-8, UTF-16 or an old code page.
 ///
@@ -47,17 +47,17 @@ const CHUNK_BYTES: usize = 1 << 20;
 /// does not exist. Size: too many elements. Format: broken UTF-16.
 pub(super) fn read_obj(source: &Source, report: &mut Report) -> Result<Model, ReadError> {
     let text = utf8_of(source)?;
-    read_in_chunks(source, &text, CHUNK_BYTES, report)
+    read_in_blocks(source, &text, BLOCK_BYTES, report)
 }
 
-fn read_in_chunks(
+fn read_in_blocks(
     source: &Source,
     text: &[u8],
-    chunk_bytes: usize,
+    block_bytes: usize,
     report: &mut Report,
 ) -> Result<Model, ReadError> {
-    let chunks = split(text, chunk_bytes).into_par_iter().map(parse_chunk).collect();
-    merge(source, chunks, report)
+    let blocks = split(text, block_bytes).into_par_iter().map(parse_block).collect();
+    merge(source, blocks, report)
 }
 
 /// The text without its byte order mark, UTF-16 converted to UTF-8.
@@ -80,19 +80,19 @@ fn utf8_of<'a>(source: &Source<'a>) -> Result<Cow<'a, [u8]>, ReadError> {
 }
 
 /// Cuts the text after line ends, but not where a statement continues.
-fn split(text: &[u8], chunk_bytes: usize) -> Vec<&[u8]> {
-    let mut chunks = Vec::new();
+fn split(text: &[u8], block_bytes: usize) -> Vec<&[u8]> {
+    let mut blocks = Vec::new();
     let mut start = 0;
     while start < text.len() {
-        let end = chunk_end(text, (start + chunk_bytes).min(text.len()));
-        chunks.push(&text[start..end]);
+        let end = block_end(text, (start + block_bytes).min(text.len()));
+        blocks.push(&text[start..end]);
         start = end;
     }
-    chunks
+    blocks
 }
 
 /// The first end of a statement at or after `from`.
-fn chunk_end(text: &[u8], from: usize) -> usize {
+fn block_end(text: &[u8], from: usize) -> usize {
     let mut at = from;
     // From one byte before, to find a line end there.
     while let Some(found) = memchr(b'\n', &text[at - 1..]) {
@@ -119,16 +119,16 @@ mod tests {
     use crate::model::{Material, Segment, Smoothing, Texture, TextureSource};
     use crate::report::{Place, WarningCode};
 
-    fn try_read(text: &[u8], chunk_bytes: usize) -> (Result<Model, ReadError>, Report) {
+    fn try_read(text: &[u8], block_bytes: usize) -> (Result<Model, ReadError>, Report) {
         let mut report = Report::default();
         let source = Source { name: "test.obj", folder: None, bytes: text };
         let text = utf8_of(&source).unwrap();
-        let model = read_in_chunks(&source, &text, chunk_bytes, &mut report);
+        let model = read_in_blocks(&source, &text, block_bytes, &mut report);
         (model, report)
     }
 
     fn read(text: &str) -> Model {
-        try_read(text.as_bytes(), CHUNK_BYTES).0.unwrap()
+        try_read(text.as_bytes(), BLOCK_BYTES).0.unwrap()
     }
 
     const THREE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -180,8 +180,8 @@ mod tests {
     #[test]
     fn an_unreadable_line_is_reported_before_wrong_indices() {
         let text = b"v 0 0 0\nv 1 0 0\nf 1 2 3\nv 0 x 0\nv 0 1 0\n";
-        for chunk_bytes in [1, 16, CHUNK_BYTES] {
-            let error = try_read(text, chunk_bytes).0.unwrap_err();
+        for block_bytes in [1, 16, BLOCK_BYTES] {
+            let error = try_read(text, block_bytes).0.unwrap_err();
             assert_eq!((error.kind, error.place), (ReadErrorKind::Number, Some(Place::Line(4))));
         }
     }
@@ -189,7 +189,7 @@ mod tests {
     #[test]
     fn wrong_attributes_are_left_out_and_the_face_is_kept() {
         let text = format!("{THREE}vt 0 0\nf 1/1 2/7 3/-3\nf 1/x 2 3\n");
-        let (model, report) = try_read(text.as_bytes(), CHUNK_BYTES);
+        let (model, report) = try_read(text.as_bytes(), BLOCK_BYTES);
         assert_eq!(model.unwrap().corner_texcoords, [0, NONE, NONE, NONE, NONE, NONE]);
         assert_eq!(report.count(WarningCode::Index), 3);
     }
@@ -271,13 +271,13 @@ mod tests {
 
     #[test]
     fn not_a_number_and_not_finite_differ() {
-        let error = try_read(b"v 0 zero 0\n", CHUNK_BYTES).0.unwrap_err();
+        let error = try_read(b"v 0 zero 0\n", BLOCK_BYTES).0.unwrap_err();
         assert_eq!((error.kind, error.place), (ReadErrorKind::Number, Some(Place::Line(1))));
-        let error = try_read(b"v 0 1\n", CHUNK_BYTES).0.unwrap_err();
+        let error = try_read(b"v 0 1\n", BLOCK_BYTES).0.unwrap_err();
         assert!(error.what.contains("has 2"), "{error}");
         let (_, report) = try_read(format!("{THREE}v 1e400 0 0\nf 1 2 3\n").as_bytes(), 8);
         assert_eq!(report.warnings()[0].place, Some(Place::Line(4)));
-        let (model, report) = try_read(b"v 3.1+e2 0 0\n", CHUNK_BYTES);
+        let (model, report) = try_read(b"v 3.1+e2 0 0\n", BLOCK_BYTES);
         assert_eq!(model.unwrap().positions[0][0].to_bits(), 3.1_f64.to_bits());
         assert_eq!(report.count(WarningCode::Syntax), 1);
     }
@@ -294,9 +294,9 @@ mod tests {
         }
     }
 
-    /// Every kind of statement, in an order that makes chunks depend on each other.
+    /// Every kind of statement, in an order that makes blocks depend on each other.
     #[test]
-    fn the_result_does_not_depend_on_the_chunks() {
+    fn the_result_does_not_depend_on_the_blocks() {
         let mut text = String::from("mtllib none.mtl\n# comment \\\nstill comment\n");
         for k in 0..60 {
             text += &format!("v {k} {} 0.25{}\n", k % 7, ["", " 1 0 0", " 1"][k % 3]);
@@ -313,10 +313,10 @@ mod tests {
         let (whole, whole_report) = try_read(text.as_bytes(), usize::MAX >> 1);
         let whole = whole.unwrap();
         assert!(whole.polygon_count() > 30 && whole.runs.len() > 10);
-        for chunk_bytes in [1, 7, 50, 333] {
-            let (model, report) = try_read(text.as_bytes(), chunk_bytes);
-            assert_eq!(format!("{:?}", model.unwrap()), format!("{whole:?}"), "{chunk_bytes}");
-            assert_eq!(report, whole_report, "{chunk_bytes}");
+        for block_bytes in [1, 7, 50, 333] {
+            let (model, report) = try_read(text.as_bytes(), block_bytes);
+            assert_eq!(format!("{:?}", model.unwrap()), format!("{whole:?}"), "{block_bytes}");
+            assert_eq!(report, whole_report, "{block_bytes}");
         }
     }
 }

@@ -2,16 +2,16 @@
 
 use crate::index::{MAX_INDEX, NONE};
 
-/// An index within a chunk: absolute and counted from 0, or relative to the chunk's
+/// An index within a block: absolute and counted from 0, or relative to the block's
 /// first element, whose index [`Self::resolve`] adds.
 ///
 /// ```text
 /// bit 31   0: absolute     1: relative, with a bias, so that it can be negative
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct ChunkIndex(pub(super) u32);
+pub(super) struct BlockIndex(pub(super) u32);
 
-impl ChunkIndex {
+impl BlockIndex {
     const RELATIVE: u32 = 1 << 31;
     const BIAS: i64 = 1 << 30;
 
@@ -21,13 +21,13 @@ impl ChunkIndex {
         Self(index - 1)
     }
 
-    /// An index relative to the chunk's first element; negative in earlier chunks.
+    /// An index relative to the block's first element; negative in earlier blocks.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the bias")]
     fn relative(index: i64) -> Self {
         Self((index + Self::BIAS) as u32 | Self::RELATIVE)
     }
 
-    /// The absolute index if the chunk's first element has index `base`; negative if
+    /// The absolute index if the block's first element has index `base`; negative if
     /// it lies before the first element of the file.
     #[inline]
     pub(super) fn resolve(self, base: usize) -> i64 {
@@ -40,12 +40,12 @@ impl ChunkIndex {
 }
 
 /// Reads an index: 1 is the first element of the file, -1 the last of the `count`
-/// elements that the chunk has listed so far.
+/// elements that the block has listed so far.
 ///
 /// # Errors
 /// Fails if it is 0, not a whole number, or too large; the message follows the word
 /// in a sentence.
-pub(super) fn parse_index(word: &[u8], count: usize) -> Result<ChunkIndex, String> {
+pub(super) fn parse_index(word: &[u8], count: usize) -> Result<BlockIndex, String> {
     let is_whole = word.strip_prefix(b"-").or(word.strip_prefix(b"+")).unwrap_or(word);
     if is_whole.is_empty() || !is_whole.iter().all(u8::is_ascii_digit) {
         return Err("is not a whole number".into());
@@ -58,9 +58,9 @@ pub(super) fn parse_index(word: &[u8], count: usize) -> Result<ChunkIndex, Strin
     match index {
         0 => Err("has index 0; indices count from 1".into()),
         // Past every possible count: the merge reports it.
-        1.. => Ok(ChunkIndex::absolute(u32::try_from(index.min(limit + 1)).unwrap_or(NONE))),
+        1.. => Ok(BlockIndex::absolute(u32::try_from(index.min(limit + 1)).unwrap_or(NONE))),
         _ if index < -limit => Err("reaches before the first vertex".into()),
-        _ => Ok(ChunkIndex::relative(count as i64 + index)),
+        _ => Ok(BlockIndex::relative(count as i64 + index)),
     }
 }
 
@@ -104,13 +104,13 @@ mod tests {
         assert_eq!(resolved("1", 5, 100), Ok(0));
         assert_eq!(resolved("+7", 5, 100), Ok(6));
         assert_eq!(resolved("-1", 5, 100), Ok(104));
-        assert_eq!(resolved("-6", 5, 100), Ok(99), "in the chunk before");
+        assert_eq!(resolved("-6", 5, 100), Ok(99), "in the block before");
         assert_eq!(resolved("-106", 5, 100), Ok(-1), "before the first");
         assert_eq!(resolved("4000000000", 5, 100), Ok(MAX_INDEX as i64));
         for word in ["0", "", "-", "1.5", "x", "99999999999999999999", "--1", "-1073741824"] {
             assert!(parse_index(word.as_bytes(), 5).is_err(), "{word}");
         }
-        assert_ne!(ChunkIndex::relative(MAX_INDEX as i64 - 1).0, NONE);
+        assert_ne!(BlockIndex::relative(MAX_INDEX as i64 - 1).0, NONE);
     }
 
     #[test]

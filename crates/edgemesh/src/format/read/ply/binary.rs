@@ -11,7 +11,7 @@
 use super::super::error::ReadError;
 use super::super::source::Source;
 use super::header::{Encoding, Header};
-use super::rows::{RowPlan, Row, Rows, Step, check_room, list_length, truncated};
+use super::rows::{Row, RowPlan, Rows, Step, check_room, list_length, truncated};
 use super::scalar::Scalar;
 use crate::report::{Place, Report};
 
@@ -143,7 +143,12 @@ impl Rows for BinaryRows<'_, '_> {
         check_room(self.source, self.place(), plan.element, needed, self.left().len())
     }
 
-    fn read(&mut self, plan: &RowPlan, row: &mut Row, _report: &mut Report) -> Result<(), ReadError> {
+    fn read(
+        &mut self,
+        plan: &RowPlan,
+        row: &mut Row,
+        _report: &mut Report,
+    ) -> Result<(), ReadError> {
         self.row += 1;
         self.start = self.at;
         let left = self.left();

@@ -16,7 +16,7 @@ use super::super::error::{ReadError, ReadErrorKind};
 use super::super::source::Source;
 use super::super::words::quoted;
 use super::header::{Element, Header};
-use super::rows::{RowPlan, Row, Rows, SLOTS};
+use super::rows::{Row, RowPlan, Rows, SLOTS};
 use super::scalar::Scalar;
 use crate::index::{MAX_INDEX, NONE};
 use crate::model::{Corner, Model, Segment};
@@ -227,7 +227,8 @@ impl<R: Rows> ElementReader<'_, '_, R> {
             #[expect(clippy::cast_possible_truncation, reason = "below MAX_INDEX")]
             return Ok(value as u32);
         }
-        let what = format!("index {value} is not one of {} vertices, counted from 0", self.vertex_count);
+        let what =
+            format!("index {value} is not one of {} vertices, counted from 0", self.vertex_count);
         Err(self.source.error(ReadErrorKind::Index, Some(self.rows.place()), what))
     }
 
@@ -235,7 +236,10 @@ impl<R: Rows> ElementReader<'_, '_, R> {
     fn push(&mut self, corners: &[Corner]) -> Result<(), ReadError> {
         if corners.len() < 3 {
             self.report.warn(WarningCode::Degenerate, Some(self.rows.place()), || {
-                format!("a face with {} corners was dropped", corners.len())
+                format!(
+                    "a face needs three corners, this one has {}; it was dropped",
+                    corners.len()
+                )
             });
             return Ok(());
         }

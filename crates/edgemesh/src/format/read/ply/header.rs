@@ -133,7 +133,10 @@ impl<'a> HeaderReader<'_, 'a> {
             Some(b"end_header") => return Ok(false),
             Some(word) => {
                 report.warn(WarningCode::Syntax, Some(Place::Line(self.words.line())), || {
-                    format!("header lines do not begin with {}; the line was left out", quoted(word))
+                    format!(
+                        "header lines do not begin with {}; the line was left out",
+                        quoted(word)
+                    )
                 });
             }
         }
@@ -194,8 +197,7 @@ impl<'a> HeaderReader<'_, 'a> {
     }
 
     fn scalar(&self, name: &[u8]) -> Result<Scalar, ReadError> {
-        Scalar::of_name(name)
-            .ok_or_else(|| self.syntax(format!("{} is not a type", quoted(name))))
+        Scalar::of_name(name).ok_or_else(|| self.syntax(format!("{} is not a type", quoted(name))))
     }
 
     fn word(&mut self, what: &str) -> Result<&'a [u8], ReadError> {

@@ -103,7 +103,8 @@ pub(super) trait Rows {
     ///
     /// # Errors
     /// Truncated: the file ends. Syntax, Number: the text is not a row of the element.
-    fn read(&mut self, plan: &RowPlan, row: &mut Row, report: &mut Report) -> Result<(), ReadError>;
+    fn read(&mut self, plan: &RowPlan, row: &mut Row, report: &mut Report)
+    -> Result<(), ReadError>;
 
     /// The place of the last row that was read.
     fn place(&self) -> Place;
@@ -138,7 +139,8 @@ pub(super) fn check_room(
 /// The error of a file that ends in row `row` of `element`.
 pub(super) fn truncated(source: &Source, place: Place, element: &Element, row: u64) -> ReadError {
     let name = quoted(element.name);
-    let what = format!("the file is truncated: it ends in row {row} of {} of {name}", element.count);
+    let what =
+        format!("the file is truncated: it ends in row {row} of {} of {name}", element.count);
     source.error(ReadErrorKind::Truncated, Some(place), what)
 }
 

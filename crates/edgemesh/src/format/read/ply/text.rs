@@ -11,7 +11,7 @@ use super::super::error::{ReadError, ReadErrorKind};
 use super::super::source::Source;
 use super::super::words::{Words, quoted};
 use super::header::Header;
-use super::rows::{RowPlan, Row, Rows, Step, check_room, list_length, truncated};
+use super::rows::{Row, RowPlan, Rows, Step, check_room, list_length, truncated};
 use crate::report::{Place, Report, WarningCode};
 
 /// The rows of a text file.
@@ -85,7 +85,12 @@ impl Rows for TextRows<'_, '_> {
         check_room(self.source, self.place(), plan.element, needed, self.words.left().len())
     }
 
-    fn read(&mut self, plan: &RowPlan, row: &mut Row, report: &mut Report) -> Result<(), ReadError> {
+    fn read(
+        &mut self,
+        plan: &RowPlan,
+        row: &mut Row,
+        report: &mut Report,
+    ) -> Result<(), ReadError> {
         self.words.skip_space();
         self.row += 1;
         self.line = self.words.line();

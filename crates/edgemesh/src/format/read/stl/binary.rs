@@ -66,8 +66,8 @@ pub(super) fn read_binary(source: &Source, report: &mut Report) -> Result<Model,
         let place = Place::Byte((size - rest.len()) as u64);
         report.warn(WarningCode::Truncated, Some(place), || {
             format!(
-                "the count is {count} triangles, the file has room for {whole}; {} were read",
-                facets.len()
+                "the stated number of triangles is {count}, and the file has room for {whole}; \
+                 the smaller number was read"
             )
         });
     }

@@ -165,7 +165,7 @@ impl<'a> TextReader<'_, 'a> {
         let count = self.corners.len();
         self.corners.clear();
         self.report.warn(WarningCode::Syntax, Some(Place::Line(line)), || {
-            format!("a facet with {count} vertices was dropped: facets are triangles")
+            format!("a facet needs three vertices, this one has {count}; it was dropped")
         });
     }
 

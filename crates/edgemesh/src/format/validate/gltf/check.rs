@@ -66,13 +66,20 @@ mod tests {
 
     #[test]
     fn each_kind_of_rule() {
-        let (place, what) = warning(r#""scenes": [{"nodes": [0]}], "nodes": [{"mesh": 1}]"#).unwrap();
+        let (place, what) =
+            warning(r#""scenes": [{"nodes": [0]}], "nodes": [{"mesh": 1}]"#).unwrap();
         assert_eq!(place, "nodes[0].mesh");
         assert_eq!(what, "names meshes[1]; there are 0");
         let (place, what) = warning(r#""buffers": [{"byteLength": 1}, {}]"#).unwrap();
         assert_eq!((place.as_str(), what.as_str()), ("buffers[1]", "has no byteLength"));
-        assert_eq!(warning(r#""buffers": [{"byteLength": 0}]"#).unwrap().0, "buffers[0].byteLength");
-        assert_eq!(warning(r#""meshes": []"#).unwrap(), ("meshes".into(), "is an empty list".into()));
+        assert_eq!(
+            warning(r#""buffers": [{"byteLength": 0}]"#).unwrap().0,
+            "buffers[0].byteLength"
+        );
+        assert_eq!(
+            warning(r#""meshes": []"#).unwrap(),
+            ("meshes".into(), "is an empty list".into())
+        );
         assert_eq!(
             warning(r#""extensions": {"A": 1}, "extensionsUsed": ["A"]"#).unwrap().0,
             "extensions.A"
@@ -136,7 +143,9 @@ mod tests {
         let (place, what) = warning(&attributes(r#""POSITION": 1"#)).unwrap();
         assert_eq!(place, "meshes[0].primitives[0].attributes");
         assert!(what.contains("POSITION"), "{what}");
-        assert!(warning(&attributes(r#""POSITION": 0, "JOINTS_0": 1"#)).unwrap().1.contains("sets"));
+        assert!(
+            warning(&attributes(r#""POSITION": 0, "JOINTS_0": 1"#)).unwrap().1.contains("sets")
+        );
         assert!(warning(&attributes(r#""POSITION": 0, "SMELL": 1"#)).unwrap().1.contains("SMELL"));
         assert!(
             warning(&attributes(r#""POSITION": 0, "NORMAL": 2"#)).unwrap().1.contains("3 and of 4")

@@ -50,7 +50,9 @@ pub(super) fn matrix_has_right_angles(_: &Value, matrix: &Value) -> Fault {
     let dot = |a: &[f64; 4], b: &[f64; 4]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let is_skew = |a, b| dot(a, b).abs() > 1e-3 * (dot(a, a) * dot(b, b)).sqrt();
     let is_broken = is_skew(x, y) || is_skew(y, z) || is_skew(z, x);
-    is_broken.then(|| "is not a product of translation, rotation and scale; it was used nevertheless".into())
+    is_broken.then(|| {
+        "is not a product of translation, rotation and scale; it was used nevertheless".into()
+    })
 }
 
 pub(super) fn view_is_in_its_buffer(root: &Value, view: &Value) -> Fault {

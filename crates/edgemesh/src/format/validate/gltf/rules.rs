@@ -36,7 +36,10 @@ pub(super) const RULES: &[(&str, Rule)] = &[
     ("nodes[].mesh", IndexOf("meshes")),
     ("nodes[].skin", IndexOf("skins")),
     ("nodes[].camera", IndexOf("cameras")),
-    ("nodes[].extensions.KHR_lights_punctual.light", IndexOf("extensions.KHR_lights_punctual.lights")),
+    (
+        "nodes[].extensions.KHR_lights_punctual.light",
+        IndexOf("extensions.KHR_lights_punctual.lights"),
+    ),
     ("skins[].joints[]", IndexOf("nodes")),
     ("skins[].skeleton", IndexOf("nodes")),
     ("skins[].inverseBindMatrices", IndexOf("accessors")),

@@ -284,7 +284,10 @@ impl<'a> Parser<'a> {
             }
         }
         let line = open.last().map_or(line, |last| last.line);
-        Err(self.syntax(line, "the bracket that begins here is not closed, or by another kind of bracket"))
+        Err(self.syntax(
+            line,
+            "the bracket that begins here is not closed, or by another kind of bracket",
+        ))
     }
 }
 
@@ -363,7 +366,10 @@ mod tests {
         let (document, report) = parsed(text, Version::Two).unwrap();
         let first = document.root().first_child().unwrap();
         let second = first.next().unwrap();
-        assert_eq!((second.target().key(), second.target().name().map(|n| &**n)), (first.key(), Some("1")));
+        assert_eq!(
+            (second.target().key(), second.target().name().map(|n| &**n)),
+            (first.key(), Some("1"))
+        );
         let third = second.next().unwrap();
         assert_eq!(third.node_of("children").unwrap().key(), first.key());
         assert_eq!(third.next().unwrap().target().kind(), "Transform");

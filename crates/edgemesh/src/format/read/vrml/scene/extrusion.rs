@@ -1,8 +1,8 @@
 //! `Extrusion` (VRML 97 6.18): a cross section swept along a spine.
 //!
-//! Each point of the spine has a frame: y along the spine, z towards the inside of the
-//! bend, x across. A point (x, z) of the cross section is scaled, rotated by the
-//! orientation, and transformed by that frame.
+//! Each point of the spine has axes: y along the spine, z towards the inside of the bend,
+//! x across. A point (x, z) of the cross section is scaled, rotated by the orientation,
+//! and put into these axes.
 //!
 //! ```text
 //!        y  next                     cross section, seen from above,
@@ -13,7 +13,7 @@
 //! ```
 //!
 //! At a straight point the bend is that of the previous point, or of the first bend. The
-//! frame of a spine without bends is the shortest rotation from +y. A closed spine has
+//! axes of a spine without bends are the shortest rotation from +y. A closed spine has
 //! no caps, because they would be inside.
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
@@ -76,10 +76,10 @@ impl Extrusion {
         if self.spine.len() < 2 || self.section.len() < 2 {
             return surface;
         }
-        let rings: Vec<Vec<usize>> = frames(&self.spine)
+        let rings: Vec<Vec<usize>> = axes_along(&self.spine)
             .into_iter()
             .enumerate()
-            .map(|(at, frame)| self.ring(at, frame, &mut surface))
+            .map(|(at, axes)| self.ring(at, axes, &mut surface))
             .collect();
         for pair in rings.windows(2) {
             self.band(&pair[0], &pair[1], &mut surface);
@@ -95,12 +95,12 @@ impl Extrusion {
     }
 
     /// Adds the cross section at a point of the spine.
-    fn ring(&self, at: usize, frame: DMat3, surface: &mut Surface) -> Vec<usize> {
+    fn ring(&self, at: usize, axes: DMat3, surface: &mut Surface) -> Vec<usize> {
         let scale = value_at(&self.scales, at).unwrap_or([1.0; 2]);
         let turn = value_at(&self.rotations, at).map_or(DQuat::IDENTITY, rotation);
         let add = |&point: &DVec2| {
             let [x, z] = (point * DVec2::from(scale)).to_array();
-            let point = self.spine[at] + frame * (turn * DVec3::new(x, 0.0, z));
+            let point = self.spine[at] + axes * (turn * DVec3::new(x, 0.0, z));
             surface.point(point.to_array())
         };
         self.section.iter().map(add).collect()
@@ -126,28 +126,28 @@ fn is_closed(spine: &[DVec3]) -> bool {
     spine.len() > 2 && spine.first() == spine.last()
 }
 
-/// The frame at each point of the spine, with the axes as columns.
-fn frames(spine: &[DVec3]) -> Vec<DMat3> {
+/// The axes at each point of the spine, as columns.
+fn axes_along(spine: &[DVec3]) -> Vec<DMat3> {
     let bends = bends(spine);
     let Some(first_bend) = bends.iter().flatten().next().copied() else {
-        return vec![straight_frame(spine); spine.len()];
+        return vec![straight_axes(spine); spine.len()];
     };
     let mut z = first_bend;
     let mut y = DVec3::Y;
-    let frame = |(at, bend): (usize, &Option<DVec3>)| {
+    let axes = |(at, bend): (usize, &Option<DVec3>)| {
         if let Some(bend) = *bend {
-            // In the middle of an S the frame must not flip.
+            // In the middle of an S the axes must not flip.
             z = if bend.dot(z) < 0.0 { -bend } else { bend };
         }
         y = tangent(spine, at).unwrap_or(y);
         let x = y.cross(z).normalize_or_zero();
         DMat3::from_cols(x, y, z)
     };
-    bends.iter().enumerate().map(frame).collect()
+    bends.iter().enumerate().map(axes).collect()
 }
 
-/// The frame of a spine without bends.
-fn straight_frame(spine: &[DVec3]) -> DMat3 {
+/// The axes of a spine without bends.
+fn straight_axes(spine: &[DVec3]) -> DMat3 {
     let along = spine.iter().map(|&point| point - spine[0]).find_map(DVec3::try_normalize);
     match along {
         // Half a turn has no shortest rotation; this one keeps x.
@@ -252,8 +252,9 @@ mod tests {
         let expected =
             [[FRAC_1_SQRT_2, 2.0 - FRAC_1_SQRT_2, 0.0], [-FRAC_1_SQRT_2, 2.0 + FRAC_1_SQRT_2, 0.0]];
         assert_eq!(rounded(&bend.positions[2..4]), rounded(&expected));
-        let s = frames(&[[0., 0., 0.], [0., 1., 0.], [1., 1., 0.], [1., 2., 0.]].map(DVec3::from));
-        assert!(s.iter().all(|frame| frame.z_axis == s[0].z_axis), "{s:?}");
+        let s =
+            axes_along(&[[0., 0., 0.], [0., 1., 0.], [1., 1., 0.], [1., 2., 0.]].map(DVec3::from));
+        assert!(s.iter().all(|axes| axes.z_axis == s[0].z_axis), "{s:?}");
     }
 
     #[test]

@@ -172,7 +172,7 @@ impl<'w, 's, 'a> FaceWriter<'w, 's, 'a> {
         }
         if count < 3 {
             self.builder.warn_in_line(self.set.node, WarningCode::Degenerate, self.line, || {
-                format!("a face with {count} corners was dropped")
+                format!("a face needs three corners, this one has {count}; it was dropped")
             });
         } else {
             if self.is_reversed {

@@ -111,7 +111,8 @@ impl<'r> SceneBuilder<'r> {
     /// Warns that a node of an unsupported type was left out.
     pub(super) fn warn_unsupported(&mut self, node: NodeRef) {
         self.warn(node, WarningCode::Unsupported, || {
-            let why = if node.is_prototype() { "comes from a prototype" } else { "is not supported" };
+            let why =
+                if node.is_prototype() { "comes from a prototype" } else { "is not supported" };
             format!("node {} {why} and was left out", node.kind())
         });
     }

@@ -53,7 +53,10 @@ fn add_solid(
 ) -> Result<(), ReadError> {
     if state.material_binding != Binding::Overall && material_count(state) > 1 {
         builder.warn(node, WarningCode::Unsupported, || {
-            format!("materials for parts of a {} are not supported; the first was used", node.kind())
+            format!(
+                "materials for parts of a {} are not supported; the first was used",
+                node.kind()
+            )
         });
     }
     let line = node.line();
@@ -83,7 +86,11 @@ fn first_material(state: &State, texture: Option<&Texture>) -> Option<Material> 
 }
 
 /// The points in force; `None` if there are none, with a warning if the shape needs them.
-fn points<'d>(builder: &mut SceneBuilder, node: NodeRef, state: &State<'d>) -> Option<NumberList<'d>> {
+fn points<'d>(
+    builder: &mut SceneBuilder,
+    node: NodeRef,
+    state: &State<'d>,
+) -> Option<NumberList<'d>> {
     let points = state.coordinates.map(|node| NumberList::of(node, "point"));
     if points.is_none() && !node.numbers("coordIndex").values.is_empty() {
         builder.warn(node, WarningCode::Syntax, || {
@@ -101,8 +108,7 @@ fn add_face_set(builder: &mut SceneBuilder, node: NodeRef, state: &State) -> Res
     let indices = node.numbers("coordIndex");
     let mut set = FaceSet::new(node, points, indices, material, smoothing);
     set.is_clockwise = state.is_clockwise;
-    let lookup =
-        |binding, field| ElementLookup { binding, indices: explicit(node.numbers(field)) };
+    let lookup = |binding, field| ElementLookup { binding, indices: explicit(node.numbers(field)) };
     set.normals = NumberList::if_any(state.normals, "vector")
         .map(|list| (lookup(state.normal_binding, "normalIndex"), list));
     set.texcoords = NumberList::if_any(state.texcoords, "point")
@@ -110,7 +116,8 @@ fn add_face_set(builder: &mut SceneBuilder, node: NodeRef, state: &State) -> Res
     let materials = lookup(state.material_binding, "materialIndex");
     match state.material_binding {
         Binding::Corner | Binding::CornerIndexed => {
-            set.colors = NumberList::if_any(state.material, "diffuseColor").map(|list| (materials, list));
+            set.colors =
+                NumberList::if_any(state.material, "diffuseColor").map(|list| (materials, list));
         }
         Binding::Face | Binding::FaceIndexed if state.material.is_some() => {
             let texture = texture.as_ref();

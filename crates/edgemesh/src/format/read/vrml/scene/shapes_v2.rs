@@ -54,7 +54,11 @@ struct Shape<'a> {
 }
 
 impl<'a> Shape<'a> {
-    fn add_face_set(&self, builder: &mut SceneBuilder, placement: &Placement) -> Result<(), ReadError> {
+    fn add_face_set(
+        &self,
+        builder: &mut SceneBuilder,
+        placement: &Placement,
+    ) -> Result<(), ReadError> {
         let Some(points) = self.points(builder) else { return Ok(()) };
         let indices = self.node.numbers("coordIndex");
         let set = self.face_set(points, indices, crease(self.node));
@@ -111,7 +115,11 @@ impl<'a> Shape<'a> {
         ElementLookup { binding, indices }
     }
 
-    fn add_line_set(&self, builder: &mut SceneBuilder, placement: &Placement) -> Result<(), ReadError> {
+    fn add_line_set(
+        &self,
+        builder: &mut SceneBuilder,
+        placement: &Placement,
+    ) -> Result<(), ReadError> {
         let Some(points) = self.points(builder) else { return Ok(()) };
         builder.add_lines(self.node, &points, &self.node.numbers("coordIndex"), placement)
     }
@@ -120,7 +128,8 @@ impl<'a> Shape<'a> {
         match elevation_grid(self.node, crease(self.node)) {
             Ok(grid) => {
                 let line = self.node.line();
-                let points = NumberList::generated(self.node, Numbers::generated(&grid.points, line));
+                let points =
+                    NumberList::generated(self.node, Numbers::generated(&grid.points, line));
                 let indices = Numbers::generated(&grid.indices, line);
                 let set = self.face_set(points, indices, grid.smoothing);
                 builder.add_faces(&set, placement)
@@ -132,7 +141,11 @@ impl<'a> Shape<'a> {
         }
     }
 
-    fn add_extrusion(&self, builder: &mut SceneBuilder, placement: &Placement) -> Result<(), ReadError> {
+    fn add_extrusion(
+        &self,
+        builder: &mut SceneBuilder,
+        placement: &Placement,
+    ) -> Result<(), ReadError> {
         let extrusion = Extrusion::of(self.node, crease(self.node));
         // Before it is generated: a long spine and a large cross section multiply.
         builder.spend(self.node, extrusion.element_count())?;

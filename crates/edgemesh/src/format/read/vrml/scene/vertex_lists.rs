@@ -80,7 +80,9 @@ impl SceneBuilder<'_> {
         self.spend(list.node, count)?;
         if !count.is_multiple_of(width) {
             self.warn(list.node, WarningCode::Syntax, || {
-                format!("a list has {count} numbers, not a multiple of {width}; the rest was left out")
+                format!(
+                    "a list has {count} numbers, not a multiple of {width}; the rest was left out"
+                )
             });
         }
         let first = to_u32(add(self));

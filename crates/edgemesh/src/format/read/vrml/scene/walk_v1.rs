@@ -86,11 +86,7 @@ impl<'d> Walk<'d> {
         Ok(None)
     }
 
-    fn add_node(
-        &mut self,
-        builder: &mut SceneBuilder,
-        node: NodeRef<'d>,
-    ) -> Result<(), ReadError> {
+    fn add_node(&mut self, builder: &mut SceneBuilder, node: NodeRef<'d>) -> Result<(), ReadError> {
         builder.visit(node)?;
         match node.kind() {
             "Separator" | "WWWAnchor" => {

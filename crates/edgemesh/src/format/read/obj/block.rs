@@ -1,4 +1,4 @@
-//! Parses a chunk of an OBJ file as if it were a whole file.
+//! Parses a block of an OBJ file as if it were a whole file.
 //!
 //! Idea: nearly every line is a `v`, `vt`, `vn` or `f` in its plainest form. The
 //! plain parser reads those in place, byte by byte. At the first unusual byte it
@@ -9,7 +9,7 @@
 use memchr::memchr2;
 
 use super::statement::{
-    ChunkIndex, name_of, parse_index, smoothing_group, split_keyword, without_comment, words,
+    BlockIndex, name_of, parse_index, smoothing_group, split_keyword, without_comment, words,
 };
 use crate::format::read::error::ReadErrorKind;
 use crate::format::read::firewall::LARGEST_COORDINATE;
@@ -18,10 +18,10 @@ use crate::index::{NONE, to_u32};
 use crate::model::{Corner, Model, Segment};
 use crate::report::{Place, Report, WarningCode};
 
-/// The content of a chunk; its first line is line 1.
+/// The content of a block; its first line is line 1.
 #[derive(Debug, Default)]
-pub(super) struct ParsedChunk {
-    /// Elements and polygons, with [`ChunkIndex`]es.
+pub(super) struct ParsedBlock {
+    /// Elements and polygons, with [`BlockIndex`]es.
     pub(super) model: Model,
     /// The number of lines.
     pub(super) line_count: u32,
@@ -32,12 +32,12 @@ pub(super) struct ParsedChunk {
     /// The warnings.
     pub(super) report: Report,
     /// The error that ended the parsing.
-    pub(super) error: Option<ChunkError>,
+    pub(super) error: Option<BlockError>,
 }
 
-/// An error in a line of a chunk.
+/// An error in a line of a block.
 #[derive(Debug)]
-pub(super) struct ChunkError {
+pub(super) struct BlockError {
     pub(super) kind: ReadErrorKind,
     pub(super) line: u32,
     pub(super) what: String,
@@ -46,7 +46,7 @@ pub(super) struct ChunkError {
 /// A change of the state that applies to the polygons after it.
 #[derive(Debug)]
 pub(super) struct StateChange {
-    /// The first polygon of the chunk that has the new state.
+    /// The first polygon of the block that has the new state.
     pub(super) polygon: u32,
     pub(super) state: NewState,
 }
@@ -63,23 +63,24 @@ pub(super) enum NewState {
 }
 
 /// Parses `text`, which begins and ends with whole statements.
-pub(super) fn parse_chunk(text: &[u8]) -> ParsedChunk {
-    let mut parser = Parser { text, at: 0, line: 0, corners: Vec::new(), chunk: ParsedChunk::default() };
+pub(super) fn parse_block(text: &[u8]) -> ParsedBlock {
+    let mut parser =
+        Parser { text, at: 0, line: 0, corners: Vec::new(), block: ParsedBlock::default() };
     // Seldom too small: 43 bytes a triangle, and two triangles a vertex.
-    parser.chunk.model.corner_positions.reserve(text.len() / 14);
-    parser.chunk.model.polygon_lines.reserve(text.len() / 42);
-    parser.chunk.model.positions.reserve(text.len() / 84);
+    parser.block.model.corner_positions.reserve(text.len() / 14);
+    parser.block.model.polygon_lines.reserve(text.len() / 42);
+    parser.block.model.positions.reserve(text.len() / 84);
     while parser.at < text.len() {
         parser.line = parser.line.saturating_add(1);
         if let Some(next) = parser.plain_line() {
             parser.at = next;
         } else if let Err(error) = parser.any_line() {
-            parser.chunk.error = Some(error);
+            parser.block.error = Some(error);
             break;
         }
     }
-    parser.chunk.line_count = parser.line;
-    parser.chunk
+    parser.block.line_count = parser.line;
+    parser.block
 }
 
 struct Parser<'a> {
@@ -89,7 +90,7 @@ struct Parser<'a> {
     line: u32,
     /// The corners of the current face.
     corners: Vec<Corner>,
-    chunk: ParsedChunk,
+    block: ParsedBlock,
 }
 
 /// The plain parser. Each function returns the offset after what it has read, or
@@ -106,12 +107,12 @@ impl Parser<'_> {
             b"f " => self.plain_face(),
             b"vn" => {
                 let (normal, end) = self.plain_numbers::<3>(self.at + 2)?;
-                self.chunk.model.normals.push(normal.map(attribute));
+                self.block.model.normals.push(normal.map(attribute));
                 Some(end)
             }
             b"vt" => {
                 let (texcoord, end) = self.plain_numbers::<2>(self.at + 2)?;
-                self.chunk.model.texcoords.push(texcoord.map(attribute));
+                self.block.model.texcoords.push(texcoord.map(attribute));
                 Some(end)
             }
             _ => None,
@@ -144,7 +145,7 @@ impl Parser<'_> {
                 if self.corners.len() < 3 {
                     return None;
                 }
-                self.chunk.model.push_polygon(&self.corners, self.line);
+                self.block.model.push_polygon(&self.corners, self.line);
                 return Some(end);
             }
             if start == at {
@@ -187,7 +188,7 @@ impl Parser<'_> {
             index = index * 10 + u32::from(digit);
             at += 1;
         }
-        (index > 0).then(|| (ChunkIndex::absolute(index).0, at))
+        (index > 0).then(|| (BlockIndex::absolute(index).0, at))
     }
 
     #[inline]
@@ -223,7 +224,7 @@ const fn attribute(number: f64) -> f32 {
 /// The general parser.
 impl Parser<'_> {
     /// Reads the statement at `at`, with its continuation lines.
-    fn any_line(&mut self) -> Result<(), ChunkError> {
+    fn any_line(&mut self) -> Result<(), BlockError> {
         let first_line = self.line;
         let line = self.next_line();
         let Some(start) = line.strip_suffix(b"\\") else {
@@ -260,25 +261,25 @@ impl Parser<'_> {
         line.trim_ascii()
     }
 
-    fn statement(&mut self, line: u32, text: &[u8]) -> Result<(), ChunkError> {
+    fn statement(&mut self, line: u32, text: &[u8]) -> Result<(), BlockError> {
         let (keyword, rest) = split_keyword(text);
         let values = without_comment(rest);
         match keyword {
             b"v" => self.vertex(line, values)?,
             b"vt" => {
                 let texcoord = attributes(values);
-                self.chunk.model.texcoords.push(texcoord);
+                self.block.model.texcoords.push(texcoord);
             }
             b"vn" => {
                 let normal = attributes(values);
-                self.chunk.model.normals.push(normal);
+                self.block.model.normals.push(normal);
             }
             b"f" | b"fo" => self.face(line, values)?,
             b"l" => self.polyline(line, values)?,
             b"s" => self.change(NewState::Smoothing(smoothing_group(values))),
             b"usemtl" => self.change(NewState::Material(name_of(rest))),
             b"g" | b"o" => self.change(NewState::Group(name_of(rest))),
-            b"mtllib" => self.chunk.libraries.push((name_of(rest), line)),
+            b"mtllib" => self.block.libraries.push((name_of(rest), line)),
             b"curv" | b"curv2" | b"surf" | b"cstype" | b"vp" | b"deg" | b"bmat" | b"parm"
             | b"trim" | b"hole" | b"end" => {
                 self.warn(WarningCode::Unsupported, line, || {
@@ -292,15 +293,15 @@ impl Parser<'_> {
     }
 
     fn change(&mut self, state: NewState) {
-        let polygon = to_u32(self.chunk.model.polygon_count());
-        self.chunk.changes.push(StateChange { polygon, state });
+        let polygon = to_u32(self.block.model.polygon_count());
+        self.block.changes.push(StateChange { polygon, state });
     }
 
     fn warn(&mut self, code: WarningCode, line: u32, message: impl FnOnce() -> String) {
-        self.chunk.report.warn(code, Some(Place::Line(line)), message);
+        self.block.report.warn(code, Some(Place::Line(line)), message);
     }
 
-    fn vertex(&mut self, line: u32, values: &[u8]) -> Result<(), ChunkError> {
+    fn vertex(&mut self, line: u32, values: &[u8]) -> Result<(), BlockError> {
         let mut numbers = [1.0; 6];
         let mut count = 0;
         for (number, word) in numbers.iter_mut().zip(words(values)) {
@@ -310,7 +311,7 @@ impl Parser<'_> {
                 None if count >= 3 => break,
                 None => {
                     let what = format!("'{}' is not a number", String::from_utf8_lossy(word));
-                    return Err(ChunkError { kind: ReadErrorKind::Number, line, what });
+                    return Err(BlockError { kind: ReadErrorKind::Number, line, what });
                 }
             }
             count += 1;
@@ -318,7 +319,7 @@ impl Parser<'_> {
         let [x, y, z, r, g, b] = numbers;
         if count < 3 {
             let what = format!("a vertex needs three numbers, this one has {count}");
-            return Err(ChunkError { kind: ReadErrorKind::Number, line, what });
+            return Err(BlockError { kind: ReadErrorKind::Number, line, what });
         }
         // Four numbers are a point and its weight; six or seven have a color.
         self.keep_vertex([x, y, z], (count == 6).then(|| [r, g, b].map(attribute)));
@@ -350,7 +351,7 @@ impl Parser<'_> {
                 "a vertex is not finite; faces that use it were dropped".into()
             });
         }
-        let model = &mut self.chunk.model;
+        let model = &mut self.block.model;
         if color.is_some() || !model.colors.is_empty() {
             model.colors.resize(model.positions.len(), [1.0; 3]);
             model.colors.push(color.unwrap_or([1.0; 3]));
@@ -358,7 +359,7 @@ impl Parser<'_> {
         model.positions.push(if is_finite { position } else { [f64::NAN; 3] });
     }
 
-    fn face(&mut self, line: u32, values: &[u8]) -> Result<(), ChunkError> {
+    fn face(&mut self, line: u32, values: &[u8]) -> Result<(), BlockError> {
         let mut corners = std::mem::take(&mut self.corners);
         corners.clear();
         for word in words(values) {
@@ -366,26 +367,33 @@ impl Parser<'_> {
         }
         if corners.len() < 3 {
             self.warn(WarningCode::Degenerate, line, || {
-                format!("a face with {} corners was dropped", corners.len())
+                format!(
+                    "a face needs three corners, this one has {}; it was dropped",
+                    corners.len()
+                )
             });
         } else {
-            self.chunk.model.push_polygon(&corners, line);
+            self.block.model.push_polygon(&corners, line);
         }
         self.corners = corners;
         Ok(())
     }
 
-    fn corner(&mut self, line: u32, word: &[u8]) -> Result<Corner, ChunkError> {
+    fn corner(&mut self, line: u32, word: &[u8]) -> Result<Corner, BlockError> {
         let mut parts = word.split(|&byte| byte == b'/');
         let [position, texcoord, normal] = [(); 3].map(|()| parts.next().unwrap_or_default());
         let wrong = |why: &str| {
             let word = String::from_utf8_lossy(word);
-            ChunkError { kind: ReadErrorKind::Index, line, what: format!("face corner '{word}' {why}") }
+            BlockError {
+                kind: ReadErrorKind::Index,
+                line,
+                what: format!("face corner '{word}' {why}"),
+            }
         };
         if parts.next().is_some() {
             return Err(wrong("has too many slashes"));
         }
-        let model = &self.chunk.model;
+        let model = &self.block.model;
         let counts = [model.texcoords.len(), model.normals.len()];
         let position = parse_index(position, model.positions.len()).map_err(|why| wrong(&why))?.0;
         let texcoord = self.attribute_index(line, texcoord, counts[0]);
@@ -410,16 +418,20 @@ impl Parser<'_> {
     }
 
     /// `l`: a segment from each vertex to the next; texture coordinates are ignored.
-    fn polyline(&mut self, line: u32, values: &[u8]) -> Result<(), ChunkError> {
+    fn polyline(&mut self, line: u32, values: &[u8]) -> Result<(), BlockError> {
         let mut last = None;
         for word in words(values) {
             let index = word.split(|&byte| byte == b'/').next().unwrap_or_default();
-            let end = parse_index(index, self.chunk.model.positions.len()).map_err(|why| {
+            let end = parse_index(index, self.block.model.positions.len()).map_err(|why| {
                 let word = String::from_utf8_lossy(word);
-                ChunkError { kind: ReadErrorKind::Index, line, what: format!("line vertex '{word}' {why}") }
+                BlockError {
+                    kind: ReadErrorKind::Index,
+                    line,
+                    what: format!("line vertex '{word}' {why}"),
+                }
             })?;
             if let Some(start) = last.replace(end.0) {
-                self.chunk.model.segments.push(Segment { ends: [start, end.0], line });
+                self.block.model.segments.push(Segment { ends: [start, end.0], line });
             }
         }
         Ok(())
@@ -441,14 +453,15 @@ mod tests {
     use super::*;
 
     /// Parses without the plain parser.
-    fn parse_in_general(text: &[u8]) -> ParsedChunk {
-        let mut parser = Parser { text, at: 0, line: 0, corners: vec![], chunk: ParsedChunk::default() };
+    fn parse_in_general(text: &[u8]) -> ParsedBlock {
+        let mut parser =
+            Parser { text, at: 0, line: 0, corners: vec![], block: ParsedBlock::default() };
         while parser.at < text.len() {
             parser.line += 1;
             parser.any_line().unwrap();
         }
-        parser.chunk.line_count = parser.line;
-        parser.chunk
+        parser.block.line_count = parser.line;
+        parser.block
     }
 
     #[test]
@@ -484,8 +497,12 @@ mod tests {
             for (first, second) in lines.iter().flat_map(|a| lines.map(|b| (a, b))) {
                 let text = format!("{first}{end}{second}");
                 let (plain, general) =
-                    (parse_chunk(text.as_bytes()), parse_in_general(text.as_bytes()));
-                assert_eq!(format!("{:?}", plain.model), format!("{:?}", general.model), "{text:?}");
+                    (parse_block(text.as_bytes()), parse_in_general(text.as_bytes()));
+                assert_eq!(
+                    format!("{:?}", plain.model),
+                    format!("{:?}", general.model),
+                    "{text:?}"
+                );
                 assert_eq!(plain.report, general.report, "{text:?}");
                 assert_eq!(plain.line_count, general.line_count, "{text:?}");
                 cases += 1;
@@ -496,7 +513,7 @@ mod tests {
 
     #[test]
     fn numbers_without_a_blank_between_are_not_plain() {
-        let chunk = parse_chunk(b"v 1-2 3\n");
-        assert!(chunk.error.is_some_and(|error| error.what.contains("'1-2'")));
+        let block = parse_block(b"v 1-2 3\n");
+        assert!(block.error.is_some_and(|error| error.what.contains("'1-2'")));
     }
 }
