@@ -155,7 +155,7 @@ pub enum Error {
     /// A picture does not fit the memory of the machine.
     #[error(
         "{}x{}: there is no memory for a picture of {} MiB",
-        size[0], size[1], u128::from(size[0]) * u128::from(size[1]) * 4 >> 20
+        size[0], size[1], (u128::from(size[0]) * u128::from(size[1]) * 4) >> 20
     )]
     NoMemoryForPicture {
         /// Width and height in pixels.

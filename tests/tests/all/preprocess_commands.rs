@@ -155,7 +155,7 @@ fn an_endless_edge_mesh_is_refused() {
     {
         let output = shell(script);
         assert_status(&output, 1);
-        assert_eq!(one_error(&output, &["is no edge mesh"]), Ok(()), "{script}");
+        assert_eq!(one_error(&output, &["is not an edge mesh"]), Ok(()), "{script}");
     }
 }
 

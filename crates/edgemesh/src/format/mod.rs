@@ -1,11 +1,14 @@
-//! Files in and out.
+//! Reads and writes files.
 //!
-//! - [`read`]: model files of all formats, every error with file and line.
-//! - [`mod@edge_mesh_file`]: edge meshes on disk, with a checksum, used where they lie.
-//! - [`export`]: the mesh and its edges for other programs: glTF, PLY, OBJ, JSON.
-//! - [`whole_file`]: files that are written whole or not at all.
+//! - [`read`]: reads model files of all formats, with errors by file and line.
+//! - [`mod@edge_mesh_file`]: reads and writes edge mesh files, whose lists are used in place.
+//! - [`export`]: writes edge meshes for other programs: glTF, PLY, OBJ, JSON.
+//! - `validate`: warns of rules of a format that a readable file breaks.
+//! - [`whole_file`]: writes a file whole or not at all.
 
 pub mod edge_mesh_file;
 pub mod export;
+mod little_endian;
 pub mod read;
+pub(crate) mod validate;
 pub mod whole_file;

@@ -6,10 +6,10 @@
 //! - `files`: what is written is read again.
 //! - `views`: contours and creases under flips, scales and the paper's Equation 1.
 //! - `exports`: what is written reads back as the edge mesh that it is from.
-//! - `readers`: the same polygons as two other OBJ parsers.
+//! - `readers`: the same polygons and materials as two other OBJ parsers.
 //! - `readers_ply_stl`: the same polygons as other PLY and STL parsers, and what
 //!   sound, broken and cut files give.
-//! - `readers_gltf`: sound and broken glTF files of others.
+//! - `readers_gltf`: sound and broken glTF files of other projects.
 //!
 //! `PROPTEST_CASES` (256 for the usual count) makes runs longer,
 //! `PROPTEST_RNG_SEED` gives other cases.

@@ -1,14 +1,19 @@
-//! The same polygons as two other OBJ parsers read: `tobj` on the bare file,
-//! without the screen that stands before it here, and `obj-rs`.
+//! Compares the OBJ reader with two other parsers, `tobj` and `obj-rs`: the polygons of
+//! files, and the materials of random MTL texts.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 use edgemesh::format::read::read_model;
-use edgemesh::model::Model;
+use edgemesh::model::{Material, Model};
 use obj::raw::object::Polygon;
+use proptest::collection::vec;
+use proptest::prelude::*;
 
-/// The polygons of a file, each as the positions of its corners.
+use crate::config;
+
+/// The polygons of a file, as the positions of their corners.
 pub(crate) type Polygons = Vec<Vec<[f32; 3]>>;
 
 /// At least this many files are read by both parsers of a comparison.
@@ -53,12 +58,12 @@ fn by_tobj(path: &Path) -> Option<Polygons> {
     for mesh in models.into_iter().map(|model| model.mesh) {
         let positions = mesh.positions.as_chunks::<3>().0;
         let mut rest = mesh.indices.as_slice();
-        // No arities stand for triangles only.
+        // Without arities all faces are triangles.
         let mut arities = mesh.face_arities.iter().map(|&arity| arity as usize);
         while !rest.is_empty() {
             let (face, after) = rest.split_at(arities.next().unwrap_or(3));
             rest = after;
-            // Points and lines count as faces there.
+            // `tobj` counts points and lines as faces.
             if face.len() > 2 {
                 polygons.push(face.iter().map(|&vertex| positions[vertex as usize]).collect());
             }
@@ -91,13 +96,13 @@ fn by_obj_rs(path: &Path) -> Option<Polygons> {
     )
 }
 
-/// Says where the two differ first.
+/// Fails with the first difference.
 pub(crate) fn compare(ours: &Polygons, theirs: &Polygons) -> Result<(), String> {
     if ours.len() != theirs.len() {
-        return Err(format!("{} polygons, there {}", ours.len(), theirs.len()));
+        return Err(format!("{} polygons, theirs {}", ours.len(), theirs.len()));
     }
     match ours.iter().zip(theirs).position(|(a, b)| a != b) {
-        Some(at) => Err(format!("polygon {at}: {:?}, there {:?}", ours[at], theirs[at])),
+        Some(at) => Err(format!("polygon {at}: {:?}, theirs {:?}", ours[at], theirs[at])),
         None => Ok(()),
     }
 }
@@ -131,8 +136,8 @@ fn obj_rs_reads_the_same_polygons() {
     compare_all("obj-rs", by_obj_rs);
 }
 
-/// A cursor over what `rapidobj` has stored of its own results: lists of
-/// little-endian numbers behind their counts in 64 bits.
+/// A cursor over a result that `rapidobj` has stored: lists of little-endian numbers, each
+/// after its count in 64 bits.
 struct Stored<'a>(&'a [u8]);
 
 impl Stored<'_> {
@@ -146,16 +151,16 @@ impl Stored<'_> {
         usize::try_from(u64::from_le_bytes(self.bytes(8).try_into().unwrap())).unwrap()
     }
 
-    /// A list of words of four bytes, `words` an element.
+    /// A list of elements of `words` words of four bytes.
     fn list(&mut self, words: usize) -> Vec<[u8; 4]> {
         let count = self.count() * words;
         self.bytes(4 * count).as_chunks::<4>().0.to_vec()
     }
 }
 
-/// The polygons of a stored result with a single shape: a byte, then positions,
-/// texture coordinates, normals, the number of shapes, and the shape's name,
-/// corners of three indices, and corners a face in a byte each.
+/// The polygons of a stored result with one shape: a byte, the positions, texture
+/// coordinates, normals, the number of shapes; then the name of the shape, its corners of
+/// three indices, and the number of corners of each face in a byte.
 fn by_rapidobj(bytes: &[u8]) -> Polygons {
     let mut stored = Stored(&bytes[1..]);
     let positions: Vec<f32> = stored.list(1).into_iter().map(f32::from_le_bytes).collect();
@@ -199,4 +204,67 @@ fn a_difference_is_found() {
     assert_eq!(compare(&vec![triangle.clone()], &vec![triangle.clone()]), Ok(()));
     assert!(compare(&vec![triangle.clone()], &vec![moved]).is_err());
     assert!(compare(&vec![triangle.clone()], &vec![triangle.clone(), triangle]).is_err());
+}
+
+/// A line of an MTL text that `tobj` accepts.
+fn mtl_line() -> impl Strategy<Value = String> {
+    let number = prop_oneof![
+        (-10.0_f32..10.0).prop_map(|number| number.to_string()),
+        any::<f32>().prop_map(|number| format!("{number:e}")),
+        "[0-9]{1,3}(\\.[0-9]{0,12})?",
+    ];
+    let numbers =
+        move |count| vec(number.clone(), count).prop_map(|numbers| numbers.join(" ")).boxed();
+    let statement = prop_oneof![
+        4 => "newmtl [ab]( ?[ab1.]){0,2}",
+        2 => ("K[ads]", numbers(3)).prop_map(|(keyword, rest)| format!("{keyword} {rest}")),
+        1 => ("K[ads]", numbers(4)).prop_map(|(keyword, rest)| format!("{keyword}\t{rest}")),
+        2 => ("Ns|d|Ni", numbers(1)).prop_map(|(keyword, rest)| format!("{keyword} {rest}")),
+        1 => numbers(3).prop_map(|rest| format!("Ke {rest}")),
+        2 => "illum [0-9]|sharpness 60|#.{0,9}|refl -type sphere a.png|Tf 1 1 1|",
+    ];
+    ("[ \t]{0,2}", statement, "[ \t]{0,2}").prop_map(|(a, b, c)| a + &b + &c)
+}
+
+/// The materials with these names that our reader finds in an MTL text.
+fn our_materials(mtl: &str, names: &BTreeSet<String>) -> Vec<Material> {
+    let folder = tempfile::tempdir().unwrap();
+    let mut obj = String::from("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    for name in names {
+        obj += &format!("usemtl {name}\nf 1 2 3\n");
+    }
+    fs::write(folder.path().join("a.mtl"), mtl).unwrap();
+    fs::write(folder.path().join("a.obj"), obj).unwrap();
+    let (model, report) = read_model(&folder.path().join("a.obj")).unwrap();
+    assert!(report.warnings().is_empty(), "{report:?}");
+    model.materials
+}
+
+proptest! {
+    #![proptest_config(config(512))]
+
+    /// Both read the same numbers, bit by bit; of several materials with one name, our
+    /// reader takes the first.
+    #[test]
+    fn tobj_reads_the_same_materials(lines in vec(mtl_line(), 0..30), end in "\n|\r\n") {
+        let mtl = lines.join(&end);
+        let theirs = tobj::load_mtl_buf(&mut mtl.as_bytes());
+        let (theirs, _) = theirs.map_err(|error| TestCaseError::fail(error.to_string()))?;
+        let names = theirs.iter().map(|material| material.name.clone()).collect();
+        let ours = our_materials(&mtl, &names);
+        prop_assert_eq!(ours.len(), names.len());
+        let colors = |colors: [Option<[f32; 3]>; 3]| {
+            colors.map(|color| color.map(|color| color.map(f32::to_bits)))
+        };
+        let bits = |number: Option<f32>| number.map(f32::to_bits);
+        for ours in ours {
+            let theirs = theirs.iter().find(|theirs| theirs.name == ours.name).unwrap();
+            prop_assert_eq!(
+                colors([ours.ambient, ours.diffuse, ours.specular]),
+                colors([theirs.ambient, theirs.diffuse, theirs.specular])
+            );
+            prop_assert_eq!(bits(ours.shininess), bits(theirs.shininess));
+            prop_assert_eq!(bits(ours.opacity), bits(theirs.dissolve));
+        }
+    }
 }

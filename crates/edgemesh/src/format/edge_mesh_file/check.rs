@@ -1,12 +1,12 @@
-//! What the lists of a file must agree in.
+//! Checks that the lists of a file agree with each other.
 //!
-//! A sound checksum only says that a file is as some program wrote it. These
-//! checks say that no index in it leads nowhere; the writer passes them too, so
-//! that whatever was written is read. They take linear time. Floats may be
-//! anything: they spoil a picture, not a program.
+//! A correct checksum shows only that a file is unchanged. These checks show that all
+//! its indices are in range. The writer runs them too, so that every file that is
+//! written can be read. They take linear time. Floats may have any value: they can
+//! spoil a picture, but not the program.
 
 use super::error::{FileError, FileErrorKind};
-use super::looks::StoredMaterial;
+use super::materials::StoredMaterial;
 use super::numbers::of_counts;
 use super::section::Tag;
 use super::stored::StoredMesh;
@@ -15,7 +15,7 @@ use crate::edge_mesh::record::EdgeRecord;
 use crate::index::NONE;
 use crate::report::Place;
 
-/// What is wrong with an element of a section.
+/// A fault in an element of a section.
 #[derive(Debug)]
 pub(super) struct Flaw {
     pub(super) tag: Tag,
@@ -24,7 +24,7 @@ pub(super) struct Flaw {
 }
 
 impl Flaw {
-    /// The error that tells of it, at its place in the file.
+    /// The error for this flaw, at a place in the file.
     pub(super) fn at(self, place: Option<Place>) -> FileError {
         let Self { tag, element, what } = self;
         let what = format!("section {tag}, element {element}: {what}; build the file again");
@@ -32,8 +32,7 @@ impl Flaw {
     }
 }
 
-/// Checks that lists which belong together are of one length, and that every
-/// index leads somewhere.
+/// Checks that the lengths of lists agree, and that all indices are in range.
 pub(super) fn check(mesh: &StoredMesh<'_>) -> Result<(), Flaw> {
     check_lengths(mesh)?;
     check_counts(mesh)?;
@@ -48,7 +47,7 @@ pub(super) fn check(mesh: &StoredMesh<'_>) -> Result<(), Flaw> {
     none_has_a_fault(Tag::RECORDS, &mesh.records, |record| face_fault(record, &mesh.triangles))?;
     none_has_a_fault(Tag::CHAINS, &mesh.chains, |chain| chain_fault(chain, mesh.links.len()))?;
     all_below(Tag::LINKS, &mesh.links, ("record", mesh.records.len()), |link| [link.record])?;
-    all_below(Tag::LINKS, &mesh.links, ("polyline", mesh.chains.len()), |link| [link.chain])
+    all_below(Tag::LINKS, &mesh.links, ("chain", mesh.chains.len()), |link| [link.chain])
 }
 
 fn check_lengths(mesh: &StoredMesh<'_>) -> Result<(), Flaw> {
@@ -75,25 +74,26 @@ fn check_lengths(mesh: &StoredMesh<'_>) -> Result<(), Flaw> {
     Ok(())
 }
 
-/// Checks that runs ascend from triangle 0 on and name what is there.
+/// Checks that material ranges ascend from triangle 0, with valid indices.
 fn check_runs(mesh: &StoredMesh<'_>) -> Result<(), Flaw> {
     let runs = &*mesh.fill_runs;
     let flaw = |element: usize, what: String| Flaw { tag: Tag::FILL_RUNS, element, what };
     if runs.is_empty() != mesh.fill_indices.is_empty() {
-        let what = format!("{} runs for a fill of {} indices", runs.len(), mesh.fill_indices.len());
+        let what =
+            format!("there are {} for a fill of {} indices", runs.len(), mesh.fill_indices.len());
         return Err(flaw(0, what));
     }
     let mut least = 0;
     for (element, run) in runs.iter().enumerate() {
         let first = run.first_triangle;
         if first < least || element == 0 && first > 0 {
-            return Err(flaw(element, format!("begins at triangle {first}, out of its order")));
+            return Err(flaw(element, format!("begins at triangle {first}, out of order")));
         }
         least = first.saturating_add(1);
     }
     let names = |list: &str, index: u32, count: usize| {
         let is_wrong = index != NONE && index as usize >= count;
-        is_wrong.then(|| format!("names {list} {index}, and there are {count}"))
+        is_wrong.then(|| format!("names {list} {index}; there are {count}"))
     };
     let triangles = ("triangle", mesh.triangles.len());
     all_below(Tag::FILL_RUNS, runs, triangles, |run| [run.first_triangle])?;
@@ -102,13 +102,14 @@ fn check_runs(mesh: &StoredMesh<'_>) -> Result<(), Flaw> {
             .or_else(|| names("group", run.group, mesh.groups.len()))
             .or_else(|| {
                 let flag = run.has_texcoords;
-                (flag > 1).then(|| format!("has {flag} where 0 or 1 stands for no or yes"))
+                (flag > 1).then(|| format!("has the flag {flag} instead of 0 or 1"))
             })
     })
 }
 
-/// Checks materials of `names` names, over `picture_bytes` bytes of pictures.
-pub(super) fn check_looks(
+/// Checks materials and pictures, given the bytes of all pictures and the number of
+/// names.
+pub(super) fn check_materials(
     materials: &[StoredMaterial],
     picture_ends: &[u64],
     picture_bytes: usize,
@@ -121,7 +122,7 @@ pub(super) fn check_looks(
     let mut start = 0;
     for (element, &end) in picture_ends.iter().enumerate() {
         if end < start || end > picture_bytes as u64 {
-            let what = format!("takes bytes {start} to {end} of {picture_bytes}");
+            let what = format!("has bytes {start} to {end} of {picture_bytes}");
             return Err(Flaw { tag: Tag::PICTURE_ENDS, element, what });
         }
         start = end;
@@ -129,20 +130,20 @@ pub(super) fn check_looks(
     let pictures = picture_ends.len();
     none_has_a_fault(Tag::MATERIALS, materials, |&StoredMaterial { picture, .. }| {
         let is_wrong = picture != NONE && picture as usize >= pictures;
-        is_wrong.then(|| format!("names picture {picture}, and there are {pictures}"))
+        is_wrong.then(|| format!("names picture {picture}; there are {pictures}"))
     })
 }
 
-/// Counts that 32 bits hold can be added up without a thought; the largest is
-/// what the reader takes for a count that this machine cannot hold.
+/// Checks that counts fit into 32 bits, so that sums cannot overflow. The reader uses
+/// the largest value for a count that does not fit into the address space.
 fn check_counts(mesh: &StoredMesh<'_>) -> Result<(), Flaw> {
     none_has_a_fault(Tag::COUNTS, &of_counts(&mesh.counts), |count| {
         (*count >= u64::from(NONE)).then(|| format!("counts {count}, more than any index"))
     })
 }
 
-/// Checks that the `indices` of all elements are below the number of what they
-/// name.
+/// Checks that the `indices` of all elements are below `limit`; `name` is what they
+/// refer to.
 fn all_below<T, const N: usize>(
     tag: Tag,
     elements: &[T],
@@ -151,10 +152,11 @@ fn all_below<T, const N: usize>(
 ) -> Result<(), Flaw> {
     none_has_a_fault(tag, elements, |element| {
         let outside = indices(element).into_iter().find(|&index| index as usize >= limit)?;
-        Some(format!("names {name} {outside}, and there are {limit}"))
+        Some(format!("names {name} {outside}; there are {limit}"))
     })
 }
 
+/// Fails with the first element that has a fault.
 fn none_has_a_fault<T>(
     tag: Tag,
     elements: &[T],
@@ -165,27 +167,27 @@ fn none_has_a_fault<T>(
     first.map_or(Ok(()), |(element, what)| Err(Flaw { tag, element, what }))
 }
 
-/// What is wrong with the faces of a record.
+/// The fault of a record's faces, if any.
 fn face_fault(record: &EdgeRecord, triangles: &[[u32; 3]]) -> Option<String> {
     let &EdgeRecord { v0, v1, face_a, face_b, .. } = record;
     if face_a == NONE && face_b != NONE {
-        return Some("has a face B and no face A".into());
+        return Some("has a face B but no face A".into());
     }
     let fault = |face: u32| match triangles.get(face as usize) {
-        None => Some(format!("names face {face}, and there are {}", triangles.len())),
+        None => Some(format!("names face {face}; there are {}", triangles.len())),
         Some(triangle) if triangle.iter().all(|&vertex| vertex == v0 || vertex == v1) => {
-            Some(format!("face {face} has no vertex off the edge"))
+            Some(format!("has face {face}, which has no vertex off the edge"))
         }
         Some(_) => None,
     };
     [face_a, face_b].into_iter().filter(|&face| face != NONE).find_map(fault)
 }
 
-/// What is wrong with the range of a polyline.
+/// The fault of a chain's range of links, if any.
 fn chain_fault(chain: &Chain, links: usize) -> Option<String> {
     let &Chain { first_link, link_count, .. } = chain;
     let is_within = first_link.checked_add(link_count).is_some_and(|end| end as usize <= links);
-    let what = || format!("has {link_count} links from {first_link} on, and there are {links}");
+    let what = || format!("has {link_count} links from {first_link} on; there are {links}");
     (!is_within).then(what)
 }
 
@@ -200,8 +202,7 @@ mod tests {
     use crate::index::to_u32;
     use crate::view::feature_counts::count_features;
 
-    /// The error of a file of one triangle that was changed, with a checksum
-    /// that is right.
+    /// The error of the file of one triangle after a change, with a correct checksum.
     fn error(change: impl FnOnce(&mut Draft)) -> String {
         error_of(Draft::triangle(), change)
     }
@@ -248,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn indices_that_lead_nowhere_are_refused() {
+    fn indices_out_of_range_are_refused() {
         for (tag, number, element, name, count) in [
             ("TRIS", 2, 0, "vertex", 3),
             ("EDGE", 0, 0, "vertex", 3),
@@ -256,87 +257,84 @@ mod tests {
             ("EDGE", 7, 1, "face", 1),
             ("EDGE", 13, 2, "face", 1),
             ("LNKS", 8, 2, "record", 3),
-            ("LNKS", 5, 1, "polyline", 3),
+            ("LNKS", 5, 1, "chain", 3),
             ("FIDX", 1, 1, "fill vertex", 3),
         ] {
             for index in [count, count + 1, NONE - 1] {
                 let what = error(|draft| draft.set(tag, number, index));
-                let expected = format!("names {name} {index}, and there are {count}");
+                let expected = format!("names {name} {index}; there are {count}");
                 assert_eq!(what, format!("{tag}, element {element}: {expected}"));
             }
         }
         for (tag, number) in [("TRIS", 1), ("EDGE", 1), ("LNKS", 0), ("LNKS", 1), ("FIDX", 2)] {
             let what = error(|draft| draft.set(tag, number, NONE));
-            assert!(what.contains("names"), "only a face may be none: {what}");
+            assert!(what.contains("names"), "only a face may be missing: {what}");
         }
     }
 
     #[test]
-    fn runs_ascend_and_name_what_is_there() {
+    fn material_ranges_ascend_and_have_valid_indices() {
         for (number, value, what) in [
-            (0, 1, "begins at triangle 1, out of its order"),
-            (1, 2, "names material 2, and there are 2"),
-            (1, NONE - 1, "names material 4294967294, and there are 2"),
-            (2, 1, "names group 1, and there are 1"),
-            (3, 2, "has 2 where 0 or 1 stands for no or yes"),
+            (0, 1, "begins at triangle 1, out of order"),
+            (1, 2, "names material 2; there are 2"),
+            (1, NONE - 1, "names material 4294967294; there are 2"),
+            (2, 1, "names group 1; there are 1"),
+            (3, 2, "has the flag 2 instead of 0 or 1"),
         ] {
-            let found = error_of(Draft::looks(), |draft| draft.set("FRUN", number, value));
+            let found = error_of(Draft::with_materials(), |draft| draft.set("FRUN", number, value));
             assert_eq!(found, format!("FRUN, element 0: {what}"));
         }
         let with_second = |first: u32| {
-            error_of(Draft::looks(), |draft| {
+            error_of(Draft::with_materials(), |draft| {
                 draft.resize("FRUN", 2);
                 draft.set("FRUN", 4, first);
             })
         };
-        assert_eq!(with_second(0), "FRUN, element 1: begins at triangle 0, out of its order");
-        assert_eq!(with_second(1), "FRUN, element 1: names triangle 1, and there are 1");
-        assert_eq!(
-            with_second(NONE),
-            "FRUN, element 1: names triangle 4294967295, and there are 1"
-        );
-        let what = error_of(Draft::looks(), |draft| draft.resize("FRUN", 0));
-        assert_eq!(what, "FRUN, element 0: 0 runs for a fill of 3 indices");
-        let what = error_of(Draft::looks(), |draft| {
+        assert_eq!(with_second(0), "FRUN, element 1: begins at triangle 0, out of order");
+        assert_eq!(with_second(1), "FRUN, element 1: names triangle 1; there are 1");
+        assert_eq!(with_second(NONE), "FRUN, element 1: names triangle 4294967295; there are 1");
+        let what = error_of(Draft::with_materials(), |draft| draft.resize("FRUN", 0));
+        assert_eq!(what, "FRUN, element 0: there are 0 for a fill of 3 indices");
+        let what = error_of(Draft::with_materials(), |draft| {
             draft.remove("FVTX");
             draft.remove("FIDX");
         });
-        assert_eq!(what, "FRUN, element 0: 1 runs for a fill of 0 indices");
-        let mut plain = Draft::looks();
+        assert_eq!(what, "FRUN, element 0: there are 1 for a fill of 0 indices");
+        let mut plain = Draft::with_materials();
         plain.set("FRUN", 1, NONE);
         plain.set("FRUN", 2, NONE);
-        assert!(parse(&plain.to_bytes()).is_ok(), "both may be missing");
+        assert!(parse(&plain.to_bytes()).is_ok(), "material and group may be missing");
     }
 
     #[test]
-    fn pictures_lie_in_a_row_within_their_section() {
+    fn pictures_are_consecutive_within_their_section() {
         for (number, value, element, what) in [
-            (0, 11, 0, "takes bytes 0 to 11 of 10"),
-            (1, 1, 0, "takes bytes 0 to 4294967299 of 10"),
-            (2, 2, 1, "takes bytes 3 to 2 of 10"),
-            (2, 11, 1, "takes bytes 3 to 11 of 10"),
-            (3, NONE, 1, "takes bytes 3 to 18446744069414584330 of 10"),
+            (0, 11, 0, "has bytes 0 to 11 of 10"),
+            (1, 1, 0, "has bytes 0 to 4294967299 of 10"),
+            (2, 2, 1, "has bytes 3 to 2 of 10"),
+            (2, 11, 1, "has bytes 3 to 11 of 10"),
+            (3, NONE, 1, "has bytes 3 to 18446744069414584330 of 10"),
         ] {
-            let found = error_of(Draft::looks(), |draft| draft.set("PEND", number, value));
+            let found = error_of(Draft::with_materials(), |draft| draft.set("PEND", number, value));
             assert_eq!(found, format!("PEND, element {element}: {what}"));
         }
-        let what = error_of(Draft::looks(), |draft| draft.resize("PICT", 9));
-        assert_eq!(what, "PEND, element 1: takes bytes 3 to 10 of 9");
-        let what = error_of(Draft::looks(), |draft| draft.resize("PEND", 1));
-        assert_eq!(what, "MTRL, element 1: names picture 1, and there are 1");
+        let what = error_of(Draft::with_materials(), |draft| draft.resize("PICT", 9));
+        assert_eq!(what, "PEND, element 1: has bytes 3 to 10 of 9");
+        let what = error_of(Draft::with_materials(), |draft| draft.resize("PEND", 1));
+        assert_eq!(what, "MTRL, element 1: names picture 1; there are 1");
         for wrong in [2, NONE - 1] {
-            let what = error_of(Draft::looks(), |draft| draft.set("MTRL", 25, wrong));
-            assert_eq!(what, format!("MTRL, element 1: names picture {wrong}, and there are 2"));
+            let what = error_of(Draft::with_materials(), |draft| draft.set("MTRL", 25, wrong));
+            assert_eq!(what, format!("MTRL, element 1: names picture {wrong}; there are 2"));
         }
-        let mut longer = Draft::looks();
+        let mut longer = Draft::with_materials();
         longer.resize("PICT", 20);
-        assert!(parse(&longer.to_bytes()).is_ok(), "bytes of no picture are no fault");
+        assert!(parse(&longer.to_bytes()).is_ok(), "surplus bytes are not a fault");
     }
 
     #[test]
     fn materials_have_their_names() {
         for count in [1, 3] {
-            let what = error_of(Draft::looks(), |draft| draft.resize("MTRL", count));
+            let what = error_of(Draft::with_materials(), |draft| draft.resize("MTRL", count));
             let expected = format!("there are {count}, and META has names for 2");
             assert_eq!(what, format!("MTRL, element 0: {expected}"));
         }
@@ -353,9 +351,9 @@ mod tests {
             draft.resize("SPLT", 1);
             draft.set("SPLT", 0, 2);
         });
-        assert_eq!(what, "SPLT, element 0: names welded vertex 2, and there are 2");
+        assert_eq!(what, "SPLT, element 0: names welded vertex 2; there are 2");
         let what = error(|draft| draft.resize("SPLT", 3));
-        assert_eq!(what, "SPLT, element 0: names welded vertex 0, and there are 0");
+        assert_eq!(what, "SPLT, element 0: names welded vertex 0; there are 0");
     }
 
     #[test]
@@ -364,22 +362,22 @@ mod tests {
             draft.set("EDGE", 2, NONE);
             draft.set("EDGE", 3, 0);
         });
-        assert_eq!(what, "EDGE, element 0: has a face B and no face A");
+        assert_eq!(what, "EDGE, element 0: has a face B but no face A");
         let what = error(|draft| draft.set("TRIS", 2, 1));
-        assert_eq!(what, "EDGE, element 0: face 0 has no vertex off the edge");
+        assert_eq!(what, "EDGE, element 0: has face 0, which has no vertex off the edge");
         let mut line = Draft::triangle();
         line.set("EDGE", 2, NONE);
-        assert!(parse(&line.to_bytes()).is_ok(), "a line has no face at all");
+        assert!(parse(&line.to_bytes()).is_ok(), "a line has no face");
     }
 
     #[test]
-    fn polylines_stay_within_their_links() {
+    fn chains_stay_within_the_links() {
         for (first, count) in [(0, 4), (3, 1), (2, 2), (NONE, 1), (1, NONE), (NONE, NONE)] {
             let what = error(|draft| {
                 draft.set("CHNS", 5, first);
                 draft.set("CHNS", 6, count);
             });
-            let expected = format!("has {count} links from {first} on, and there are 3");
+            let expected = format!("has {count} links from {first} on; there are 3");
             assert_eq!(what, format!("CHNS, element 1: {expected}"));
         }
         assert!(error(|draft| draft.resize("LNKS", 2)).starts_with("CHNS, element 2: has 1"));
@@ -387,7 +385,7 @@ mod tests {
         let mut empty = Draft::triangle();
         empty.set("CHNS", 5, 3);
         empty.set("CHNS", 6, 0);
-        assert!(parse(&empty.to_bytes()).is_ok(), "nothing at the end is within");
+        assert!(parse(&empty.to_bytes()).is_ok(), "an empty chain at the end is within");
     }
 
     #[test]
@@ -415,14 +413,15 @@ mod tests {
 
     #[test]
     fn floats_may_be_anything() {
-        let mut draft = Draft::looks();
+        let mut draft = Draft::with_materials();
         for tag in ["POSI", "NORM", "PLAN", "FVTX", "FRAM", "BNDS"] {
             draft.section(tag).bytes.fill(255);
         }
         draft.section("MTRL").bytes[..48].fill(255);
         assert!(parse(&draft.to_bytes()).is_ok());
     }
-    /// Does with a mesh of a file all that later code does with its indices.
+
+    /// Uses the indices of a mesh in all ways in which later code does.
     fn use_all(mesh: &StoredMesh<'_>) {
         let mut mesh = mesh.to_mesh();
         assert_eq!(replicate(&mesh).len(), replicate_16(&mesh).len());
@@ -433,15 +432,15 @@ mod tests {
         let vertices = to_u32(mesh.positions.len());
         assert!((0..vertices).all(|vertex| mesh.welded_vertex(vertex) < vertices));
         let runs = mesh.fill.runs.iter();
-        let known = |index: u32, count| index == NONE || (index as usize) < count;
-        assert!(runs.clone().all(|run| known(run.material, mesh.fill.materials.len())));
-        assert!(runs.clone().all(|run| known(run.group, mesh.fill.groups.len())));
+        let is_valid = |index: u32, count| index == NONE || (index as usize) < count;
+        assert!(runs.clone().all(|run| is_valid(run.material, mesh.fill.materials.len())));
+        assert!(runs.clone().all(|run| is_valid(run.group, mesh.fill.groups.len())));
         reclassify(&mut mesh, &BuildOptions::default());
     }
 
     #[test]
-    fn whatever_is_accepted_can_be_used() {
-        let small = ["triangle", "bow tie", "lines.obj", "looks"];
+    fn every_accepted_file_can_be_used() {
+        let small = ["triangle", "bow tie", "lines.obj", "textured"];
         let (mut accepted, mut refused) = (0, 0);
         for sample in samples().iter().filter(|sample| small.contains(&sample.name)) {
             let whole = to_bytes(&sample.mesh, "", &sample.report, &Layout::ALL).unwrap();

@@ -1,13 +1,13 @@
-//! Files made by hand: for tests of what the writer never writes.
+//! Files built by hand, for tests with content that the writer never writes.
 //!
-//! Nothing here is shared with reader and writer, so that a fault of theirs in
-//! the layout is not repeated.
+//! This code shares nothing with the reader and the writer, so that it does not repeat
+//! their mistakes in the layout.
 
-/// A file of version 1 of one triangle, which no writer of ours made; its
-/// model has lost two flat triangles, and its frame is moved.
+/// A version 1 file of one triangle, written by another program; its model has lost two
+/// degenerate triangles, and its frame has a moved origin.
 pub(super) const TRIANGLE: &[u8] = include_bytes!("../../../tests/data/triangle-v1.edgemesh");
 
-/// A file in parts.
+/// A file as a list of sections.
 #[derive(Debug, Clone)]
 pub(super) struct Draft {
     pub(super) version: u32,
@@ -22,7 +22,7 @@ pub(super) struct DraftSection {
 }
 
 impl Draft {
-    /// The parts of [`TRIANGLE`].
+    /// The sections of [`TRIANGLE`].
     pub(super) fn triangle() -> Self {
         let number = |at: usize| u32::from_le_bytes(*TRIANGLE[at..].first_chunk().unwrap());
         let section = |entry: usize| {
@@ -35,9 +35,8 @@ impl Draft {
         Self { version: number(8), sections }
     }
 
-    /// The triangle with two materials, of which the second has a picture, and a
-    /// group.
-    pub(super) fn looks() -> Self {
+    /// The triangle with a group and two materials, of which the second has a picture.
+    pub(super) fn with_materials() -> Self {
         let mut draft = Self::triangle();
         let numbers = |numbers: &[u32]| -> Vec<u8> {
             numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
@@ -45,20 +44,20 @@ impl Draft {
         draft.push("FRUN", 16, &numbers(&[0, 1, 0, 1]));
         let mut materials = [0; 26];
         materials[12] = u32::MAX;
-        // A diffuse colour of 1, 0.5, 0 and an opacity of 0.25.
+        // A diffuse color of 1, 0.5, 0 and an opacity of 0.25.
         materials[13 + 3..13 + 5].copy_from_slice(&[0x3f80_0000, 0x3f00_0000]);
         materials[13 + 10] = 0x3e80_0000;
         materials[13 + 11..].copy_from_slice(&[0b1_0010, 1]);
         draft.push("MTRL", 52, &numbers(&materials));
         draft.push("PEND", 8, &numbers(&[3, 0, 10, 0]));
         draft.push("PICT", 1, b"onepicture");
-        draft.section("META").bytes = br#"{"name": "looks", "groups": ["g"], "materials":
+        draft.section("META").bytes = br#"{"name": "textured", "groups": ["g"], "materials":
             [{"name": "plain"}, {"name": "m", "texture": "m.png"}]}"#
             .to_vec();
         draft
     }
 
-    /// The file, with a checksum of what is in it.
+    /// The bytes of the file, with a correct checksum.
     pub(super) fn to_bytes(&self) -> Vec<u8> {
         let count = u32::try_from(self.sections.len()).unwrap();
         let mut table = Vec::new();
@@ -88,13 +87,13 @@ impl Draft {
         sections.find(|section| section.tag == tag.as_bytes()).unwrap()
     }
 
-    /// Changes the 32-bit number `index` of a section.
+    /// Sets the 32-bit number with this index in a section.
     pub(super) fn set(&mut self, tag: &str, index: usize, number: u32) {
         let bytes = &mut self.section(tag).bytes;
         bytes[4 * index..4 * index + 4].copy_from_slice(&number.to_le_bytes());
     }
 
-    /// Makes a section one of `count` elements, all zero from its end on.
+    /// Resizes a section to `count` elements; new ones are zero.
     pub(super) fn resize(&mut self, tag: &str, count: usize) {
         let section = self.section(tag);
         section.bytes.resize(count * section.element_bytes as usize, 0);
@@ -110,7 +109,7 @@ impl Draft {
     }
 }
 
-/// Gives a file that was changed the right checksum.
+/// Updates the checksum of a changed file.
 pub(super) fn seal(bytes: &mut [u8]) {
     let sum = blake3::hash(&[&bytes[..24], &bytes[56..]].concat());
     bytes[24..56].copy_from_slice(sum.as_bytes());

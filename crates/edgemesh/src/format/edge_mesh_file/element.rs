@@ -1,23 +1,21 @@
-//! What sections are lists of, and how these become bytes and bytes become them.
+//! Converts between the elements of sections and bytes.
 //!
-//! Where the machine is little-endian a list and its bytes are the same, and
-//! one is a view of the other. Elsewhere each number's bytes are turned around,
-//! which needs no more than their size.
+//! On a little-endian machine a list is a view of its bytes. On a big-endian machine the
+//! bytes of each number are reversed.
 
 use std::borrow::Cow;
 
 use bytemuck::Pod;
 
-use super::looks::StoredMaterial;
+use super::materials::StoredMaterial;
 use crate::edge_mesh::record::{EdgeRecord, EdgeVertex, EdgeVertex16};
 use crate::edge_mesh::{Chain, ChainLink, FacePlane, FillRun, FillVertex};
 
-/// An element of a section: numbers of one size, perhaps with single bytes
-/// behind them.
+/// An element of a section: numbers of one size, perhaps followed by single bytes.
 pub(super) trait Element: Pod {
     /// Bytes of a number.
     const NUMBER_BYTES: usize;
-    /// How many numbers there are; what follows them are single bytes.
+    /// The number of numbers; single bytes follow them.
     const NUMBERS: usize = size_of::<Self>() / Self::NUMBER_BYTES;
 }
 
@@ -40,19 +38,19 @@ impl Element for EdgeVertex16 {
     const NUMBERS: usize = 18;
 }
 
-/// The bytes of a list in a file.
+/// The bytes of a list, little-endian.
 pub(super) fn to_bytes<T: Element>(items: &[T]) -> Cow<'_, [u8]> {
     let bytes: &[u8] = bytemuck::cast_slice(items);
     if cfg!(target_endian = "little") {
         return Cow::Borrowed(bytes);
     }
     let mut bytes = bytes.to_vec();
-    turn_numbers::<T>(&mut bytes);
+    reverse_numbers::<T>(&mut bytes);
     Cow::Owned(bytes)
 }
 
-/// The list that bytes of a file are; `None` where they are no whole number of
-/// elements. Copied where they lie at an odd address.
+/// The list in some bytes of a file; `None` if their length is not a multiple of the
+/// size of an element. Bytes that are not aligned are copied.
 pub(super) fn from_bytes<T: Element>(bytes: &[u8]) -> Option<Cow<'_, [T]>> {
     if !bytes.len().is_multiple_of(size_of::<T>()) {
         return None;
@@ -66,13 +64,13 @@ pub(super) fn from_bytes<T: Element>(bytes: &[u8]) -> Option<Cow<'_, [T]>> {
     let copy: &mut [u8] = bytemuck::cast_slice_mut(&mut items);
     copy.copy_from_slice(bytes);
     if cfg!(target_endian = "big") {
-        turn_numbers::<T>(copy);
+        reverse_numbers::<T>(copy);
     }
     Some(Cow::Owned(items))
 }
 
-/// Turns the bytes of each number around.
-fn turn_numbers<T: Element>(bytes: &mut [u8]) {
+/// Reverses the bytes of each number.
+fn reverse_numbers<T: Element>(bytes: &mut [u8]) {
     for element in bytes.chunks_exact_mut(size_of::<T>()) {
         for number in element.chunks_exact_mut(T::NUMBER_BYTES).take(T::NUMBERS) {
             number.reverse();
@@ -99,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn a_list_in_its_place_is_not_copied() {
+    fn an_aligned_list_is_not_copied() {
         let list = [EdgeRecord { v0: 1, v1: 2, face_a: 3, face_b: 4, flags: EdgeFlags::RIDGE }; 2];
         let bytes = to_bytes(&list);
         let is_borrowed = |list: &Cow<[EdgeRecord]>| matches!(list, Cow::Borrowed(_));
@@ -114,13 +112,13 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_turned_and_single_bytes_stay() {
+    fn numbers_are_reversed_and_single_bytes_stay() {
         let mut bytes: Vec<u8> = (0..80).collect();
-        turn_numbers::<EdgeVertex16>(&mut bytes);
+        reverse_numbers::<EdgeVertex16>(&mut bytes);
         assert_eq!(bytes[..4], [1, 0, 3, 2]);
         assert_eq!(bytes[34..42], [35, 34, 36, 37, 38, 39, 41, 40]);
-        turn_numbers::<EdgeVertex16>(&mut bytes);
-        turn_numbers::<f64>(&mut bytes);
+        reverse_numbers::<EdgeVertex16>(&mut bytes);
+        reverse_numbers::<f64>(&mut bytes);
         assert_eq!(bytes[..9], [7, 6, 5, 4, 3, 2, 1, 0, 15]);
     }
 }

@@ -1,4 +1,4 @@
-//! Why an edge mesh file was not read or written.
+//! Errors of edge mesh files.
 
 use std::fmt;
 
@@ -7,38 +7,37 @@ use crate::report::Place;
 /// The kind of a [`FileError`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileErrorKind {
-    /// Not an edge mesh at all.
+    /// Not an edge mesh file.
     Magic,
-    /// Written by a newer program, or of a version that never was.
+    /// Written by a newer program, or with an invalid version.
     Version,
-    /// Fewer bytes than the file should have.
+    /// The file has too few bytes.
     Truncated,
-    /// More bytes than the file should have.
+    /// The file has too many bytes.
     Excess,
-    /// Something in the file was changed after it was written.
+    /// The file was damaged after it was written.
     Checksum,
-    /// The section table is wrong: a section lies outside the file, is missing,
-    /// stands twice, or its elements are of another size.
+    /// The section table has a fault: a section lies outside the file, is missing, occurs
+    /// twice, or has elements of another size.
     Section,
-    /// Sections contradict each other, or an index leads nowhere.
+    /// Sections contradict each other, or an index is out of range.
     Inconsistent,
-    /// The JSON of section `META` is not understood.
+    /// The JSON of section `META` is malformed.
     Meta,
-    /// There is no memory for so large a file.
+    /// There is not enough memory for the file.
     Size,
-    /// The picture of a texture, which becomes part of the file, cannot be read.
+    /// The picture of a texture, which would be stored in the file, cannot be read.
     Texture,
 }
 
-/// Why an edge mesh file was not read or written: what is wrong, where, and
-/// what to do.
+/// An edge mesh file could not be read or written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FileError {
-    /// The kind.
+    /// What kind of error it is.
     pub kind: FileErrorKind,
-    /// The byte of the file; `None` where the file as a whole is meant.
+    /// The byte of the file; `None` for the whole file.
     pub place: Option<Place>,
-    /// What is wrong and what to do.
+    /// What is wrong, and what to do about it.
     pub what: String,
 }
 
@@ -53,7 +52,7 @@ impl FileError {
 }
 
 impl fmt::Display for FileError {
-    /// As it stands behind the file's name and a colon: `byte 56: ...`.
+    /// The text that follows the file's name and a colon: `byte 56: ...`.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(Place::Byte(byte)) = self.place {
             write!(formatter, "byte {byte}: ")?;

@@ -1,18 +1,26 @@
 //! The first 56 bytes of a file.
 //!
-//! Magic, version, length and checksum are where they are in every version, so
-//! that damage is told from novelty. The order of the checks is that of what
-//! can be said: whether it is an edge mesh, whether it is one that is read
-//! here, whether all of it is there, and whether it is as it was written.
+//! Magic, version, length and checksum have the same place in every version, so that
+//! a damaged file and a newer one can be distinguished. The checks are in the order
+//! of what can be reported: not an edge mesh, an unsupported version, an incomplete
+//! file, a damaged file.
 
 use super::error::{FileError, FileErrorKind};
-use super::section::TABLE_START;
-use crate::format::read::EDGE_MESH_MAGIC;
+use crate::format::little_endian::{u32_at, u64_at};
+
+/// The first bytes of a file.
+const MAGIC: &[u8; 8] = b"EDGEMESH";
 
 /// The version that is written, and the newest that is read.
-pub const VERSION: u32 = 1;
+const VERSION: u32 = 1;
 
-/// Bytes before the checksum, all of which it covers.
+/// The offset of the section table: the length of the header.
+pub(super) const TABLE_START: usize = 56;
+
+/// The length of the header in bytes.
+pub(crate) const HEADER_BYTES: u64 = TABLE_START as u64;
+
+/// The offset of the checksum, which covers all bytes before it.
 const BEFORE_CHECKSUM: usize = 24;
 
 /// A version that is read.
@@ -21,7 +29,7 @@ pub(super) enum Version {
     V1,
 }
 
-/// What a sound header says.
+/// The content of a valid header.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Header {
     pub(super) version: Version,
@@ -29,14 +37,15 @@ pub(super) struct Header {
 }
 
 impl Header {
-    /// Reads the header of a file and checks all of the file against it.
+    /// Reads the header of a file and checks the whole file against it.
     pub(super) fn read(bytes: &[u8]) -> Result<Self, FileError> {
         let has_magic = match bytes.first_chunk() {
-            Some(first) => first == EDGE_MESH_MAGIC,
-            None => EDGE_MESH_MAGIC.starts_with(bytes),
+            Some(first) => first == MAGIC,
+            None => MAGIC.starts_with(bytes),
         };
         if !has_magic {
-            let what = "is no edge mesh: 'EDGEMESH' is not at its start; build one of the model";
+            let what =
+                "is not an edge mesh: it does not begin with 'EDGEMESH'; build one from the model";
             return Err(FileError::new(FileErrorKind::Magic, what));
         }
         let cut = || truncated(TABLE_START as u64, bytes.len());
@@ -45,7 +54,7 @@ impl Header {
         check_length(u64_at(header, 16).ok_or_else(cut)?, bytes.len())?;
         let stored = header.get(BEFORE_CHECKSUM..).ok_or_else(cut)?;
         if checksum(bytes).is_none_or(|sum| sum.as_bytes() != stored) {
-            let what = "the checksum is not that of the content: the file was damaged; \
+            let what = "the checksum does not match the content: the file is damaged; \
                         build it again";
             return Err(FileError::at(FileErrorKind::Checksum, BEFORE_CHECKSUM as u64, what));
         }
@@ -53,11 +62,10 @@ impl Header {
     }
 }
 
-/// Writes the header of a file that is otherwise whole, with room for it at the
-/// start.
+/// Writes the header of a file, over the first bytes of an otherwise complete file.
 pub(super) fn write_header(bytes: &mut [u8], section_count: u32) {
     let length = bytes.len() as u64;
-    bytes[..8].copy_from_slice(EDGE_MESH_MAGIC);
+    bytes[..8].copy_from_slice(MAGIC);
     bytes[8..12].copy_from_slice(&VERSION.to_le_bytes());
     bytes[12..16].copy_from_slice(&section_count.to_le_bytes());
     bytes[16..24].copy_from_slice(&length.to_le_bytes());
@@ -66,24 +74,19 @@ pub(super) fn write_header(bytes: &mut [u8], section_count: u32) {
     }
 }
 
-/// Bytes before the section table.
-pub const HEADER_BYTES: u64 = TABLE_START as u64;
-
-/// How long a file that begins with `head` says it is; `None` where it is no edge
-/// mesh, or not even its header is there.
-#[must_use]
-pub fn stated_length(head: &[u8]) -> Option<u64> {
+/// The length that the header of an edge mesh file states; `None` if `head` is too
+/// short or not the start of one.
+pub(crate) fn stated_length(head: &[u8]) -> Option<u64> {
     u64_at(head, 16).filter(|_| is_edge_mesh(head))
 }
 
-/// Whether a file that begins with `head` is an edge mesh, of whatever version.
-#[must_use]
-pub fn is_edge_mesh(head: &[u8]) -> bool {
-    head.starts_with(EDGE_MESH_MAGIC)
+/// Whether a file that begins with `head` is an edge mesh of any version.
+pub(crate) fn is_edge_mesh(head: &[u8]) -> bool {
+    head.starts_with(MAGIC)
 }
 
-/// The bytes with magic, version, length and checksum made right, at least a
-/// header long: what tests and fuzzers need to get past the first checks.
+/// The bytes of a file with correct magic, version, length and checksum, padded to at
+/// least a header. Tests and fuzzers need this to pass the first checks.
 #[must_use]
 pub fn with_checksum(bytes: &[u8]) -> Vec<u8> {
     let mut sealed = bytes.to_vec();
@@ -93,21 +96,20 @@ pub fn with_checksum(bytes: &[u8]) -> Vec<u8> {
     sealed
 }
 
-/// BLAKE3 of all bytes but those of the checksum; `None` where there is not
-/// even a header.
+/// The BLAKE3 hash of all bytes except the checksum; `None` if the header is incomplete.
 fn checksum(bytes: &[u8]) -> Option<blake3::Hash> {
     let before = bytes.get(..BEFORE_CHECKSUM)?;
-    let behind = bytes.get(TABLE_START..)?;
-    Some(blake3::Hasher::new().update(before).update(behind).finalize())
+    let after = bytes.get(TABLE_START..)?;
+    Some(blake3::Hasher::new().update(before).update(after).finalize())
 }
 
 fn version_of(number: u32) -> Result<Version, FileError> {
     let what = match number {
-        0 => "version 0 never was: the file was damaged; build it again".into(),
+        0 => "version 0 does not exist: the file is damaged; build it again".into(),
         1 => return Ok(Version::V1),
         newer => format!(
             "written by a newer Edgemesh: version {newer}, this one reads {VERSION}; \
-             get the newer one, or build the file again"
+             update Edgemesh, or build the file again"
         ),
     };
     Err(FileError::at(FileErrorKind::Version, 8, what))
@@ -118,23 +120,15 @@ fn check_length(stated: u64, found: usize) -> Result<(), FileError> {
         return Err(truncated(stated, found));
     }
     if found as u64 > stated {
-        let what = format!("goes on behind its end at byte {stated}; build it again");
+        let what = format!("has bytes after its stated end at byte {stated}; build it again");
         return Err(FileError::at(FileErrorKind::Excess, stated, what));
     }
     Ok(())
 }
 
 fn truncated(needed: u64, found: usize) -> FileError {
-    let what = format!("ends here, and should have {needed} bytes; copy it or build it again");
+    let what = format!("ends here, but should have {needed} bytes; copy it or build it again");
     FileError::at(FileErrorKind::Truncated, found as u64, what)
-}
-
-pub(super) fn u32_at(bytes: &[u8], at: usize) -> Option<u32> {
-    bytes.get(at..)?.first_chunk().copied().map(u32::from_le_bytes)
-}
-
-pub(super) fn u64_at(bytes: &[u8], at: usize) -> Option<u64> {
-    bytes.get(at..)?.first_chunk().copied().map(u64::from_le_bytes)
 }
 
 #[cfg(test)]
@@ -155,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn whatever_is_wrong_has_its_kind_and_its_place() {
+    fn every_fault_has_its_kind_and_place() {
         let error = |change: &dyn Fn(&mut Vec<u8>)| {
             let mut bytes = file();
             change(&mut bytes);
@@ -168,7 +162,7 @@ mod tests {
         assert_eq!(kind, FileErrorKind::Magic, "{what}");
         let (kind, what) = error(&|bytes| bytes.truncate(4));
         assert_eq!(kind, FileErrorKind::Truncated, "{what}");
-        assert!(what.starts_with("byte 4: ends here, and should have 56 bytes"), "{what}");
+        assert!(what.starts_with("byte 4: ends here, but should have 56 bytes"), "{what}");
         let (kind, what) = error(&|bytes| bytes.truncate(79));
         assert_eq!(kind, FileErrorKind::Truncated, "{what}");
         assert!(what.contains("should have 80 bytes"), "{what}");
@@ -179,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn other_versions_are_named_before_anything_else_is_looked_at() {
+    fn the_version_is_checked_first() {
         let mut bytes = file();
         bytes[8] = 7;
         bytes.truncate(60);

@@ -1,9 +1,9 @@
-//! The JSON of a file: the model's name, the report of its build, and the names of
+//! The JSON of a file: the name of the model, the report of its build, and the names of
 //! materials and groups.
 //!
-//! JSON, because a report is text of any length and grows kinds: a reader keeps
-//! what it knows. A warning of a kind that is not known stays a warning, that
-//! something is not supported; a repair, which loses nothing, is left out.
+//! It is JSON because reports are text of any length, with kinds that newer programs may
+//! add. A warning of an unknown kind is read as one that something is unsupported; an
+//! unknown repair, which loses nothing, is left out.
 
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +25,7 @@ struct StoredMeta {
     groups: Vec<String>,
 }
 
-/// What a material is called, and its texture.
+/// The names of a material and its texture.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct MaterialNames {
     pub(super) name: String,
@@ -40,7 +40,7 @@ impl MaterialNames {
     }
 }
 
-/// All that the JSON says.
+/// The content of the JSON.
 #[derive(Debug, PartialEq)]
 pub(super) struct Meta {
     pub(super) name: String,
@@ -66,7 +66,7 @@ struct StoredRepair {
     place: Option<StoredPlace>,
 }
 
-/// A place; exactly one is there, none where the kind is not known.
+/// A place, in one of the members; all are `None` for an unknown kind.
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(default)]
 struct StoredPlace {
@@ -84,13 +84,13 @@ struct StoredPlace {
 
 impl StoredPlace {
     fn of(place: &Place) -> Self {
-        let nowhere = Self::default();
+        let none = Self::default();
         match place {
-            Place::Line(line) => Self { line: Some(*line), ..nowhere },
-            Place::Byte(offset) => Self { byte: Some(*offset), ..nowhere },
-            Place::Face(face) => Self { face: Some(*face), ..nowhere },
-            Place::Vertex(vertex) => Self { vertex: Some(*vertex), ..nowhere },
-            Place::Part(path) => Self { part: Some(path.clone()), ..nowhere },
+            Place::Line(line) => Self { line: Some(*line), ..none },
+            Place::Byte(offset) => Self { byte: Some(*offset), ..none },
+            Place::Face(face) => Self { face: Some(*face), ..none },
+            Place::Vertex(vertex) => Self { vertex: Some(*vertex), ..none },
+            Place::Part(path) => Self { part: Some(path.clone()), ..none },
         }
     }
 
@@ -124,14 +124,15 @@ pub(super) fn to_json(mesh: &StoredMesh<'_>) -> Result<Vec<u8>, FileError> {
         materials: mesh.materials.iter().map(MaterialNames::of).collect(),
         groups: mesh.groups.to_vec(),
     };
-    serde_json::to_vec(&meta)
-        .map_err(|error| FileError::new(FileErrorKind::Meta, format!("no JSON of it: {error}")))
+    serde_json::to_vec(&meta).map_err(|error| {
+        FileError::new(
+            FileErrorKind::Meta,
+            format!("the report cannot be written as JSON: {error}"),
+        )
+    })
 }
 
-/// What the JSON of a file says.
-///
-/// # Errors
-/// What is wrong with the JSON.
+/// Reads the JSON of a file.
 pub(super) fn from_json(json: &[u8]) -> Result<Meta, serde_json::Error> {
     let meta: StoredMeta = serde_json::from_slice(json)?;
     let warning = |stored: StoredWarning| Warning {
@@ -161,7 +162,7 @@ mod tests {
     use crate::edge_mesh::EdgeMesh;
     use crate::model::{Texture, TextureSource};
 
-    /// The JSON of a mesh of nothing, and what it says.
+    /// The JSON of a mesh, and what is read from it.
     fn there_and_back(name: &str, mesh: &EdgeMesh, report: &Report) -> (String, Meta) {
         let json = to_json(&StoredMesh::of(mesh, name, report)).unwrap();
         let meta = from_json(&json).unwrap();
@@ -169,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn a_report_comes_back_with_every_kind_of_place() {
+    fn reports_are_read_back_with_every_kind_of_place() {
         let mut report = Report::default();
         let places = [
             None,
@@ -190,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn the_json_is_short_and_says_what_it_means() {
+    fn the_json_has_the_documented_keys() {
         let mut report = Report::default();
         report.warn(WarningCode::Degenerate, Some(Place::Line(5)), || "flat".into());
         report.repair(RepairKind::SplitEdges, 2, None);
@@ -201,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn names_of_materials_and_groups_are_there_where_there_are_any() {
+    fn names_of_materials_and_groups_are_optional() {
         let mut mesh = EdgeMesh::default();
         let texture = Texture {
             name: "bark.png".into(),
@@ -224,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_newer_program_writes_is_kept_as_far_as_it_is_known() {
+    fn unknown_kinds_and_keys_of_newer_programs_are_accepted() {
         let json = br#"{"name": "a", "author": {"x": [1]}, "warnings": [
             {"code": "curved", "count": 2, "message": "new", "place": {"node": 3}},
             {"code": "degenerate", "count": 1, "message": "old", "place": {"line": 4}},

@@ -1,11 +1,11 @@
-//! MeshFrame and counts as the plain numbers that sections hold.
+//! The mesh frame and the counts, as numbers of sections.
 
 use glam::DVec3;
 
 use crate::edge_mesh::topology::EdgeCounts;
 use crate::edge_mesh::{MeshCounts, MeshFrame, SourceCounts};
 
-/// Origin and scale.
+/// The origin and the scale of a frame.
 pub(super) fn of_frame(frame: &MeshFrame) -> [f64; 4] {
     let [x, y, z] = frame.origin.to_array();
     [x, y, z, frame.scale]
@@ -40,8 +40,8 @@ pub(super) const fn of_counts(counts: &MeshCounts) -> [u64; 18] {
     ]
 }
 
-/// The counts of a file; one that this machine cannot count to is the largest
-/// that it can, and the check behind refuses it.
+/// The counts of a file. A count that does not fit into the address space becomes the
+/// largest possible, which `check` refuses.
 pub(super) fn to_counts(numbers: [u64; 18]) -> MeshCounts {
     let numbers = numbers.map(|number| usize::try_from(number).unwrap_or(usize::MAX));
     let edges = |[edges, boundary, non_manifold, inconsistent]: [usize; 4]| EdgeCounts {
@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_count_has_a_place_of_its_own() {
+    fn every_count_is_read_back() {
         let numbers: [u64; 18] = std::array::from_fn(|index| index as u64 + 1);
         let counts = to_counts(numbers);
         assert_eq!(of_counts(&counts), numbers);

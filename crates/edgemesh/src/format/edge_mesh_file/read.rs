@@ -1,12 +1,11 @@
-//! From the bytes of a file to a [`StoredMesh`], without copying where that can
-//! be.
+//! Reads a [`StoredMesh`] from the bytes of a file, without copying aligned lists.
 
 use std::borrow::Cow;
 
-use super::check::{Flaw, check, check_looks};
+use super::check::{Flaw, check, check_materials};
 use super::error::{FileError, FileErrorKind};
 use super::header::{Header, Version};
-use super::looks::to_materials;
+use super::materials::to_materials;
 use super::meta::{MaterialNames, from_json};
 use super::numbers::{to_counts, to_frame};
 use super::section::{Sections, Tag};
@@ -14,24 +13,23 @@ use super::stored::StoredMesh;
 use crate::edge_mesh::{Bounds, FillRun};
 use crate::model::Material;
 
-/// Reads the bytes of a file, all of it.
+/// Reads the bytes of a whole file.
 ///
 /// # Errors
-/// [`FileError`] for anything but what [`super::to_bytes`] writes, this version
-/// or an older one, whole and unchanged; and for a file of another program
-/// whose lists contradict each other.
+/// Fails if the file is not an edge mesh, of a newer version, incomplete or damaged, or
+/// if its sections contradict each other.
 pub fn parse(bytes: &[u8]) -> Result<StoredMesh<'_>, FileError> {
     let header = Header::read(bytes)?;
     let sections = Sections::read(bytes, header.section_count)?;
     let mesh = match header.version {
         Version::V1 => version_1(&sections)?,
     };
-    check(&mesh).map_err(|flaw| placed(flaw, &sections))?;
+    check(&mesh).map_err(|flaw| error_of(flaw, &sections))?;
     Ok(mesh)
 }
 
 /// The error of a flaw, with its place in the file.
-fn placed(flaw: Flaw, sections: &Sections) -> FileError {
+fn error_of(flaw: Flaw, sections: &Sections) -> FileError {
     let place = sections.place(flaw.tag, flaw.element);
     flaw.at(place)
 }
@@ -45,7 +43,7 @@ fn version_1<'a>(sections: &Sections<'a>) -> Result<StoredMesh<'a>, FileError> {
         what: format!("section META: {error}; build the file again"),
     })?;
     let fill_indices: Cow<[u32]> = sections.optional(Tag::FILL_INDICES)?.unwrap_or_default();
-    // Files from before there were runs.
+    // Older files have no material ranges.
     let plain_run = || if fill_indices.is_empty() { vec![] } else { vec![FillRun::PLAIN] };
     let fill_runs = sections.optional(Tag::FILL_RUNS)?.unwrap_or_else(|| plain_run().into());
     Ok(StoredMesh {
@@ -72,13 +70,13 @@ fn version_1<'a>(sections: &Sections<'a>) -> Result<StoredMesh<'a>, FileError> {
     })
 }
 
-/// The materials, which are called `names`.
+/// The materials with these names.
 fn materials(sections: &Sections, names: Vec<MaterialNames>) -> Result<Vec<Material>, FileError> {
     let stored = sections.optional(Tag::MATERIALS)?.unwrap_or_default();
     let picture_ends = sections.optional(Tag::PICTURE_ENDS)?.unwrap_or_default();
     let pictures = sections.optional(Tag::PICTURES)?.unwrap_or_default();
-    check_looks(&stored, &picture_ends, pictures.len(), names.len())
-        .map_err(|flaw| placed(flaw, sections))?;
+    check_materials(&stored, &picture_ends, pictures.len(), names.len())
+        .map_err(|flaw| error_of(flaw, sections))?;
     Ok(to_materials(&stored, &picture_ends, &pictures, names))
 }
 
@@ -92,7 +90,7 @@ mod tests {
         SourceCounts,
     };
     use crate::format::edge_mesh_file::draft::{Draft, TRIANGLE};
-    use crate::format::edge_mesh_file::samples::{looks, samples, sheet};
+    use crate::format::edge_mesh_file::samples::{samples, sheet, textured};
     use crate::format::edge_mesh_file::{Layout, to_bytes};
     use crate::index::NONE;
     use crate::model::{Texture, TextureSource};
@@ -136,7 +134,7 @@ mod tests {
         }
     }
 
-    /// What [`TRIANGLE`] says.
+    /// The content of [`TRIANGLE`].
     fn triangle_mesh() -> EdgeMesh {
         let positions = vec![[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]];
         let normal = [0., 0., 1.];
@@ -166,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_of_version_1_means_what_it_meant() {
+    fn a_file_of_version_1_is_read() {
         let stored = parse(TRIANGLE).unwrap();
         assert_eq!(stored.to_mesh(), triangle_mesh());
         assert_eq!(stored.name, "triangle.obj");
@@ -192,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn looks_are_read_from_their_sections() {
+    fn materials_are_read_from_their_sections() {
         let mut expected = triangle_mesh();
         expected.fill.runs =
             vec![FillRun { first_triangle: 0, material: 1, group: 0, has_texcoords: 1 }];
@@ -211,15 +209,15 @@ mod tests {
                 ..Material::default()
             },
         ];
-        let bytes = Draft::looks().to_bytes();
+        let bytes = Draft::with_materials().to_bytes();
         let stored = parse(&bytes).unwrap();
         assert_eq!(stored.to_mesh(), expected);
-        let again = to_bytes(&expected, "looks", stored.report(), &[]).unwrap();
+        let again = to_bytes(&expected, "textured", stored.report(), &[]).unwrap();
         assert_eq!(parse(&again).unwrap().to_mesh(), expected);
     }
 
     #[test]
-    fn a_mesh_without_fill_is_whole() {
+    fn a_mesh_without_fill_is_valid() {
         let mut draft = Draft::triangle();
         draft.remove("FVTX");
         draft.remove("FIDX");
@@ -228,14 +226,14 @@ mod tests {
     }
 
     #[test]
-    fn every_other_section_must_be_there_and_once_and_of_its_size() {
+    fn every_other_section_must_occur_once_with_its_element_size() {
         let kind_and_place = |draft: &Draft| {
             let error = parse(&draft.to_bytes()).unwrap_err();
             assert!(error.what.ends_with("; build the file again"), "{error}");
             (error.kind, error.place)
         };
         let at = |index: usize| (FileErrorKind::Section, Some(Place::Byte(56 + 24 * index as u64)));
-        let whole = Draft::looks();
+        let whole = Draft::with_materials();
         for (index, section) in whole.sections.iter().enumerate() {
             let tag = std::str::from_utf8(&section.tag).unwrap();
             let mut draft = whole.clone();
@@ -247,7 +245,7 @@ mod tests {
             draft = whole.clone();
             draft.remove(tag);
             match tag {
-                // Without runs all triangles are one.
+                // Without material ranges all triangles are one.
                 "FRUN" => assert!(parse(&draft.to_bytes()).is_ok(), "{tag} missing"),
                 "FVTX" | "FIDX" | "MTRL" | "PEND" | "PICT" => {
                     assert_eq!(kind_and_place(&draft).0, FileErrorKind::Inconsistent)
@@ -280,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn a_newer_version_is_named_though_its_checksum_is_right() {
+    fn a_newer_version_is_reported_before_its_content() {
         let draft = Draft { version: 7, ..Draft::triangle() };
         let error = parse(&draft.to_bytes()).unwrap_err();
         assert_eq!(error.kind, FileErrorKind::Version);
@@ -289,7 +287,7 @@ mod tests {
 
     /// A small file with every section.
     fn small_file() -> Vec<u8> {
-        let sample = looks();
+        let sample = textured();
         to_bytes(&sample.mesh, sample.name, &sample.report, &Layout::ALL).unwrap()
     }
 
@@ -305,10 +303,10 @@ mod tests {
         assert_eq!(parse(&longer).unwrap_err().kind, FileErrorKind::Excess);
     }
 
-    /// The kind of error of a file with one bit turned.
+    /// The kind of error of a file with one bit flipped.
     fn kind_of_flip(bytes: &mut [u8], bit: usize) -> FileErrorKind {
         bytes[bit / 8] ^= 1 << (bit % 8);
-        let kind = parse(bytes).expect_err("a bit was turned").kind;
+        let kind = parse(bytes).expect_err("a bit was flipped").kind;
         bytes[bit / 8] ^= 1 << (bit % 8);
         kind
     }
@@ -326,7 +324,7 @@ mod tests {
                 };
                 assert!(expected, "bit {bit}: {kind:?}");
             }
-            assert!(parse(&bytes).is_ok(), "all bits are back");
+            assert!(parse(&bytes).is_ok(), "the bytes are unchanged");
         }
     }
 

@@ -1,4 +1,4 @@
-//! Small meshes of every kind, for tests of the file.
+//! Small meshes of many kinds, for tests of the file.
 
 use crate::build::{BuildOptions, build_edge_mesh};
 use crate::edge_mesh::EdgeMesh;
@@ -7,7 +7,7 @@ use crate::index::NONE;
 use crate::model::{Attributes, Corner, Material, Model, Texture, TextureSource};
 use crate::report::Report;
 
-/// A mesh with its name and its report.
+/// A mesh with its name and the report of its build.
 #[derive(Debug, Default)]
 pub(super) struct Sample {
     pub(super) name: &'static str,
@@ -74,7 +74,7 @@ fn bow_tie() -> Sample {
     Sample::of_polygons("bow tie", &positions, &[&[0, 1, 2], &[0, 3, 4]])
 }
 
-/// Faces between random points: edges of many faces, two windings, duplicates.
+/// Faces between random points, with edges of many faces, both windings and duplicates.
 fn soup() -> Sample {
     let mut state = 1_u32;
     let mut random = || {
@@ -89,8 +89,8 @@ fn soup() -> Sample {
     Sample::of_polygons("soup", &positions, &polygons)
 }
 
-/// Materials, groups, a line that is drawn, an n-gon, far from the origin; what
-/// is wrong with it gives warnings and repairs.
+/// Materials, groups, segments and an n-gon, far from the origin, with faults that give
+/// warnings and repairs.
 fn materials() -> Sample {
     let text = "mtllib none.mtl\n\
         v 9000000 0 0\nv 9000001 0 0\nv 9000001 1 0\nv 9000000 1 0\nv 9000000 0 1\nv nan 0 0\n\
@@ -104,9 +104,9 @@ fn lines() -> Sample {
     Sample::of_obj("lines.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\n")
 }
 
-/// Two materials with pictures, one of them twice, and one of nothing; two
-/// groups; texture coordinates in a part of it.
-pub(super) fn looks() -> Sample {
+/// Three materials with pictures, two of which share one, and an empty one; two groups;
+/// texture coordinates for some of the faces.
+pub(super) fn textured() -> Sample {
     let positions = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.], [0., 0., 1.]];
     let mut model = Model::from_polygons(&positions, &[]);
     model.texcoords = vec![[0.25, 0.75]];
@@ -141,10 +141,10 @@ pub(super) fn looks() -> Sample {
         let corners = corners.map(|corner| Corner { texcoord, ..Corner::at(corner) });
         model.push_polygon(&corners, 0);
     }
-    Sample::of_model("looks", &model, Report::default())
+    Sample::of_model("textured", &model, Report::default())
 }
 
-/// All of them.
+/// All samples.
 pub(super) fn samples() -> Vec<Sample> {
     vec![
         Sample::default(),
@@ -156,6 +156,6 @@ pub(super) fn samples() -> Vec<Sample> {
         soup(),
         materials(),
         lines(),
-        looks(),
+        textured(),
     ]
 }

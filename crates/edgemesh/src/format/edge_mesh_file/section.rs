@@ -1,20 +1,18 @@
-//! The section table: where each list lies in the file.
+//! The section table, with the place of each list in the file.
 
 use std::borrow::Cow;
 use std::fmt;
 
 use super::element::{Element, from_bytes};
 use super::error::{FileError, FileErrorKind};
-use super::header::{u32_at, u64_at};
+use super::header::TABLE_START;
+use crate::format::little_endian::{u32_at, u64_at};
 use crate::report::Place;
 
-/// Where the table begins: behind the header.
-pub(super) const TABLE_START: usize = 56;
-
-/// Bytes of the table a section.
+/// Bytes of an entry of the table.
 pub(super) const ENTRY_BYTES: usize = 24;
 
-/// Sections begin at multiples of this.
+/// Sections begin at multiples of this many bytes.
 pub(super) const ALIGNMENT: usize = 16;
 
 /// The name of a section.
@@ -56,20 +54,20 @@ impl fmt::Debug for Tag {
     }
 }
 
-/// A line of the table.
+/// An entry of the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Section {
     pub(super) tag: Tag,
     /// Bytes of an element.
     pub(super) element_bytes: u32,
-    /// Its first byte.
+    /// The offset of its first byte in the file.
     pub(super) offset: u64,
-    /// How many elements it has.
+    /// The number of elements.
     pub(super) count: u64,
 }
 
 impl Section {
-    /// An error in the line `index` of the table, which is this one.
+    /// An error in this entry, which has this index in the table.
     fn error(&self, index: usize, what: &str) -> FileError {
         let byte = (TABLE_START + index * ENTRY_BYTES) as u64;
         let what = format!("section {} {what}; build the file again", self.tag);
@@ -85,7 +83,7 @@ impl Section {
         })
     }
 
-    /// As [`Self::read`] takes it.
+    /// The entry as bytes, the inverse of [`Self::read`].
     pub(super) fn to_bytes(self) -> [u8; ENTRY_BYTES] {
         let mut bytes = [0; ENTRY_BYTES];
         bytes[..4].copy_from_slice(&self.tag.0);
@@ -95,7 +93,7 @@ impl Section {
         bytes
     }
 
-    /// Its bytes in the file; `None` where it leaves it.
+    /// Its bytes in the file; `None` if it leaves the file.
     fn of<'a>(&self, file: &'a [u8]) -> Option<&'a [u8]> {
         let length = self.count.checked_mul(u64::from(self.element_bytes))?;
         let end = self.offset.checked_add(length)?;
@@ -103,7 +101,7 @@ impl Section {
     }
 }
 
-/// The sections of a file, each within it.
+/// The sections of a file, all within the file.
 #[derive(Debug)]
 pub(super) struct Sections<'a> {
     file: &'a [u8],
@@ -111,7 +109,7 @@ pub(super) struct Sections<'a> {
 }
 
 impl<'a> Sections<'a> {
-    /// Reads the table of `count` sections of a file whose header is sound.
+    /// Reads the table of `count` sections of a file with a valid header.
     pub(super) fn read(file: &'a [u8], count: u32) -> Result<Self, FileError> {
         let end = u64::from(count) * ENTRY_BYTES as u64 + TABLE_START as u64;
         let entries = usize::try_from(end).ok().and_then(|end| file.get(TABLE_START..end));
@@ -124,7 +122,8 @@ impl<'a> Sections<'a> {
         for (index, section) in table.iter().enumerate() {
             let begin = section.offset;
             if begin < end || begin % ALIGNMENT as u64 != 0 {
-                let what = format!("begins at byte {begin}: no multiple of 16 behind the table");
+                let what =
+                    format!("begins at byte {begin}, not at a multiple of 16 after the table");
                 return Err(section.error(index, &what));
             }
             if section.of(file).is_none() {
@@ -134,23 +133,23 @@ impl<'a> Sections<'a> {
         Ok(Self { file, table })
     }
 
-    /// The list of a section that may be missing.
+    /// The list of an optional section.
     pub(super) fn optional<T: Element>(&self, tag: Tag) -> Result<Option<Cow<'a, [T]>>, FileError> {
         let mut found = self.table.iter().enumerate().filter(|(_, section)| section.tag == tag);
         let Some((index, section)) = found.next() else { return Ok(None) };
         if let Some((again, section)) = found.next() {
-            return Err(section.error(again, "stands twice"));
+            return Err(section.error(again, "occurs twice"));
         }
         let size = size_of::<T>();
         if section.element_bytes as usize != size {
-            let what = format!("has elements of {} bytes, not {size}", section.element_bytes);
+            let what = format!("has elements of {} bytes instead of {size}", section.element_bytes);
             return Err(section.error(index, &what));
         }
         let list = section.of(self.file).and_then(from_bytes);
         list.map(Some).ok_or_else(|| section.error(index, "leaves the file"))
     }
 
-    /// The list of a section that every file has.
+    /// The list of a required section.
     pub(super) fn list<T: Element>(&self, tag: Tag) -> Result<Cow<'a, [T]>, FileError> {
         let missing = || {
             let what = format!("section {tag} is missing; build the file again");
@@ -159,11 +158,11 @@ impl<'a> Sections<'a> {
         self.optional(tag)?.ok_or_else(missing)
     }
 
-    /// The list of a section that has just `N` elements.
+    /// The list of a required section with `N` elements.
     pub(super) fn array<T: Element, const N: usize>(&self, tag: Tag) -> Result<[T; N], FileError> {
         let list = self.list(tag)?;
         <[T; N]>::try_from(&*list).map_err(|_| {
-            let what = format!("section {tag} has {} elements, not {N}", list.len());
+            let what = format!("section {tag} has {} elements instead of {N}", list.len());
             FileError {
                 kind: FileErrorKind::Section,
                 place: self.place(tag, 0),
@@ -172,7 +171,7 @@ impl<'a> Sections<'a> {
         })
     }
 
-    /// Where an element of a section lies in the file.
+    /// The place of an element in the file.
     pub(super) fn place(&self, tag: Tag, element: usize) -> Option<Place> {
         let section = self.table.iter().find(|section| section.tag == tag)?;
         let before = (element as u64).checked_mul(u64::from(section.element_bytes))?;
@@ -186,7 +185,7 @@ mod tests {
 
     const WHERE: u64 = 112;
 
-    /// A file without a sound header: two sections of the numbers 0 to 3.
+    /// A file without a valid header, with two sections of the numbers 0 to 3.
     fn file(change: impl FnOnce(&mut [Section; 2])) -> Vec<u8> {
         let section = Section { tag: Tag(*b"NUMS"), element_bytes: 4, offset: WHERE, count: 4 };
         let mut table = [section, Section { tag: Tag(*b"OTHR"), ..section }];
@@ -219,27 +218,31 @@ mod tests {
         assert_eq!(sections.optional::<u32>(Tag(*b"NONE")), Ok(None));
         assert_eq!(sections.place(Tag(*b"OTHR"), 3), Some(Place::Byte(WHERE + 12)));
         let error = sections.array::<u32, 5>(Tag(*b"NUMS")).unwrap_err();
-        assert!(error.to_string().contains("byte 112: section NUMS has 4 elements, not 5"));
+        assert!(error.to_string().contains("byte 112: section NUMS has 4 elements instead of 5"));
     }
 
     #[test]
-    fn what_is_wrong_is_said_with_the_line_of_the_table() {
+    fn faults_are_reported_with_the_entry_of_the_table() {
         let error = |change: fn(&mut [Section; 2])| numbers(change).unwrap_err();
         assert!(error(|table| table[0].tag.0 = *b"A\nB\xff").contains("section NUMS is missing"));
         let twice = error(|table| table[1].tag = table[0].tag);
-        assert!(twice.starts_with("byte 80: section NUMS stands twice"), "{twice}");
+        assert!(twice.starts_with("byte 80: section NUMS occurs twice"), "{twice}");
         let size = error(|table| (table[0].element_bytes, table[0].count) = (2, 8));
-        assert!(size.starts_with("byte 56: section NUMS has elements of 2 bytes, not 4"), "{size}");
+        assert!(
+            size.starts_with("byte 56: section NUMS has elements of 2 bytes instead of 4"),
+            "{size}"
+        );
         for offset in [WHERE + 4, 96, 0] {
             let file = file(|table| (table[1].offset, table[1].count) = (offset, 0));
             let error = Sections::read(&file, 2).unwrap_err().to_string();
-            let expected = format!("byte 80: section OTHR begins at byte {offset}: no multiple");
+            let expected =
+                format!("byte 80: section OTHR begins at byte {offset}, not at a multiple");
             assert!(error.starts_with(&expected), "{error}");
         }
     }
 
     #[test]
-    fn no_section_leaves_the_file_however_large_its_numbers_are() {
+    fn sections_cannot_leave_the_file_by_large_numbers() {
         for (element_bytes, offset, count) in [
             (4, WHERE, 5),
             (4, WHERE + 16, 1),
@@ -255,7 +258,7 @@ mod tests {
             assert!(error.starts_with("byte 80: section OTHR leaves the file"), "{error}");
         }
         let behind = file(|table| (table[1].offset, table[1].count) = (WHERE + 16, 0));
-        assert!(Sections::read(&behind, 2).is_ok(), "nothing at the end is within");
+        assert!(Sections::read(&behind, 2).is_ok(), "an empty section at the end is within");
         for count in [4, u32::MAX] {
             let error = Sections::read(&behind, count).unwrap_err().to_string();
             assert!(error.starts_with("byte 12: a table of"), "{error}");

@@ -1,11 +1,11 @@
-//! An edge mesh as a file has it: lists that may lie in the bytes of the file.
+//! The content of an edge mesh file, as lists that may be views of its bytes.
 //!
-//! The writer makes one that borrows from an [`EdgeMesh`], the reader one that
-//! borrows from bytes; so both pass the same checks.
+//! The writer makes one that borrows from an [`EdgeMesh`], the reader one that borrows
+//! from bytes. So both can run the same checks.
 
 use std::borrow::Cow;
 
-use super::Layout;
+use super::layout::Layout;
 use crate::edge_mesh::record::{EdgeRecord, EdgeVertex, EdgeVertex16};
 use crate::edge_mesh::{
     Bounds, Chain, ChainLink, Chains, EdgeMesh, FacePlane, FillMesh, FillRun, FillVertex,
@@ -14,14 +14,13 @@ use crate::edge_mesh::{
 use crate::model::Material;
 use crate::report::Report;
 
-/// The content of an edge mesh file; every index in it leads somewhere.
+/// The content of an edge mesh file, with all indices in range.
 ///
-/// Lists are views of the file's bytes where these lie at a multiple of the size
-/// of their numbers on a little-endian machine, and copies elsewhere. Materials
-/// and groups are copies.
+/// On a little-endian machine, aligned lists are views of the file's bytes. Other lists,
+/// materials and groups are copies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredMesh<'a> {
-    /// How the model is called in messages: the path it was read from.
+    /// The name of the model in messages: the path it was read from.
     pub name: Cow<'a, str>,
     /// As [`EdgeMesh::frame`].
     pub frame: MeshFrame,
@@ -47,7 +46,7 @@ pub struct StoredMesh<'a> {
     pub fill_indices: Cow<'a, [u32]>,
     /// As [`FillMesh::runs`].
     pub fill_runs: Cow<'a, [FillRun]>,
-    /// As [`FillMesh::materials`], all pictures with their bytes.
+    /// As [`FillMesh::materials`], with all pictures in memory.
     pub materials: Cow<'a, [Material]>,
     /// As [`FillMesh::groups`].
     pub groups: Cow<'a, [String]>,
@@ -55,17 +54,17 @@ pub struct StoredMesh<'a> {
     pub bounds: Bounds,
     /// As [`EdgeMesh::counts`].
     pub counts: MeshCounts,
-    /// What [`crate::edge_mesh::replicate::replicate`] makes of the mesh, where the file
-    /// has it.
+    /// The result of [`replicate`](crate::edge_mesh::replicate::replicate), if it is in
+    /// the file.
     pub replicated_f32: Option<Cow<'a, [EdgeVertex]>>,
-    /// What [`crate::edge_mesh::replicate::replicate_16`] makes of the mesh, where the
-    /// file has it.
+    /// The result of [`replicate_16`](crate::edge_mesh::replicate::replicate_16), if it is
+    /// in the file.
     pub replicated_i16: Option<Cow<'a, [EdgeVertex16]>>,
     pub(super) report: Cow<'a, Report>,
 }
 
 impl<'a> StoredMesh<'a> {
-    /// A view of a mesh, in the indexed layout alone.
+    /// A view of a mesh, in the indexed layout only.
     pub(super) const fn of(mesh: &'a EdgeMesh, name: &'a str, report: &'a Report) -> Self {
         Self {
             name: Cow::Borrowed(name),
@@ -91,7 +90,7 @@ impl<'a> StoredMesh<'a> {
         }
     }
 
-    /// A mesh of its own, without the replicated layouts.
+    /// A copy as an [`EdgeMesh`], without the replicated layouts.
     #[must_use]
     pub fn to_mesh(&self) -> EdgeMesh {
         EdgeMesh {
@@ -115,13 +114,13 @@ impl<'a> StoredMesh<'a> {
         }
     }
 
-    /// What was repaired or dropped when the mesh was built.
+    /// The repairs and warnings of the build.
     #[must_use]
     pub fn report(&self) -> &Report {
         &self.report
     }
 
-    /// The layouts that the file has, in the order of [`Layout::ALL`].
+    /// The layouts in the file, in the order of [`Layout::ALL`].
     pub fn layouts(&self) -> impl Iterator<Item = Layout> {
         Layout::ALL.into_iter().filter(|layout| match layout {
             Layout::Indexed => true,

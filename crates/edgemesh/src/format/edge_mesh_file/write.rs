@@ -1,32 +1,30 @@
-//! From an [`EdgeMesh`] to the bytes of a file: sections in a fixed order, so
-//! that the same mesh gives the same bytes.
+//! Writes an [`EdgeMesh`] as the bytes of a file. The sections have a fixed order, so that
+//! equal meshes give equal bytes.
 
 use std::borrow::Cow;
 
-use super::Layout;
 use super::check::check;
 use super::element::{self, Element};
 use super::error::{FileError, FileErrorKind};
-use super::header::write_header;
-use super::looks::{Looks, embedded};
+use super::header::{TABLE_START, write_header};
+use super::layout::Layout;
+use super::materials::{MaterialSections, with_pictures};
 use super::meta::to_json;
 use super::numbers::{of_counts, of_frame};
-use super::section::{ALIGNMENT, ENTRY_BYTES, Section, TABLE_START, Tag};
+use super::section::{ALIGNMENT, ENTRY_BYTES, Section, Tag};
 use super::stored::StoredMesh;
 use crate::edge_mesh::EdgeMesh;
 use crate::edge_mesh::replicate::{replicate, replicate_16};
 use crate::index::to_u32;
 use crate::report::Report;
 
-/// The bytes of a file of `mesh`, made of the model that is called `name`, with
-/// the report of its build. The indexed layout is always in it. Pictures that lie
-/// in files are read and become part of it.
+/// The bytes of a file with `mesh`, the name of its model and the report of its build. The
+/// indexed layout is always included. Pictures in files are read and stored.
 ///
 /// # Errors
-/// [`FileErrorKind::Inconsistent`] where an index of the mesh leads nowhere,
-/// which none does that [`crate::build`] made; [`FileErrorKind::Texture`] where a
-/// picture cannot be read; [`FileErrorKind::Size`] where there is no memory for
-/// the file.
+/// [`FileErrorKind::Inconsistent`] if an index of the mesh is out of range, which does not
+/// happen with meshes of [`crate::build`]; [`FileErrorKind::Texture`] if a picture cannot
+/// be read; [`FileErrorKind::Size`] if there is not enough memory.
 pub fn to_bytes(
     mesh: &EdgeMesh,
     name: &str,
@@ -35,8 +33,8 @@ pub fn to_bytes(
 ) -> Result<Vec<u8>, FileError> {
     let mut stored = StoredMesh::of(mesh, name, report);
     check(&stored).map_err(|flaw| flaw.at(None))?;
-    stored.materials = embedded(&mesh.fill.materials)?;
-    let looks = Looks::of(&stored.materials);
+    stored.materials = with_pictures(&mesh.fill.materials)?;
+    let materials = MaterialSections::new(&stored.materials);
     stored.replicated_f32 =
         layouts.contains(&Layout::ReplicatedF32).then(|| replicate(mesh).into());
     stored.replicated_i16 =
@@ -44,90 +42,91 @@ pub fn to_bytes(
     let (frame, counts) = (of_frame(&stored.frame), of_counts(&stored.counts));
     let bounds = [stored.bounds.min, stored.bounds.max];
     let json = to_json(&stored)?;
-    let mut parts = parts_of(&stored);
-    parts.extend(parts_of_looks(&looks));
-    parts.push(Part::new(Tag::FRAME, &frame));
-    parts.push(Part::new(Tag::BOUNDS, &bounds));
-    parts.push(Part::new(Tag::COUNTS, &counts));
-    parts.push(Part::new(Tag::META, &json));
-    assemble(&parts)
+    let mut contents = mesh_contents(&stored);
+    contents.extend(material_contents(&materials));
+    contents.push(SectionContent::new(Tag::FRAME, &frame));
+    contents.push(SectionContent::new(Tag::BOUNDS, &bounds));
+    contents.push(SectionContent::new(Tag::COUNTS, &counts));
+    contents.push(SectionContent::new(Tag::META, &json));
+    assemble(&contents)
 }
 
-/// A section, before it has a place.
-struct Part<'a> {
+/// The content of a section, before its place in the file is known.
+struct SectionContent<'a> {
     tag: Tag,
     element_bytes: usize,
     bytes: Cow<'a, [u8]>,
 }
 
-impl<'a> Part<'a> {
+impl<'a> SectionContent<'a> {
     fn new<T: Element>(tag: Tag, items: &'a [T]) -> Self {
         Self { tag, element_bytes: size_of::<T>(), bytes: element::to_bytes(items) }
     }
 }
 
-fn parts_of<'a>(mesh: &'a StoredMesh<'_>) -> Vec<Part<'a>> {
-    let mut parts = vec![
-        Part::new(Tag::POSITIONS, &mesh.positions),
-        Part::new(Tag::VERTEX_NORMALS, &mesh.vertex_normals),
-        Part::new(Tag::SPLIT_FROM, &mesh.split_from),
-        Part::new(Tag::TRIANGLES, &mesh.triangles),
-        Part::new(Tag::FACE_PLANES, &mesh.face_planes),
-        Part::new(Tag::RECORDS, &mesh.records),
-        Part::new(Tag::CHAINS, &mesh.chains),
-        Part::new(Tag::LINKS, &mesh.links),
+/// The sections of a mesh, without its materials.
+fn mesh_contents<'a>(mesh: &'a StoredMesh<'_>) -> Vec<SectionContent<'a>> {
+    let mut contents = vec![
+        SectionContent::new(Tag::POSITIONS, &mesh.positions),
+        SectionContent::new(Tag::VERTEX_NORMALS, &mesh.vertex_normals),
+        SectionContent::new(Tag::SPLIT_FROM, &mesh.split_from),
+        SectionContent::new(Tag::TRIANGLES, &mesh.triangles),
+        SectionContent::new(Tag::FACE_PLANES, &mesh.face_planes),
+        SectionContent::new(Tag::RECORDS, &mesh.records),
+        SectionContent::new(Tag::CHAINS, &mesh.chains),
+        SectionContent::new(Tag::LINKS, &mesh.links),
     ];
     if !mesh.fill_vertices.is_empty() {
-        parts.push(Part::new(Tag::FILL_VERTICES, &mesh.fill_vertices));
-        parts.push(Part::new(Tag::FILL_INDICES, &mesh.fill_indices));
+        contents.push(SectionContent::new(Tag::FILL_VERTICES, &mesh.fill_vertices));
+        contents.push(SectionContent::new(Tag::FILL_INDICES, &mesh.fill_indices));
     }
     if !mesh.fill_runs.is_empty() {
-        parts.push(Part::new(Tag::FILL_RUNS, &mesh.fill_runs));
+        contents.push(SectionContent::new(Tag::FILL_RUNS, &mesh.fill_runs));
     }
     if let Some(vertices) = &mesh.replicated_f32 {
-        parts.push(Part::new(Tag::REPLICATED_F32, vertices));
+        contents.push(SectionContent::new(Tag::REPLICATED_F32, vertices));
     }
     if let Some(vertices) = &mesh.replicated_i16 {
-        parts.push(Part::new(Tag::REPLICATED_I16, vertices));
+        contents.push(SectionContent::new(Tag::REPLICATED_I16, vertices));
     }
-    parts
+    contents
 }
 
-/// Those sections of materials that have anything in them.
-fn parts_of_looks(looks: &Looks) -> impl Iterator<Item = Part<'_>> {
-    let parts = [
-        Part::new(Tag::MATERIALS, &looks.materials),
-        Part::new(Tag::PICTURE_ENDS, &looks.picture_ends),
-        Part::new(Tag::PICTURES, &looks.pictures),
+/// The sections of materials that are not empty.
+fn material_contents(materials: &MaterialSections) -> impl Iterator<Item = SectionContent<'_>> {
+    let contents = [
+        SectionContent::new(Tag::MATERIALS, &materials.materials),
+        SectionContent::new(Tag::PICTURE_ENDS, &materials.picture_ends),
+        SectionContent::new(Tag::PICTURES, &materials.pictures),
     ];
-    parts.into_iter().filter(|part| !part.bytes.is_empty())
+    contents.into_iter().filter(|content| !content.bytes.is_empty())
 }
 
-/// Puts header, table and sections in a row.
-fn assemble(parts: &[Part<'_>]) -> Result<Vec<u8>, FileError> {
-    let mut end = TABLE_START + parts.len() * ENTRY_BYTES;
-    let mut table = Vec::with_capacity(parts.len());
-    for part in parts {
+/// Joins header, table and sections.
+fn assemble(contents: &[SectionContent<'_>]) -> Result<Vec<u8>, FileError> {
+    let mut end = TABLE_START + contents.len() * ENTRY_BYTES;
+    let mut table = Vec::with_capacity(contents.len());
+    for content in contents {
         let offset = end.next_multiple_of(ALIGNMENT);
-        end = offset + part.bytes.len();
+        end = offset + content.bytes.len();
         table.push(Section {
-            tag: part.tag,
-            element_bytes: to_u32(part.element_bytes),
+            tag: content.tag,
+            element_bytes: to_u32(content.element_bytes),
             offset: offset as u64,
-            count: (part.bytes.len() / part.element_bytes) as u64,
+            count: (content.bytes.len() / content.element_bytes) as u64,
         });
     }
     let mut bytes = Vec::new();
     bytes.try_reserve_exact(end).map_err(|_| {
-        FileError::new(FileErrorKind::Size, format!("no memory for a file of {end} bytes"))
+        FileError::new(FileErrorKind::Size, format!("not enough memory for a file of {end} bytes"))
     })?;
     bytes.resize(TABLE_START, 0);
     for section in &table {
         bytes.extend_from_slice(&section.to_bytes());
     }
-    for part in parts {
+    for content in contents {
         bytes.resize(bytes.len().next_multiple_of(ALIGNMENT), 0);
-        bytes.extend_from_slice(&part.bytes);
+        bytes.extend_from_slice(&content.bytes);
     }
     write_header(&mut bytes, to_u32(table.len()));
     Ok(bytes)
@@ -138,7 +137,7 @@ mod tests {
     use super::*;
     use crate::edge_mesh::record::EdgeFlags;
     use crate::format::edge_mesh_file::parse;
-    use crate::format::edge_mesh_file::samples::{Sample, looks, samples, sheet, triangle};
+    use crate::format::edge_mesh_file::samples::{Sample, samples, sheet, textured, triangle};
     use crate::model::{Texture, TextureSource};
     use crate::report::{RepairKind, WarningCode};
 
@@ -147,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn whatever_is_written_is_read_again() {
+    fn every_written_file_is_read_back() {
         for sample in samples() {
             let Sample { name, mesh, report } = &sample;
             let bytes = written(&sample, &[]);
@@ -160,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn the_replicated_layouts_are_added_where_they_are_asked_for() {
+    fn the_replicated_layouts_are_added_on_request() {
         for sample in samples() {
             let bytes = written(&sample, &Layout::ALL);
             let stored = parse(&bytes).unwrap();
@@ -174,14 +173,14 @@ mod tests {
         }
     }
 
-    /// The picture of the file is the only difference.
+    /// The meshes differ only in the place of a picture.
     #[test]
-    fn pictures_of_files_become_part_of_the_file() {
+    fn pictures_in_files_are_stored() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("bark.png");
         std::fs::write(&path, b"\x89PNG\r\n\x1a\nbark").unwrap();
-        let embedded = looks();
-        let mut beside = looks();
+        let embedded = textured();
+        let mut beside = textured();
         for material in &mut beside.mesh.fill.materials {
             if let Some(Texture { name, source }) = &mut material.diffuse_texture
                 && name == "bark.png"
@@ -196,9 +195,9 @@ mod tests {
         assert_eq!(error.kind, FileErrorKind::Texture);
     }
 
-    /// The samples are what they are meant to be.
+    /// The samples have what they are meant to have.
     #[test]
-    fn between_them_the_samples_fill_every_field() {
+    fn together_the_samples_fill_every_field() {
         let samples = samples();
         let some = |has: &dyn Fn(&Sample) -> bool| samples.iter().any(has);
         let has_flag = |flag| some(&|s| s.mesh.records.iter().any(|r| r.flags.contains(flag)));
@@ -220,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn sections_lie_one_behind_the_other_with_zeros_between() {
+    fn sections_are_consecutive_with_zeros_between() {
         for sample in samples() {
             let bytes = written(&sample, &Layout::ALL);
             let count = bytes[12] as usize;
@@ -250,17 +249,17 @@ mod tests {
     }
 
     #[test]
-    fn a_mesh_whose_indices_lead_nowhere_is_not_written() {
+    fn a_mesh_with_an_index_out_of_range_is_not_written() {
         let mut sample = triangle();
         sample.mesh.records[2].v1 = 3;
         let error = to_bytes(&sample.mesh, "", &sample.report, &Layout::ALL).unwrap_err();
         assert_eq!((error.kind, error.place), (FileErrorKind::Inconsistent, None));
-        let expected = "section EDGE, element 2: names vertex 3, and there are 3";
+        let expected = "section EDGE, element 2: names vertex 3; there are 3";
         assert!(error.what.starts_with(expected), "{}", error.what);
-        let mut sample = looks();
+        let mut sample = textured();
         sample.mesh.fill.runs[1].material = 4;
         let error = to_bytes(&sample.mesh, "", &sample.report, &[]).unwrap_err();
-        let expected = "section FRUN, element 1: names material 4, and there are 4";
+        let expected = "section FRUN, element 1: names material 4; there are 4";
         assert!(error.what.starts_with(expected), "{}", error.what);
     }
 }

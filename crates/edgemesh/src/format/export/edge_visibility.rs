@@ -1,31 +1,29 @@
-//! What a view makes of each edge, as `EXT_mesh_primitive_edge_visibility` has
-//! it.
+//! The visibility of edges, as defined by `EXT_mesh_primitive_edge_visibility`.
 //!
 //! Based on: the extension as merged in May 2026 (`KhronosGroup/glTF`, pull
-//! request 2479). Earlier drafts differ and are not written.
+//! request 2479). Earlier drafts differ.
 //!
 //! ```text
 //! 0---3   triangles (0 1 2) (0 2 3), edges in order: 01 12 20  02 23 30
 //! |\  |                                     values:   2  0  1   0  2  0
-//! | \ |                                     bytes, the least bits first:
+//! | \ |                                     bytes, lowest bits first:
 //! 1---2                                              |-- 18 ---|  |- 2
 //!
-//! 0 never drawn, or said elsewhere     1 drawn where one face looks at the eye
-//! 2 drawn always                       3 the same edge as a 2 before
+//! 0 never drawn, or in a line string   1 silhouette: drawn if one face is a front face
+//! 2 hard: drawn in every view          3 hard, the same edge as a 2 before
 //! ```
 //!
-//! Hard edges that follow each other in a chain go into line strings, which keep
-//! that they do; single ones go into the values. A line string ends where its
-//! chain leaves the triangles for a line that is no edge of any. Of an edge of
-//! more than two faces only the first record may be in one, so that no edge is
-//! said twice.
+//! Consecutive hard edges of a chain become line strings, which preserve the chain;
+//! single hard edges become values. A line string ends where its chain continues with
+//! a line without a face. Of an edge of more than two faces only the first record may
+//! be in a line string, so that each edge is written once.
 //!
-//! Rejected: normals in bytes, which the extension recommends. They err by up to
+//! Rejected: normals in bytes, which the extension recommends. They have errors of up to
 //! 0.4 degrees, and silhouettes would flicker.
 
 use glam::{Vec3, Vec4Swizzles as _};
 
-use super::{edges, hard_classes, link_ends, welded_ends};
+use super::edge_records::{edges, hard_classes, link_ends, welded_ends};
 use crate::build::{CLASSES, class_of};
 use crate::edge_mesh::face_edges::side_on;
 use crate::edge_mesh::record::{EdgeFlags, EdgeRecord};
@@ -36,49 +34,48 @@ const SILHOUETTE: u8 = 1;
 const HARD: u8 = 2;
 const HARD_AGAIN: u8 = 3;
 
-/// Unit normals that differ by a vector no longer than this are those of one
-/// plane: some units in the last place of 32 bits. The angle is 0.2 arc seconds.
+/// The largest difference of unit normals that count as equal: some units in the last
+/// place of 32 bits, an angle of 0.2 arc seconds.
 const SAME_NORMAL: f32 = 1e-6;
 
-/// Ends one line string and begins the next.
+/// The index between two line strings.
 pub(super) const RESTART: u32 = NONE;
 
-/// What a view makes of each edge of a mesh.
+/// The visibility of the edges of a mesh.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct EdgeVisibility {
-    /// Three a triangle, one for each of its sides.
+    /// A value for each side of each triangle, three for a triangle.
     pub(super) values: Vec<u8>,
-    /// Two for each value 1, in their order: of the face that has it, and of the
-    /// one across.
+    /// For each value 1, in order, the normals of its face and of the face across.
     pub(super) silhouette_normals: Vec<[[f32; 3]; 2]>,
-    /// The classes of each value 2, in their order.
-    pub(super) hard_classes: Vec<Run>,
-    /// Hard edges that are not in `values`.
+    /// For each value 2, in order, the classes of the edge.
+    pub(super) hard_classes: Vec<ClassRun>,
+    /// The hard edges that are not in `values`, for each class.
     pub(super) line_strings: Vec<LineStrings>,
 }
 
 /// Line strings of one class.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct LineStrings {
-    /// The class that their edges are chained by.
+    /// The class of their chains.
     pub(super) class: EdgeFlags,
-    /// Vertices, with [`RESTART`] between the strings.
+    /// Vertices, with [`RESTART`] between the line strings.
     pub(super) indices: Vec<u32>,
-    /// The classes of their edges.
-    pub(super) edge_classes: Vec<Run>,
+    /// The classes of their edges, in order.
+    pub(super) edge_classes: Vec<ClassRun>,
 }
 
-/// The same classes of edges in a row.
+/// Consecutive edges with the same classes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Run {
-    /// How many edges.
+pub(super) struct ClassRun {
+    /// The number of edges.
     pub(super) count: usize,
     /// Their classes.
     pub(super) classes: EdgeFlags,
 }
 
 impl EdgeVisibility {
-    /// Finds what a view makes of the edges of `mesh`.
+    /// The visibility of the edges of `mesh`.
     pub(super) fn of(mesh: &EdgeMesh) -> Self {
         let (line_strings, is_in_line) = line_strings(mesh);
         let mut values = vec![0; 3 * mesh.triangles.len()];
@@ -110,24 +107,24 @@ impl EdgeVisibility {
         }
     }
 
-    /// Whether no view draws any edge.
+    /// Whether no view draws an edge.
     pub(super) fn is_empty(&self) -> bool {
         self.line_strings.is_empty() && !self.has_values()
     }
 
-    /// Whether any value says more than 0.
+    /// Whether any value is not 0.
     pub(super) fn has_values(&self) -> bool {
         self.values.iter().any(|&value| value != 0)
     }
 
-    /// The values, four a byte, the first one in the lowest bits.
+    /// The values, four in a byte, the first in the lowest bits.
     pub(super) fn packed(&self) -> impl Iterator<Item = u8> {
         let byte = |values: &[u8]| values.iter().rev().fold(0, |byte, value| byte << 2 | value);
         self.values.chunks(4).map(byte)
     }
 }
 
-/// The sides of triangles that lie on an edge, numbered face by face.
+/// The sides of triangles on an edge, as indices of `values`.
 fn sides_of(mesh: &EdgeMesh, records: &[EdgeRecord]) -> impl Iterator<Item = usize> {
     records.iter().flat_map(|record| {
         let faces = [record.face_a, record.face_b].into_iter().filter(|&face| face != NONE);
@@ -135,12 +132,10 @@ fn sides_of(mesh: &EdgeMesh, records: &[EdgeRecord]) -> impl Iterator<Item = usi
     })
 }
 
-/// The normals of the faces of an edge that may be a contour, that of the face
-/// with the side `side` first; `None` where they lie in one plane, or one has no
-/// area and so no plane.
+/// The normals of the faces of an edge that may be a contour, first that of the face
+/// with `side`; `None` if the faces are coplanar, or one has no area and so no plane.
 ///
-/// Where the winding clashes, the facing of face B counts reversed, and so does
-/// its normal.
+/// If the windings clash, the normal of face B is reversed.
 fn contour_normals(mesh: &EdgeMesh, record: &EdgeRecord, side: usize) -> Option<[[f32; 3]; 2]> {
     let normal = |face: u32| {
         let plane = mesh.face_planes.get(face as usize)?;
@@ -156,16 +151,16 @@ fn contour_normals(mesh: &EdgeMesh, record: &EdgeRecord, side: usize) -> Option<
     Some(if is_in_a { [a, b] } else { [b, a] }.map(Into::into))
 }
 
-/// The line strings of a mesh, class by class, and which records are in any.
+/// The line strings of a mesh for each class, and whether each record is in one.
 fn line_strings(mesh: &EdgeMesh) -> (Vec<LineStrings>, Vec<bool>) {
     let mut is_in_line = vec![false; mesh.records.len()];
     let mut by_class = CLASSES.map(|class| LineStrings { class, ..LineStrings::default() });
     for chain in &mesh.chains.chains {
         let Some(class) = class_of(chain.class) else { continue };
         let links = &mesh.chains.links[chain.link_range()];
-        let goes_on =
+        let is_joined =
             |a: &ChainLink, b: &ChainLink| may_be_in_line(mesh, a) && may_be_in_line(mesh, b);
-        for line in links.chunk_by(goes_on).filter(|line| line.len() > 1) {
+        for line in links.chunk_by(is_joined).filter(|line| line.len() > 1) {
             line.iter().for_each(|link| is_in_line[link.record as usize] = true);
             by_class[class].push(mesh, line);
         }
@@ -174,7 +169,8 @@ fn line_strings(mesh: &EdgeMesh) -> (Vec<LineStrings>, Vec<bool>) {
     (strings.collect(), is_in_line)
 }
 
-/// Whether a link is an edge of a triangle, by the first of its records.
+/// Whether a link may be in a line string: it is the first record of an edge of a
+/// triangle.
 fn may_be_in_line(mesh: &EdgeMesh, link: &ChainLink) -> bool {
     let at = link.record as usize;
     let record = &mesh.records[at];
@@ -198,7 +194,7 @@ impl LineStrings {
     }
 }
 
-/// The classes of the edge whose first record is `first`.
+/// The classes of the edge with this first record.
 fn classes_from(mesh: &EdgeMesh, first: usize) -> EdgeFlags {
     let ends = welded_ends(mesh, &mesh.records[first]);
     let same = |record: &&EdgeRecord| welded_ends(mesh, record) == ends;
@@ -206,16 +202,16 @@ fn classes_from(mesh: &EdgeMesh, first: usize) -> EdgeFlags {
     hard_classes(&mesh.records[first..first + count])
 }
 
-fn runs(classes: impl Iterator<Item = EdgeFlags>) -> Vec<Run> {
+fn runs(classes: impl Iterator<Item = EdgeFlags>) -> Vec<ClassRun> {
     let mut runs = Vec::new();
     classes.for_each(|classes| push_run(&mut runs, classes));
     runs
 }
 
-fn push_run(runs: &mut Vec<Run>, classes: EdgeFlags) {
+fn push_run(runs: &mut Vec<ClassRun>, classes: EdgeFlags) {
     match runs.last_mut() {
         Some(last) if last.classes == classes => last.count += 1,
-        _ => runs.push(Run { count: 1, classes }),
+        _ => runs.push(ClassRun { count: 1, classes }),
     }
 }
 
@@ -238,7 +234,7 @@ mod tests {
     const SQUARE: [[f32; 3]; 4] = [[0., 1., 0.], [0., 0., 0.], [1., 0., 0.], [1., 1., 0.]];
 
     #[test]
-    fn four_values_a_byte_the_first_one_lowest() {
+    fn four_values_in_a_byte_the_first_lowest() {
         let packed = |values: &[u8]| -> Vec<u8> {
             let values = values.to_vec();
             EdgeVisibility { values, ..EdgeVisibility::default() }.packed().collect()
@@ -251,17 +247,17 @@ mod tests {
     }
 
     #[test]
-    fn a_squares_diagonal_is_never_drawn() {
-        // Corners turn by more than a chain may, so every edge is on its own.
+    fn the_diagonal_of_a_square_is_never_drawn() {
+        // The corners are too sharp for chains, so every edge is single.
         let flat = visibility(&SQUARE, &[&[0, 1, 2, 3]]);
         assert_eq!(flat.values, [2, 2, 0, 0, 2, 2]);
-        assert_eq!(flat.hard_classes, [Run { count: 4, classes: EdgeFlags::BOUNDARY }]);
+        assert_eq!(flat.hard_classes, [ClassRun { count: 4, classes: EdgeFlags::BOUNDARY }]);
         assert!(flat.silhouette_normals.is_empty() && flat.line_strings.is_empty());
         assert!(flat.has_values() && !flat.is_empty());
     }
 
     #[test]
-    fn rounding_bends_no_diagonal() {
+    fn rounding_errors_do_not_bend_a_diagonal() {
         let mut mesh = build(&SQUARE, &[&[0, 1, 2, 3]]);
         for (x, value) in [(0.0, 0), (5e-7, 0), (5e-6, 1), (-1.0, 1)] {
             mesh.face_planes[1].normal[0] = x;
@@ -277,15 +273,16 @@ mod tests {
         bent[3][2] = 0.1;
         let polygon = visibility(&bent, &[&[0, 1, 2, 3]]);
         assert_eq!(polygon.values, [2, 2, 1, 0, 2, 2]);
-        let [[own, across]] = polygon.silhouette_normals[..] else { panic!("{polygon:?}") };
-        assert_eq!(own, [0., 0., 1.]);
+        let [[near, across]] = polygon.silhouette_normals[..] else { panic!("{polygon:?}") };
+        assert_eq!(near, [0., 0., 1.]);
         assert!(across[0] < -0.05 && across[1] < -0.05 && across[2] > 0.9, "{across:?}");
         bent[3][2] = 5.0;
         let fold = visibility(&bent, &[&[0, 1, 2], &[0, 2, 3]]);
         assert_eq!(fold.values, [2, 2, 2, 3, 2, 2]);
         let classes = [EdgeFlags::BOUNDARY, EdgeFlags::VALLEY, EdgeFlags::BOUNDARY];
         let counts = [2, 1, 2].into_iter().zip(classes);
-        let expected: Vec<Run> = counts.map(|(count, classes)| Run { count, classes }).collect();
+        let expected: Vec<ClassRun> =
+            counts.map(|(count, classes)| ClassRun { count, classes }).collect();
         assert_eq!(fold.hard_classes, expected);
     }
 
@@ -298,7 +295,7 @@ mod tests {
         let [lines] = &strip.line_strings[..] else { panic!("{strip:?}") };
         assert_eq!(lines.class, EdgeFlags::BOUNDARY);
         assert_eq!(lines.indices, [0, 2, 4, RESTART, 5, 3, 1]);
-        assert_eq!(lines.edge_classes, [Run { count: 4, classes: EdgeFlags::BOUNDARY }]);
+        assert_eq!(lines.edge_classes, [ClassRun { count: 4, classes: EdgeFlags::BOUNDARY }]);
         // The short sides are 1-0, the last one of its quad, and 4-5.
         assert_eq!(strip.values, [0, 0, 0, 0, 0, 2, 0, 2, 0, 0, 0, 0]);
     }

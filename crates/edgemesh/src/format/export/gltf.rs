@@ -1,26 +1,25 @@
-//! glTF 2.0: triangles with their edges, as JSON or in one binary file.
+//! glTF 2.0 with edges, as JSON or as one binary file.
 //!
 //! Based on: glTF 2.0, sections 3 (objects) and 4 (GLB), and
 //! `EXT_mesh_primitive_edge_visibility` (see
 //! [`edge_visibility`](super::edge_visibility)).
 //!
 //! ```text
-//! node: the origin of the mesh's frame, where it has one
-//!   '- node: what 32 bits have lost of it, and the scale
+//! node: the origin of the mesh frame, if the mesh has one
+//!   '- node: the rest of the origin that 32 bits lose, and the scale
 //!        '- mesh: triangles, with the extension
-//!                 lines that are no edge of a triangle, over the same vertices
+//!                 lines without a face, with the same vertices
 //!
-//! GLB:  "glTF" 2 size | size "JSON" {...} | size "BIN" data, all in steps of 4
+//! GLB:  "glTF" 2 size | size "JSON" {...} | size "BIN" data, all multiples of 4
 //! ```
 //!
-//! What the extension has no place for stands in `extras`: the classes of hard
-//! edges, as runs of a count and the words of
-//! [`class_names`](crate::edge_mesh::record::class_names), in the order of their edges.
-//! The extension is used, not required: a program that does not know it shows
+//! The classes of hard edges, which the extension does not have, are in `extras`: runs of
+//! a count and the words of [`class_names`](crate::edge_mesh::record::class_names), in the
+//! order of the edges. The extension is used but not required: a program without it shows
 //! the mesh without its edges.
 //!
-//! A normal of zero, where the faces cancel out or there are none, is written as
-//! +z: glTF allows unit vectors only, and no direction is better there.
+//! A normal of zero, of a vertex without faces or with faces that cancel out, is written
+//! as +z, because glTF requires unit vectors.
 
 use std::io::{self, Write};
 
@@ -29,8 +28,8 @@ use base64::prelude::BASE64_STANDARD;
 use serde::Serialize as _;
 use serde_json::{Value, json};
 
-use super::edge_visibility::{EdgeVisibility, LineStrings, Run};
-use super::lines::Lines;
+use super::edge_visibility::{ClassRun, EdgeVisibility, LineStrings};
+use super::lines::LineFormatter;
 use crate::edge_mesh::record::class_names;
 use crate::edge_mesh::{Bounds, EdgeMesh, MeshFrame};
 use crate::index::NONE;
@@ -45,7 +44,7 @@ const FLOAT: u32 = 5126;
 const LINES: u32 = 1;
 const TRIANGLES: u32 = 4;
 
-/// Writes a mesh as JSON with its data inside.
+/// Writes a mesh as JSON, with its data in a URI.
 ///
 /// # Errors
 /// Those of `out`.
@@ -55,7 +54,8 @@ pub(super) fn write_gltf(mesh: &EdgeMesh, name: &str, out: &mut impl Write) -> i
         let uri = format!("data:application/octet-stream;base64,{}", BASE64_STANDARD.encode(&data));
         document["buffers"] = json!([{"byteLength": data.len(), "uri": uri}]);
     }
-    let mut serializer = serde_json::Serializer::with_formatter(&mut *out, Lines::default());
+    let mut serializer =
+        serde_json::Serializer::with_formatter(&mut *out, LineFormatter::default());
     document.serialize(&mut serializer)?;
     out.write_all(b"\n")
 }
@@ -63,7 +63,7 @@ pub(super) fn write_gltf(mesh: &EdgeMesh, name: &str, out: &mut impl Write) -> i
 /// Writes a mesh as one binary file.
 ///
 /// # Errors
-/// Those of `out`, and `FileTooLarge` from 4 GiB on.
+/// Those of `out`; also `FileTooLarge` from 4 GiB on.
 pub(super) fn write_glb(mesh: &EdgeMesh, name: &str, out: &mut impl Write) -> io::Result<()> {
     let (mut document, data) = document(mesh, name);
     if !data.is_empty() {
@@ -71,7 +71,7 @@ pub(super) fn write_glb(mesh: &EdgeMesh, name: &str, out: &mut impl Write) -> io
     }
     let mut text = serde_json::to_vec(&document)?;
     text.resize(text.len().next_multiple_of(4), b' ');
-    // The data are whole steps of 4 already.
+    // The length of the data is a multiple of 4 already.
     let chunks = [(b"JSON", text), (b"BIN\0", data)];
     let chunks = || chunks.iter().filter(|(_, bytes)| !bytes.is_empty());
     let size = 12 + chunks().map(|(_, bytes)| 8 + bytes.len()).sum::<usize>();
@@ -87,16 +87,16 @@ pub(super) fn write_glb(mesh: &EdgeMesh, name: &str, out: &mut impl Write) -> io
 
 fn glb_size(size: usize) -> io::Result<[u8; 4]> {
     let too_large = |_| {
-        let what = "larger than the 4 GiB that a GLB can hold; export as .gltf";
+        let what = "larger than 4 GiB, the limit of GLB; export as .gltf";
         io::Error::new(io::ErrorKind::FileTooLarge, what)
     };
     u32::try_from(size).map(u32::to_le_bytes).map_err(too_large)
 }
 
-/// The document, without its buffer, and the buffer's bytes; there are none
-/// where there is nothing to draw.
+/// The document without its buffer, and the bytes of the buffer, which are empty if there
+/// is nothing to draw.
 fn document(mesh: &EdgeMesh, name: &str) -> (Value, Vec<u8>) {
-    let mut data = Data::default();
+    let mut data = BinaryData::default();
     let primitives = primitives(mesh, &mut data);
     let mut document = json!({
         "asset": {
@@ -118,8 +118,8 @@ fn document(mesh: &EdgeMesh, name: &str) -> (Value, Vec<u8>) {
     (document, data.bytes)
 }
 
-/// The node of the mesh; a mesh that was moved has a second one within, since
-/// many readers keep but 32 bits of a node's place.
+/// The node of the mesh. A mesh with a frame has a second node within, because many
+/// readers keep only 32 bits of a translation.
 fn nodes(frame: &MeshFrame, name: &str, has_mesh: bool) -> Value {
     let mut inner = if has_mesh { json!({"mesh": 0}) } else { json!({}) };
     if frame.is_identity() {
@@ -134,8 +134,8 @@ fn nodes(frame: &MeshFrame, name: &str, has_mesh: bool) -> Value {
     json!([{"name": name, "translation": origin.to_array(), "children": [1]}, inner])
 }
 
-/// The primitives of a mesh: its triangles and its lines, where there are any.
-fn primitives(mesh: &EdgeMesh, data: &mut Data) -> Vec<Value> {
+/// The primitives of a mesh: its triangles and its lines without a face.
+fn primitives(mesh: &EdgeMesh, data: &mut BinaryData) -> Vec<Value> {
     let loose: Vec<u32> = mesh
         .records
         .iter()
@@ -153,7 +153,7 @@ fn primitives(mesh: &EdgeMesh, data: &mut Data) -> Vec<Value> {
         let mut triangles = json!({
             "attributes": {
                 "POSITION": position,
-                "NORMAL": data.push(Kind::VERTICES, normals)
+                "NORMAL": data.push(ElementType::VERTICES, normals)
             },
             "indices": data.push_indices(vertices, true, mesh.triangles.as_flattened()),
             "mode": TRIANGLES
@@ -175,21 +175,21 @@ fn primitives(mesh: &EdgeMesh, data: &mut Data) -> Vec<Value> {
     primitives
 }
 
-/// A unit vector, or +z in place of zero.
+/// The normal, or +z if it is zero.
 fn unit(normal: [f32; 3]) -> [f32; 3] {
     if normal == [0.0; 3] { [0.0, 0.0, 1.0] } else { normal }
 }
 
-fn extension(visibility: &EdgeVisibility, vertices: usize, data: &mut Data) -> Value {
+fn extension(visibility: &EdgeVisibility, vertices: usize, data: &mut BinaryData) -> Value {
     let mut extension = json!({});
     if visibility.has_values() {
         let bytes = visibility.packed().map(|byte| [byte]);
-        extension["visibility"] = data.push(Kind::BYTES, bytes).into();
+        extension["visibility"] = data.push(ElementType::BYTES, bytes).into();
     }
     if !visibility.silhouette_normals.is_empty() {
         let normals = visibility.silhouette_normals.as_flattened().iter();
         let normals = normals.map(|&normal| float_bytes(normal));
-        extension["silhouetteNormals"] = data.push(Kind::VECTORS, normals).into();
+        extension["silhouetteNormals"] = data.push(ElementType::VECTORS, normals).into();
     }
     if !visibility.line_strings.is_empty() {
         let strings = visibility.line_strings.iter();
@@ -203,7 +203,7 @@ fn extension(visibility: &EdgeVisibility, vertices: usize, data: &mut Data) -> V
     extension
 }
 
-fn line_strings(strings: &LineStrings, vertices: usize, data: &mut Data) -> Value {
+fn line_strings(strings: &LineStrings, vertices: usize, data: &mut BinaryData) -> Value {
     json!({
         "indices": data.push_indices(vertices, false, &strings.indices),
         "extras": {
@@ -214,32 +214,32 @@ fn line_strings(strings: &LineStrings, vertices: usize, data: &mut Data) -> Valu
 }
 
 /// Each run as a list of its count and its classes.
-fn runs(runs: &[Run]) -> Value {
-    let run = |run: &Run| {
+fn runs(runs: &[ClassRun]) -> Value {
+    let run = |run: &ClassRun| {
         let words = class_names(run.classes).map(Value::from);
         std::iter::once(Value::from(run.count)).chain(words).collect::<Value>()
     };
     runs.iter().map(run).collect()
 }
 
-/// The binary data and what the document says of them.
+/// The binary data, with its views and accessors.
 #[derive(Default)]
-struct Data {
+struct BinaryData {
     bytes: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
 }
 
-/// What the elements of an accessor are.
+/// The type of the elements of an accessor.
 #[derive(Clone, Copy)]
-struct Kind {
+struct ElementType {
     component: u32,
     shape: &'static str,
-    /// What a GPU binds the view as: `ARRAY_BUFFER`, `ELEMENT_ARRAY_BUFFER`.
+    /// The GPU binding of the view: `ARRAY_BUFFER` or `ELEMENT_ARRAY_BUFFER`.
     target: Option<u32>,
 }
 
-impl Kind {
+impl ElementType {
     const BYTES: Self = Self { component: UNSIGNED_BYTE, shape: "SCALAR", target: None };
     const VECTORS: Self = Self { component: FLOAT, shape: "VEC3", target: None };
     const VERTICES: Self = Self { component: FLOAT, shape: "VEC3", target: Some(34962) };
@@ -249,12 +249,11 @@ impl Kind {
     }
 }
 
-impl Data {
-    /// Adds the bytes of elements, a view of them, and an accessor; gives the
-    /// number of the accessor.
+impl BinaryData {
+    /// Adds elements with a view and an accessor; returns the index of the accessor.
     fn push<const N: usize>(
         &mut self,
-        kind: Kind,
+        kind: ElementType,
         elements: impl Iterator<Item = [u8; N]>,
     ) -> usize {
         let start = self.bytes.len();
@@ -275,24 +274,24 @@ impl Data {
         self.accessors.len() - 1
     }
 
-    /// Positions, for which a box is required.
+    /// Adds positions, which must have bounds.
     fn push_positions(&mut self, positions: &[[f32; 3]]) -> usize {
-        let accessor = self.push(Kind::VERTICES, positions.iter().map(|&p| float_bytes(p)));
+        let accessor = self.push(ElementType::VERTICES, positions.iter().map(|&p| float_bytes(p)));
         let Bounds { min, max } = Bounds::of(positions);
         self.accessors[accessor]["min"] = json!(min);
         self.accessors[accessor]["max"] = json!(max);
         accessor
     }
 
-    /// Indices of vertices, in 16 bits where those can count them. The largest
-    /// number of either width is no vertex: it ends a line string.
+    /// Adds indices of vertices, in 16 bits if these are enough. The largest number of
+    /// either size is not a vertex: it separates line strings.
     fn push_indices(&mut self, vertices: usize, are_drawn: bool, indices: &[u32]) -> usize {
         if vertices <= usize::from(u16::MAX) {
             let short = |&index: &u32| u16::try_from(index).unwrap_or(u16::MAX).to_le_bytes();
-            self.push(Kind::indices(UNSIGNED_SHORT, are_drawn), indices.iter().map(short))
+            self.push(ElementType::indices(UNSIGNED_SHORT, are_drawn), indices.iter().map(short))
         } else {
             let long = indices.iter().map(|index| index.to_le_bytes());
-            self.push(Kind::indices(UNSIGNED_INT, are_drawn), long)
+            self.push(ElementType::indices(UNSIGNED_INT, are_drawn), long)
         }
     }
 }
@@ -360,7 +359,7 @@ mod tests {
     }
 
     #[test]
-    fn a_glb_says_how_large_its_chunks_are() {
+    fn a_glb_file_states_the_sizes_of_its_chunks() {
         let mut bytes = Vec::new();
         write_glb(&build(&square()), "", &mut bytes).unwrap();
         let number = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
@@ -373,7 +372,7 @@ mod tests {
     }
 
     #[test]
-    fn what_draws_nothing_is_a_node_without_a_mesh() {
+    fn an_empty_mesh_is_a_node_without_a_mesh() {
         let mesh = build(&Model::from_polygons(&[[0.; 3], [1.; 3]], &[&[0, 1, 0]]));
         let (document, data) = document(&mesh, "");
         assert_eq!(document["nodes"], json!([{"name": ""}]));
@@ -384,7 +383,7 @@ mod tests {
     }
 
     #[test]
-    fn places_need_no_more_than_32_bits_a_node() {
+    fn translations_fit_into_32_bits_for_each_node() {
         let nodes =
             |x, scale| nodes(&MeshFrame { origin: DVec3::new(x, 0.5, 0.0), scale }, "far", true);
         let expected = |outer: f64, inner: f64, scale: f64| {
@@ -394,7 +393,7 @@ mod tests {
             ])
         };
         assert_eq!(nodes(16_777_217.0, 0.5), expected(16_777_216.0, 1.0, 2.0));
-        assert_eq!(nodes(1e300, 1.0), expected(1e300, 0.0, 1.0), "as far as JSON goes");
+        assert_eq!(nodes(1e300, 1.0), expected(1e300, 0.0, 1.0), "beyond 32 bits");
     }
 
     #[test]
@@ -409,9 +408,9 @@ mod tests {
     }
 
     #[test]
-    fn indices_grow_to_32_bits_where_16_would_meet_the_restart_value() {
+    fn indices_have_32_bits_if_16_would_reach_the_restart_value() {
         let push = |vertices| {
-            let mut data = Data::default();
+            let mut data = BinaryData::default();
             data.push_indices(vertices, false, &[1, u32::MAX, 2]);
             (data.accessors[0]["componentType"].clone(), data.bytes)
         };
@@ -420,7 +419,7 @@ mod tests {
     }
 
     #[test]
-    fn normals_that_cancel_out_point_up() {
+    fn normals_of_zero_become_z() {
         assert_eq!([unit([0.0, -0.0, 0.0]), unit([0.0, 1.0, 0.0])], [[0., 0., 1.], [0., 1., 0.]]);
     }
 }

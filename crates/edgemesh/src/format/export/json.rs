@@ -1,55 +1,56 @@
-//! JSON: everything that an edge mesh has, for scripts.
+//! JSON with the whole edge mesh, for scripts.
 //!
 //! ```text
 //! {"name": "cube.obj",
 //!  "frame": {"origin": [0.0, 0.0, 0.0], "scale": 1.0},
 //!  "bounds": {"min": [x, y, z], "max": [x, y, z]},
-//!  "counts": {"vertices": 8, ...},        keys and meaning as `info --json`
+//!  "counts": {"vertices": 8, ...},        as in `info --json`
 //!  "positions": [[x, y, z], ...],
 //!  "triangles": [[a, b, c], ...],         indices into positions
 //!  "edges": [{"vertices": [a, b],         indices into positions
 //!             "faces": [a, b],            left and right of a -> b, indices
-//!                                         into triangles; null where none is
-//!             "classes": ["ridge", ...],  words of the class bits
+//!                                         into triangles; null for a missing one
+//!             "classes": ["ridge", ...],  the names of its classes
 //!             "chain": 3,                 index into chains, or null
 //!             "arc_start": 0.5}, ...],    length of the chain before it, or null
 //!  "chains": [{"class": "ridge",
 //!              "length": 4.0,
 //!              "is_loop": true,
-//!              "vertices": [a, b, ...]},  loops end with their first vertex
+//!              "vertices": [a, b, ...]},  a loop ends with its first vertex
 //!             ...]}
 //! ```
 //!
-//! Positions, bounds and lengths are in the units of the file, not of the frame;
-//! the frame says how positions were moved before they were rounded to 32 bits:
-//! `(in_file - origin) * scale`. Numbers have as many digits as it takes to read
-//! them back the same. Each element of a list has a line of its own
-//! ([`lines`](super::lines)).
+//! Positions, bounds and lengths are in the units of the model file. The frame is the
+//! transform of positions before they were rounded to 32 bits:
+//! `(in_file - origin) * scale`. Numbers have as many digits as are needed to read them
+//! back unchanged. Each element of a list is on a separate line ([`lines`](super::lines)).
 //!
-//! An edge of more than two faces is listed once for each pair of its faces.
-//! Edges are in the order of the records: by the smaller, then the larger vertex,
-//! lines that are no edge of a face last.
+//! An edge of more than two faces is listed once for each pair of its faces. Edges are in
+//! the order of the records: by the smaller, then the larger vertex, with lines without a
+//! face last.
 //!
-//! Rejected: one value of the whole document first, which takes some ten times
-//! the memory of the mesh. Elements are written as they come.
+//! Rejected: building the document as one value, which takes about ten times the memory of
+//! the mesh.
 
 use std::io::{self, Write};
 
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
 use serde_json::{Value, json};
 
-use super::lines::Lines;
-use super::{FileNumber, chain_vertices, in_file, length_in_file};
+use super::edge_records::chain_vertices;
+use super::file_number::{FileNumber, in_file, length_in_file};
+use super::lines::LineFormatter;
 use crate::edge_mesh::record::{EdgeRecord, class_names};
 use crate::edge_mesh::{Chain, EdgeMesh};
 use crate::index::{NONE, to_u32};
 
-/// Writes all of a mesh but its fill.
+/// Writes a mesh without its fill.
 ///
 /// # Errors
 /// Those of `out`.
 pub(super) fn write_json(mesh: &EdgeMesh, name: &str, out: &mut impl Write) -> io::Result<()> {
-    let mut serializer = serde_json::Serializer::with_formatter(&mut *out, Lines::default());
+    let mut serializer =
+        serde_json::Serializer::with_formatter(&mut *out, LineFormatter::default());
     Document { mesh, name }.serialize(&mut serializer)?;
     out.write_all(b"\n")
 }
@@ -78,13 +79,13 @@ impl Serialize for Document<'_> {
         map.serialize_entry("edges", &List(edges))?;
         map.serialize_entry(
             "chains",
-            &List(|| mesh.chains.chains.iter().map(|chain| Line { mesh, chain })),
+            &List(|| mesh.chains.chains.iter().map(|chain| ChainInMesh { mesh, chain })),
         )?;
         map.end()
     }
 }
 
-/// Serializes what an iterator gives, item by item.
+/// Serializes the items of an iterator, one by one.
 struct List<F>(F);
 
 impl<F, I> Serialize for List<F>
@@ -97,7 +98,7 @@ where
     }
 }
 
-/// For each record its link, or [`NONE`].
+/// The link of each record, or [`NONE`].
 fn links_by_record(mesh: &EdgeMesh) -> Vec<u32> {
     let mut links = vec![NONE; mesh.records.len()];
     for (at, link) in mesh.chains.links.iter().enumerate() {
@@ -164,12 +165,12 @@ impl Edge {
 }
 
 /// A chain of a mesh.
-struct Line<'a> {
+struct ChainInMesh<'a> {
     mesh: &'a EdgeMesh,
     chain: &'a Chain,
 }
 
-impl Serialize for Line<'_> {
+impl Serialize for ChainInMesh<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let Self { mesh, chain } = self;
         let mut map = serializer.serialize_map(None)?;
@@ -228,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn lengths_are_in_units_of_the_file() {
+    fn lengths_are_in_units_of_the_model_file() {
         let corners = [[0., 0., 0.], [3e20, 0., 0.], [0., 4e20, 0.]];
         let text = write(&Model::from_polygons(&corners, &[&[0, 1, 2]]), "");
         let json: Value = serde_json::from_str(&text).unwrap();
@@ -240,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_a_document_of_empty_lists() {
+    fn an_empty_mesh_is_a_document_of_empty_lists() {
         let json: Value = serde_json::from_str(&write(&Model::default(), "")).unwrap();
         for list in ["positions", "triangles", "edges", "chains"] {
             assert_eq!(json[list], json!([]), "{list}");

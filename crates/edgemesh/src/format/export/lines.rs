@@ -1,5 +1,5 @@
-//! JSON of which line tools can make something: a line for each member of the
-//! document and each element of its lists.
+//! JSON for line-based tools: one line for each member of the document and each element
+//! of its lists.
 //!
 //! ```text
 //! {
@@ -9,21 +9,20 @@
 //! [1.0,0.0,0.0]],
 //! ```
 //!
-//! Rejected: no line ends at all, since editors and `grep` fail on a line of 200
-//! megabytes; one for every number, which doubles the size.
+//! Rejected: no line ends, because editors and `grep` fail on a line of 200 megabytes; a
+//! line end after every number, which doubles the size.
 
 use std::io::{self, Write};
 
 use serde_json::ser::Formatter;
 
-/// Breaks lines before the members of the document and the elements of its
-/// lists, and nowhere within those.
+/// Breaks lines only before the members of the document and the elements of its lists.
 #[derive(Debug, Default)]
-pub(super) struct Lines {
+pub(super) struct LineFormatter {
     depth: usize,
 }
 
-impl Lines {
+impl LineFormatter {
     fn separate<W: ?Sized + Write>(&self, out: &mut W, first: bool) -> io::Result<()> {
         if !first {
             out.write_all(b",")?;
@@ -42,7 +41,7 @@ impl Lines {
     }
 }
 
-impl Formatter for Lines {
+impl Formatter for LineFormatter {
     fn begin_array<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
         self.open(out, b"[")
     }
@@ -78,7 +77,8 @@ mod tests {
     #[test]
     fn lines_break_at_two_depths() {
         let mut bytes = Vec::new();
-        let mut serializer = serde_json::Serializer::with_formatter(&mut bytes, Lines::default());
+        let mut serializer =
+            serde_json::Serializer::with_formatter(&mut bytes, LineFormatter::default());
         let document = json!({"a": [[1, [2]], {"b": 3, "c": []}], "d": {"e": [4, 5]}, "f": []});
         document.serialize(&mut serializer).unwrap();
         let expected =

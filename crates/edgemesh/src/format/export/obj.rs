@@ -1,24 +1,26 @@
 //! OBJ: triangles, and hard edges as polylines.
 //!
-//! Based on the format's own description (Alias|Wavefront, *Advanced Visualizer
-//! Manual*, appendix B1): `v`, `f`, `l`, `g`, `o`.
+//! Source: Alias|Wavefront, *Advanced Visualizer Manual*, appendix B1: `v`, `f`, `l`, `g`,
+//! `o`.
 //!
 //! ```text
-//! v 0 0 0       positions: the shortest text that reads back the same
+//! v 0 0 0       positions: the shortest text that is read back unchanged
 //! f 1 2 3       triangles
-//! g ridge       for each class that has any:
-//! l 1 2 3 1       a polyline a chain, loops ending with their first vertex
+//! g ridge       for each class with chains:
+//! l 1 2 3 1       a polyline for each chain; a loop ends with its first vertex
 //! ```
 //!
-//! A reader that takes `l` for edges which the artist chose, as this project's
-//! does, gets all hard edges back, as marked ones. An edge of several classes is
-//! in the group of the one that it is chained by.
+//! A reader that reads `l` as marked edges, as that of this project does, gets all hard
+//! edges back as marked edges. An edge of several classes is in the group of the class of
+//! its chain.
 //!
-//! Left out: normals, since those of a welded mesh are not for shading.
+//! Normals are not written, because those of a welded mesh are not for shading.
 
 use std::io::{self, Write};
 
-use super::{chain_vertices, in_file, one_line};
+use super::edge_records::chain_vertices;
+use super::file_number::in_file;
+use super::one_line::one_line;
 use crate::build::CLASSES;
 use crate::edge_mesh::EdgeMesh;
 use crate::edge_mesh::record::class_names;
@@ -30,7 +32,7 @@ use crate::edge_mesh::record::class_names;
 pub(super) fn write_obj(mesh: &EdgeMesh, name: &str, out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "# Edgemesh {}: a mesh, and its hard edges", env!("CARGO_PKG_VERSION"))?;
     writeln!(out, "# as polylines (l), in groups by class (g)")?;
-    // A backslash could join its line with the next, a hash begin a comment.
+    // A backslash would continue the line, a hash would begin a comment.
     let name = one_line(name).replace(['\\', '#'], "_");
     if !name.trim().is_empty() {
         writeln!(out, "o {}", name.trim())?;
@@ -94,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn a_loop_ends_where_it_begins() {
+    fn a_loop_ends_with_its_first_vertex() {
         let corner = |k: u8| {
             let (y, x) = (f32::from(k) * std::f32::consts::TAU / 12.0).sin_cos();
             [x, y, 0.0]
@@ -107,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn no_name_breaks_a_line() {
+    fn names_do_not_break_lines() {
         let named = |name: &str| write(&Model::default(), name);
         assert_eq!(named("gr\u{fc}n \"a\"\nf 1 2 3\\"), "o gr\u{fc}n \"a\" f 1 2 3_");
         assert_eq!(named(" \r\n"), "");

@@ -1,24 +1,25 @@
-//! PLY in little-endian bytes: vertices, triangles, hard edges.
+//! Binary PLY, little-endian: vertices, triangles and hard edges.
 //!
-//! Source: G. Turk, *The PLY Polygon File Format* (1994); element and property
-//! names as programs use them. Edges carry the colour of their first class, so
-//! that a program which draws them shows the classes apart, and all of their
-//! class bits; comments in the header say what colours and bits mean.
+//! Source: G. Turk, *The PLY Polygon File Format* (1994), with the element and property
+//! names that programs use. Edges have the color of their first class, which
+//! distinguishes the classes in programs that draw them, and all their class bits.
+//! Comments in the header explain colors and bits.
 //!
-//! Positions are floats, or doubles where the mesh was moved; normals are zero
-//! where the faces of a vertex cancel out or there are none.
+//! Positions are floats, or doubles if the mesh has a frame. The normal of a vertex
+//! without faces, or with faces that cancel out, is zero.
 //!
-//! Rejected: text, which is larger, slower, and no easier to read for a mesh of
-//! any size; the OBJ export is there for that.
+//! Rejected: text, which is larger and slower; for reading there is the OBJ export.
 
 use std::io::{self, Write};
 
-use super::{FileNumber, edges, hard_classes, in_file, one_line};
+use super::edge_records::{edges, hard_classes};
+use super::file_number::{FileNumber, in_file};
+use super::one_line::one_line;
 use crate::build::{CLASSES, class_of};
 use crate::edge_mesh::EdgeMesh;
 use crate::edge_mesh::record::{EdgeFlags, class_names};
 
-/// A colour for each of [`CLASSES`], in their order.
+/// The colors of [`CLASSES`].
 const COLORS: [[u8; 3]; 7] = [
     [214, 39, 40],
     [31, 119, 180],
@@ -81,7 +82,7 @@ fn write_header(mesh: &EdgeMesh, name: &str, out: &mut impl Write) -> io::Result
     writeln!(out, "property uint flags\nend_header")
 }
 
-/// The ends and classes of each edge that every view draws, lines included.
+/// The ends and classes of each hard edge, including lines without a face.
 fn hard_edges(mesh: &EdgeMesh) -> impl Iterator<Item = ([u32; 2], EdgeFlags)> {
     edges(mesh)
         .map(|records| ([records[0].v0, records[0].v1], hard_classes(records)))
@@ -125,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn positions_far_away_are_doubles() {
+    fn positions_of_a_mesh_with_a_frame_are_doubles() {
         let far = [[4.0e6, 0., 0.], [4.0e6 + 1.0, 0., 0.], [4.0e6, 1., 0.]];
         let (header, data) = write(&far, &[&[0, 1, 2]]);
         assert!(header.contains("\nproperty double x\n"), "{header}");
@@ -133,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_three_empty_elements() {
+    fn an_empty_mesh_has_three_empty_elements() {
         let (header, data) = write(&[], &[]);
         for element in ["vertex", "face", "edge"] {
             assert!(header.contains(&format!("\nelement {element} 0\n")), "{header}");

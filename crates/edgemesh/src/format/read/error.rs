@@ -1,42 +1,42 @@
-//! Why a model could not be read.
+//! Errors of the readers.
 
 use std::fmt;
 
-use crate::report::{Place, place_in};
+use crate::report::{Place, Report, WarningCode, place_in};
 
-/// The kind of a [`ReadError`]; its text form is the `code` that scripts see.
+/// The kind of a [`ReadError`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ReadErrorKind {
-    /// The operating system refused.
+    /// The operating system reported an error.
     Io,
-    /// Nothing to draw: no bytes, or no faces and no lines.
+    /// The file has no bytes, or no faces and no lines.
     Empty,
-    /// Not a model file of a kind that is read.
+    /// The file is not a model in a supported format or version.
     Format,
-    /// More bytes or elements than are read.
+    /// More bytes or elements than the limits allow.
     Size,
-    /// A face names a vertex that is not there, or no vertex at all.
+    /// A face names a vertex that does not exist.
     Index,
-    /// A coordinate is no number.
+    /// A coordinate is not a number.
     Number,
-    /// The file ends before all that it announces.
+    /// The file ends too early.
     Truncated,
-    /// The text does not follow the rules of its format.
+    /// The file breaks a rule of its format.
     Syntax,
-    /// A range leaves the data that it is a part of.
+    /// A range of bytes leaves the data that it refers to.
     Bounds,
-    /// Something contains itself.
+    /// A node or file contains itself.
     Cycle,
-    /// The file requires an extension that is not read.
+    /// The file requires an unsupported extension.
     Extension,
-    /// A part of the model is elsewhere, and is missing or not to be opened.
+    /// Another file that the model needs is missing or may not be opened.
     Uri,
-    /// A fault of ours.
+    /// A bug in a reader.
     Internal,
 }
 
 impl ReadErrorKind {
-    /// The word that scripts see, as [`crate::report::WarningCode::as_str`].
+    /// The kind as a lower-case word, such as `truncated`.
     #[must_use]
     pub const fn as_str(self) -> &'static str {
         match self {
@@ -57,17 +57,28 @@ impl ReadErrorKind {
     }
 }
 
-/// Why a model could not be read: what is wrong, where, and what to do.
+/// A model could not be read. Displayed as `model.obj:12: what is wrong`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ReadError {
-    /// The kind.
+    /// What kind of error it is.
     pub kind: ReadErrorKind,
-    /// The file, as it was named.
+    /// The path of the file, as the caller or the model gave it.
     pub file: String,
-    /// Where in it; `None` where the file as a whole is meant.
+    /// The place in the file; `None` for the whole file.
     pub place: Option<Place>,
-    /// What is wrong and what to do.
+    /// What is wrong, and what to do about it.
     pub what: String,
+}
+
+impl ReadError {
+    /// Turns the error into a warning: only a part of the model was left out.
+    pub(super) fn warn_left_out(self, report: &mut Report) {
+        let code = match self.kind {
+            ReadErrorKind::Uri => WarningCode::Uri,
+            _ => WarningCode::Syntax,
+        };
+        report.warn(code, self.place, || format!("{}; it was left out", self.what));
+    }
 }
 
 impl fmt::Display for ReadError {

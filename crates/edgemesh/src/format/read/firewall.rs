@@ -1,6 +1,6 @@
-//! What every model passes after its reader, whichever it was: indices in
-//! range, finite corners, at least three of them, counts that later stages can
-//! name. A reader may say more, and earlier; it need not.
+//! Checks the model that a reader returns, whatever its format: indices in range,
+//! finite positions, at least three corners a polygon, counts within the limits.
+//! Readers may check more, and earlier.
 
 use super::error::{ReadError, ReadErrorKind};
 use super::source::Source;
@@ -8,27 +8,28 @@ use crate::index::{MAX_INDEX, NONE, to_u32};
 use crate::model::Model;
 use crate::report::{Place, Report, WarningCode};
 
-/// Coordinates beyond this count as not finite: boxes around them would not be.
+/// Larger coordinates count as infinite: the size of a box around them would be.
 pub(crate) const LARGEST_COORDINATE: f64 = 1e300;
 
-/// Checks `model` and drops what cannot be kept.
+/// Checks `model` and drops what is unusable, with warnings.
 ///
-/// A corner past the last vertex is an error; one past the last normal or
-/// texture coordinate loses only that; a vertex that is not finite costs the
-/// polygons that use it. `vertices_are_told` says that the reader has already
-/// warned of the latter, with better places.
+/// A corner with a wrong texture coordinate or normal loses only that. A polygon is
+/// dropped if one of its vertices is not finite; `warned_of_vertices` is set if the
+/// reader has already warned of those. A model that loses all its faces here is
+/// returned empty.
 ///
-/// A model without any face or line is an error; one that loses all of them here
-/// is an empty model with warnings, as one whose faces are all degenerate.
+/// # Errors
+/// Fails if a face or line names a vertex that does not exist, if there are more
+/// than [`MAX_INDEX`] elements, and if the file has no face and no line at all.
 pub(crate) fn check(
     source: &Source,
     model: &mut Model,
     report: &mut Report,
-    vertices_are_told: bool,
+    warned_of_vertices: bool,
 ) -> Result<(), ReadError> {
     let counts = [model.positions.len(), model.corner_positions.len(), model.segments.len()];
     if let Some(&count) = counts.iter().find(|&&count| count > MAX_INDEX) {
-        let what = format!("too large: {count} vertices or corners, at most {MAX_INDEX} are read");
+        let what = format!("too large: {count} vertices or corners; the limit is {MAX_INDEX}");
         return Err(source.error(ReadErrorKind::Size, None, what));
     }
     check_positions(source, model)?;
@@ -45,7 +46,7 @@ pub(crate) fn check(
     }
     drop_wrong_attributes(model, report);
     let is_finite = finite_vertices(model);
-    if !vertices_are_told {
+    if !warned_of_vertices {
         warn_of_vertices(&is_finite, report);
     }
     drop_polygons(model, &is_finite, report);
@@ -62,20 +63,20 @@ fn check_positions(source: &Source, model: &Model) -> Result<(), ReadError> {
     if let Some(corner) = model.corner_positions.iter().position(is_wrong) {
         let polygon = model.polygon_of(corner);
         let index = model.corner_positions[corner];
-        let what = format!("a face names vertex {index}, counted from 0, of {count}");
+        let what = format!("a face names vertex {index} (counted from 0) of {count}");
         return Err(source.error(ReadErrorKind::Index, Some(model.polygon_place(polygon)), what));
     }
     match model.segments.iter().find(|segment| segment.ends.iter().any(is_wrong)) {
         Some(segment) => {
             let place = Some(segment.line).filter(|&line| line > 0).map(Place::Line);
-            let what = format!("a line names a vertex that is none of the {count}");
+            let what = format!("a line names a vertex past the last of {count}");
             Err(source.error(ReadErrorKind::Index, place, what))
         }
         None => Ok(()),
     }
 }
 
-/// Sets wrong indices of texture coordinates and normals to [`NONE`].
+/// Sets texture coordinate and normal indices that are out of range to [`NONE`].
 fn drop_wrong_attributes(model: &mut Model, report: &mut Report) {
     let counts = [model.texcoords.len(), model.normals.len()];
     let lists = [&mut model.corner_texcoords, &mut model.corner_normals];
@@ -89,9 +90,9 @@ fn drop_wrong_attributes(model: &mut Model, report: &mut Report) {
     }
 }
 
-/// Whether each vertex is finite; empty where all are.
+/// Whether each vertex is finite; empty if all are.
 fn finite_vertices(model: &Model) -> Vec<bool> {
-    // NaN compares as not within.
+    // False for NaN.
     let is_finite = |point: &[f64; 3]| point.iter().all(|x| x.abs() <= LARGEST_COORDINATE);
     if model.positions.iter().all(is_finite) {
         return Vec::new();
@@ -107,8 +108,8 @@ fn warn_of_vertices(is_finite: &[bool], report: &mut Report) {
     }
 }
 
-/// Drops polygons of fewer than three corners and those that use a vertex that
-/// is not finite.
+/// Drops polygons with fewer than three corners, and those with a vertex that is
+/// not finite.
 fn drop_polygons(model: &mut Model, is_finite: &[bool], report: &mut Report) {
     let too_small = |model: &Model, polygon: usize| model.corner_range(polygon).len() < 3;
     let uses_wrong = |model: &Model, polygon: usize| {
@@ -126,7 +127,7 @@ fn drop_polygons(model: &mut Model, is_finite: &[bool], report: &mut Report) {
                 let count = model.corner_range(polygon).len();
                 let place = Some(model.polygon_place(polygon));
                 report.warn(WarningCode::Degenerate, place, || {
-                    format!("a face of {count} corners was dropped")
+                    format!("a face needs three corners, this one has {count}; it was dropped")
                 });
                 return false;
             }
@@ -139,7 +140,7 @@ fn drop_polygons(model: &mut Model, is_finite: &[bool], report: &mut Report) {
     keep_polygons(model, &is_kept);
 }
 
-/// Rebuilds the lists of corners and polygons with those that are kept.
+/// Removes all polygons that `is_kept` is false for.
 fn keep_polygons(model: &mut Model, is_kept: &[bool]) {
     let ranges: Vec<_> = (0..model.polygon_count())
         .filter(|&polygon| is_kept[polygon])
@@ -168,16 +169,15 @@ fn keep_polygons(model: &mut Model, is_kept: &[bool]) {
     }
     let mut kept = is_kept.iter();
     model.polygon_lines.retain(|_| kept.next() == Some(&true));
-    // How many polygons are kept before each one.
-    let mut before = Vec::with_capacity(is_kept.len() + 1);
+    let mut kept_before = Vec::with_capacity(is_kept.len() + 1);
     let mut count = 0;
     for &kept in is_kept {
-        before.push(count);
+        kept_before.push(count);
         count += u32::from(kept);
     }
-    before.push(count);
+    kept_before.push(count);
     for run in &mut model.runs {
-        run.first_polygon = before[run.first_polygon as usize];
+        run.first_polygon = kept_before[run.first_polygon as usize];
     }
 }
 
@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn a_vertex_that_is_not_finite_costs_the_faces_that_use_it() {
+    fn faces_with_a_vertex_that_is_not_finite_are_dropped() {
         let mut model = square();
         model.positions[3][1] = f64::NAN;
         let attributes = Attributes { material: 1, ..Attributes::default() };
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_attributes_cost_only_themselves() {
+    fn wrong_attributes_are_left_out_and_the_face_is_kept() {
         let mut model = square();
         model.texcoords = vec![[0.0; 2]; 2];
         model.push_polygon(&[0, 1, 2].map(|k| Corner { position: k, texcoord: k, normal: 5 }), 0);
@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_at_all_is_an_error_and_nothing_left_is_not() {
+    fn a_file_without_faces_is_an_error_and_a_model_that_loses_all_is_not() {
         let mut report = Report::default();
         let mut model = Model::from_polygons(&[[0.0; 3]; 3], &[]);
         let error = check(&SOURCE, &mut model, &mut report, false).unwrap_err();

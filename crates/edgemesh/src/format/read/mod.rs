@@ -1,20 +1,23 @@
-//! Reads model files; every reader stands behind one firewall.
+//! Reads model files.
 //!
 //! ```text
-//! file --source: size, first bytes--> format --reader--> Model --firewall--> Model
-//!                                                |
-//!                          files beside it, in its folder or below only
+//! file --load, sniff--> bytes, format --reader--> Model --firewall--> Model
+//!                                         |
+//!                        files beside it, in its folder or below
 //! ```
 //!
-//! Before a reader sees a byte, the path must lead to a file of a sensible size
-//! whose first bytes are those of a model (`sniff`). Whatever a reader makes
-//! is checked once more (`firewall`), and a panic in it ends in an error that
-//! asks for a report. Errors name the file, the place in it, and what to do.
+//! `load` checks the size of a file and `sniff` detects its format before a reader
+//! sees a byte. `firewall` checks what a reader returns: its indices, its numbers,
+//! its counts. A panic in a reader becomes an error that asks for a bug report.
+//! Errors name the file, the place in it, and what to do.
 
+mod byte_order_mark;
 mod error;
 mod firewall;
+mod format;
 mod gltf;
-mod mtl;
+mod load;
+mod normal_transform;
 mod number;
 mod obj;
 mod picture;
@@ -30,26 +33,26 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 pub use error::{ReadError, ReadErrorKind};
-pub(crate) use sniff::EDGE_MESH_MAGIC;
-pub use sniff::Format;
-pub use source::MAX_FILE_BYTES;
-use source::{Source, folder_of, load, load_stream};
+pub use format::Format;
+use load::{load, load_stream};
+use source::{Source, folder_of};
 
+use crate::format::validate;
 use crate::model::Model;
 use crate::report::Report;
 
-/// Reads the model file at `path`, with what had to be dropped in the
-/// [`Report`]; the format is told by the first bytes, then by the name.
+/// Reads the model file at `path`; the [`Report`] lists what was left out. The
+/// format is detected from the first bytes, then from the file extension.
 ///
-/// Files that the model names are read where they lie in its folder or below.
+/// Other files that the model names are opened only in its folder or below.
 ///
 /// # Errors
-/// [`ReadError`], when nothing sound can be made of the file.
+/// Fails if the file cannot be read, or holds no usable model.
 pub fn read_model(path: &Path) -> Result<(Model, Report), ReadError> {
     read_model_as(path, None)
 }
 
-/// Reads the model file at `path` as the format that is given.
+/// As [`read_model`], in the given format.
 ///
 /// # Errors
 /// As [`read_model`].
@@ -59,8 +62,8 @@ pub fn read_model_as(path: &Path, format: Option<Format>) -> Result<(Model, Repo
     read_source(&Source { name: &name, folder: Some(folder_of(path)), bytes: &bytes }, format)
 }
 
-/// Reads a model from a stream that is called `name` in messages; files that it
-/// names are not opened, as a stream has no folder.
+/// As [`read_model`], from a stream; `name` stands for it in messages. Other files
+/// that the model names are not opened, because a stream has no folder.
 ///
 /// # Errors
 /// As [`read_model`].
@@ -74,8 +77,7 @@ pub fn read_model_stream(
     read_source(&Source { name: &name, folder: None, bytes: &bytes }, format)
 }
 
-/// Reads a model from bytes, as the format that is given; for tests and
-/// programs that hold files in memory.
+/// As [`read_model_stream`], from bytes in memory.
 ///
 /// # Errors
 /// As [`read_model`].
@@ -93,19 +95,19 @@ fn read_source(source: &Source, format: Format) -> Result<(Model, Report), ReadE
         Format::Obj => obj::read_obj(source, &mut report),
         Format::Ply => ply::read_ply(source, &mut report),
         Format::Stl => stl::read_stl(source, &mut report),
-        Format::Gltf | Format::Glb => gltf::read_gltf(source, &mut report),
+        Format::Gltf | Format::Glb => gltf::read_gltf(source, validate::gltf::check, &mut report),
         Format::Wrl => vrml::read_vrml(source, &mut report),
     };
-    // The report is thrown away where the reader panics.
+    // A panic may leave the report half written; the caller does not get it then.
     let mut model = catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|_| {
         let what = format!(
-            "internal error in the {} reader; please report it with the file",
+            "internal error in the {} reader; please report it, with the file",
             format.name()
         );
         Err(source.error(ReadErrorKind::Internal, None, what))
     })?;
     model.name = source.name.into();
-    // OBJ tells of its vertices itself, with their lines.
+    // The OBJ reader has warned of its vertices itself, with their lines.
     firewall::check(source, &mut model, &mut report, format == Format::Obj)?;
     Ok((model, report))
 }

@@ -1,79 +1,14 @@
-//! Tells the kind of a file: by its first bytes, then by its name.
+//! Detects the format of a file from its first bytes, then from its name.
 
-use std::ffi::OsStr;
 use std::path::Path;
 
+use super::byte_order_mark::without_mark;
+use super::format::Format;
 use super::stl::size_fits;
+use crate::format::edge_mesh_file::is_edge_mesh;
 
-/// A model format that is read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// Wavefront OBJ with MTL beside it.
-    Obj,
-    /// PLY, text or binary.
-    Ply,
-    /// STL, text or binary.
-    Stl,
-    /// glTF 2.0 as JSON.
-    Gltf,
-    /// glTF 2.0 in one binary file.
-    Glb,
-    /// VRML 1.0 and 97.
-    Wrl,
-}
-
-impl Format {
-    /// All formats.
-    pub const ALL: [Self; 6] = [Self::Obj, Self::Ply, Self::Stl, Self::Gltf, Self::Glb, Self::Wrl];
-
-    /// The usual ending of such a file's name, which is also what `--format`
-    /// takes.
-    #[must_use]
-    pub const fn as_str(self) -> &'static str {
-        match self {
-            Self::Obj => "obj",
-            Self::Ply => "ply",
-            Self::Stl => "stl",
-            Self::Gltf => "gltf",
-            Self::Glb => "glb",
-            Self::Wrl => "wrl",
-        }
-    }
-
-    /// The format's name in messages.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Obj => "OBJ",
-            Self::Ply => "PLY",
-            Self::Stl => "STL",
-            Self::Gltf => "glTF",
-            Self::Glb => "binary glTF",
-            Self::Wrl => "VRML",
-        }
-    }
-
-    /// The format of files whose names end like that of `path`.
-    #[must_use]
-    pub fn of_name(path: &Path) -> Option<Self> {
-        let extension = path.extension().and_then(OsStr::to_str)?;
-        match extension.to_ascii_lowercase().as_str() {
-            "obj" => Some(Self::Obj),
-            "ply" => Some(Self::Ply),
-            "stl" => Some(Self::Stl),
-            "gltf" => Some(Self::Gltf),
-            "glb" => Some(Self::Glb),
-            "wrl" | "vrml" | "wrz" => Some(Self::Wrl),
-            "gz" => Self::of_name(Path::new(path.file_stem()?)).filter(|&f| f == Self::Wrl),
-            _ => None,
-        }
-    }
-}
-
-/// Bytes at the start of an edge mesh of our own; `crate::format::edge_mesh_file` has the rest.
-pub(crate) const EDGE_MESH_MAGIC: &[u8; 8] = b"EDGEMESH";
-
-/// What the first bytes of something that is no model show it to be.
+/// First bytes of common files that are not models, and what to call each in a
+/// message.
 const OTHERS: [(&[u8], &str); 10] = [
     (b"\x89PNG", "a PNG picture"),
     (b"\xff\xd8\xff", "a JPEG picture"),
@@ -87,11 +22,11 @@ const OTHERS: [(&[u8], &str); 10] = [
     (b"version https://git-lfs", "a Git LFS pointer: fetch the file itself (git lfs pull)"),
 ];
 
-/// Finds the format of a file of `size` bytes that is called `name`, given its
-/// first bytes; `size` is `None` where it is not known.
+/// Detects the format of a file from its first bytes, its `size` in bytes (`None`
+/// if unknown) and its name.
 ///
 /// # Errors
-/// What the file is instead, and what to do.
+/// Says what the file is instead, and what to do.
 pub(crate) fn sniff(head: &[u8], size: Option<u64>, name: &Path) -> Result<Format, String> {
     if let Some(format) = by_magic(head) {
         return Ok(format);
@@ -99,8 +34,8 @@ pub(crate) fn sniff(head: &[u8], size: Option<u64>, name: &Path) -> Result<Forma
     if let Some((_, found)) = OTHERS.iter().find(|(magic, _)| head.starts_with(magic)) {
         return Err((*found).into());
     }
-    if head.starts_with(EDGE_MESH_MAGIC) {
-        return Err("an edge mesh already: `edgemesh info` reads it".into());
+    if is_edge_mesh(head) {
+        return Err("already an edge mesh: `edgemesh info` reads it".into());
     }
     let named = Format::of_name(name);
     if head.starts_with(b"\x1f\x8b") {
@@ -116,11 +51,11 @@ pub(crate) fn sniff(head: &[u8], size: Option<u64>, name: &Path) -> Result<Forma
     if is_utf16 && named != Some(Format::Obj) {
         return Err("UTF-16 text: save it as UTF-8".into());
     }
-    let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head).trim_ascii_start();
+    let text = without_mark(head).trim_ascii_start();
     let starts =
         |word: &[u8]| text.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word));
     if starts(b"<!doctype") || starts(b"<html") || starts(b"<?xml") {
-        return Err("HTML or XML, perhaps an error page that was saved".into());
+        return Err("HTML or XML, perhaps a saved error page".into());
     }
     if starts(b"solid") && named != Some(Format::Obj) {
         return Ok(Format::Stl);
@@ -132,7 +67,7 @@ pub(crate) fn sniff(head: &[u8], size: Option<u64>, name: &Path) -> Result<Forma
 }
 
 fn by_magic(head: &[u8]) -> Option<Format> {
-    let first_line = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head);
+    let first_line = without_mark(head);
     if head.starts_with(b"glTF") {
         Some(Format::Glb)
     } else if head.starts_with(b"ply\n") || head.starts_with(b"ply\r") {
@@ -147,13 +82,15 @@ fn by_magic(head: &[u8]) -> Option<Format> {
 fn by_name(head: &[u8], named: Option<Format>, is_utf16: bool) -> Result<Format, String> {
     let is_binary = head.contains(&0) && !is_utf16;
     match named {
-        Some(Format::Wrl) => Err("text without '#VRML' at its start: no VRML file".into()),
-        Some(Format::Ply) => Err("data without 'ply' at its start: no PLY file".into()),
-        Some(Format::Glb) => Err("data without 'glTF' at its start: no binary glTF".into()),
-        Some(Format::Gltf) => Err("text without '{' at its start: no glTF file".into()),
+        Some(Format::Wrl) => Err("text without '#VRML' at its start, which VRML needs".into()),
+        Some(Format::Ply) => Err("data without 'ply' at its start, which PLY needs".into()),
+        Some(Format::Glb) => {
+            Err("data without 'glTF' at its start, which binary glTF needs".into())
+        }
+        Some(Format::Gltf) => Err("text without '{' at its start, which glTF needs".into()),
         Some(Format::Stl) => Ok(Format::Stl),
         Some(Format::Obj) | None if is_binary => Err("binary data".into()),
-        // Text of unknown kind: OBJ is the one format without a mark of its own.
+        // Text of unknown kind: OBJ is the only format without a signature.
         Some(Format::Obj) | None => Ok(Format::Obj),
     }
 }
@@ -168,7 +105,7 @@ mod tests {
         assert!(found(b"\x1f\x8b\x08").contains("gzip"));
         assert!(found(b"\n <!DOCTYPE html>").contains("HTML"));
         assert!(found(b"\x00\x01").contains("binary"));
-        assert!(found(b"EDGEMESH").contains("edge mesh already"));
+        assert!(found(b"EDGEMESH").contains("already an edge mesh"));
     }
 
     #[test]
@@ -176,7 +113,7 @@ mod tests {
         let sniffed = |head: &[u8], name: &str| sniff(head, None, Path::new(name));
         assert_eq!(sniffed(b"\xef\xbb\xbfv 0 0 0\n", "a.obj"), Ok(Format::Obj));
         assert_eq!(sniffed(b"# comment\nv 0 0 0\n", "a.txt"), Ok(Format::Obj));
-        assert_eq!(sniffed(b"solid body\n", "a.obj"), Ok(Format::Obj), "no OBJ statement, though");
+        assert_eq!(sniffed(b"solid body\n", "a.obj"), Ok(Format::Obj), "the name decides");
         assert_eq!(sniffed(b"solid body\n", "a"), Ok(Format::Stl));
         assert_eq!(sniffed(b"ply\nformat ascii 1.0\n", "a.obj"), Ok(Format::Ply));
         assert_eq!(sniffed(b"glTF\x02\0\0\0", "a.stl"), Ok(Format::Glb));

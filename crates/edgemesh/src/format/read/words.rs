@@ -1,18 +1,18 @@
-//! Text of words in lines, as the bodies of PLY and STL are written.
+//! Reads words and numbers line by line, for the text forms of PLY and STL.
 //!
-//! One cursor walks over the bytes once: a number is parsed where it stands,
-//! and neither the end of its line nor that of its word is looked for first.
+//! A cursor passes over the bytes once: a number is parsed in place, without a
+//! search for the end of its word or line.
 //!
 //! ```text
 //! vertex 0.5 1 -2 \r\n
 //!        ^at
-//! word, number: to the next blank; None at the end of the line
-//! end_line:     over the end of the line, which is LF, CR LF or CR
+//! word, number: up to the next blank; None at the end of the line
+//! end_line:     past the end of the line: LF, CR LF or CR
 //! ```
 
 use super::number::{parse_number, parse_prefix};
 
-/// How much of a word a message shows.
+/// A message shows at most this many bytes of a word.
 const SHOWN_BYTES: usize = 40;
 
 /// A cursor over text.
@@ -24,7 +24,7 @@ pub(super) struct Words<'a> {
 }
 
 impl<'a> Words<'a> {
-    /// A cursor at the byte `at`, which stands on line `line`.
+    /// A cursor at byte `at`, in line `line`.
     pub(super) const fn new(bytes: &'a [u8], at: usize, line: u32) -> Self {
         Self { bytes, at, line }
     }
@@ -39,12 +39,12 @@ impl<'a> Words<'a> {
         self.at
     }
 
-    /// All that is behind the cursor.
+    /// The bytes from the cursor on.
     pub(super) fn left(&self) -> &'a [u8] {
         self.bytes.get(self.at..).unwrap_or_default()
     }
 
-    /// The next word of this line; `None` where the line ends.
+    /// The next word of this line; `None` at its end.
     pub(super) fn word(&mut self) -> Option<&'a [u8]> {
         self.skip_blanks();
         let text = self.left();
@@ -53,8 +53,8 @@ impl<'a> Words<'a> {
         text.get(..length).filter(|word| !word.is_empty())
     }
 
-    /// The number that is the next word of this line, or that word where it is
-    /// no number; `None` where the line ends.
+    /// The next word of this line as a number, or as an error if it is not one;
+    /// `None` at the end of the line.
     #[inline]
     pub(super) fn number(&mut self) -> Option<Result<f64, &'a [u8]>> {
         self.skip_blanks();
@@ -68,8 +68,7 @@ impl<'a> Words<'a> {
         self.word().map(|word| parse_number(word).ok_or(word))
     }
 
-    /// The rest of this line without blanks around it; the cursor moves to the
-    /// next line.
+    /// The rest of this line without surrounding blanks; moves to the next line.
     pub(super) fn end_line(&mut self) -> &'a [u8] {
         let text = self.left();
         let length = text.iter().position(|&byte| is_line_end(byte)).unwrap_or(text.len());
@@ -78,7 +77,7 @@ impl<'a> Words<'a> {
         text.get(..length).unwrap_or_default().trim_ascii()
     }
 
-    /// Moves to the next word, on whatever line.
+    /// Moves to the next word, over line ends too.
     pub(super) fn skip_space(&mut self) {
         self.skip_blanks();
         while self.left().first().is_some_and(|&byte| is_line_end(byte)) {
@@ -100,12 +99,12 @@ impl<'a> Words<'a> {
             [_, ..] => self.at += 1,
             [] => return,
         }
-        // A file of 4 GiB may have more lines than 32 bits count.
+        // A file of 4 GiB can have more lines than 32 bits hold.
         self.line = self.line.saturating_add(1);
     }
 }
 
-/// Words end here: blank, tab, line feed, vertical tab, form feed, return.
+/// Blank, tab, line feed, vertical tab, form feed or carriage return.
 const fn is_space(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t'..=b'\r')
 }
@@ -114,8 +113,8 @@ const fn is_line_end(byte: u8) -> bool {
     matches!(byte, b'\n' | b'\r')
 }
 
-/// A word of a file in quotation marks for a message: without control
-/// characters, and not longer than a line.
+/// `word` in quotation marks for a message: control characters are escaped, and at
+/// most [`SHOWN_BYTES`] bytes are shown.
 pub(super) fn quoted(word: &[u8]) -> String {
     match word.get(..SHOWN_BYTES) {
         Some(start) if word.len() > SHOWN_BYTES => format!("'{}...'", start.escape_ascii()),

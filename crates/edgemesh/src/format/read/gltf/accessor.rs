@@ -7,12 +7,12 @@
 //! buffer    |.....................................................|
 //! view           |<- byteOffset      byteLength                ->|
 //! accessor            |<- byteOffset  [xyz]..[xyz]..[xyz]|
-//!                                     |stride|             a last one may be short
+//!                                     |stride|             the last may be shorter
 //! ```
 //!
-//! All of it is checked in 64 bits before a byte is read. Numbers come as 32-bit
-//! floats, which hold every component type but the unsigned 32-bit one exactly,
-//! and that one only indices use.
+//! All ranges are checked in 64 bits before a byte is read. Numbers become 32-bit
+//! floats, which hold all component types exactly except unsigned 32-bit integers;
+//! those occur only in indices.
 
 use std::ops::Range;
 
@@ -22,14 +22,14 @@ use json::validation::Checked;
 
 use super::super::error::{ReadError, ReadErrorKind};
 use super::super::source::Source;
-use super::Asset;
+use super::asset::Asset;
 use crate::report::Place;
 
-/// An accessor without a view is zeros, which take no bytes of the file: at most
-/// this many elements beyond one a byte.
+/// An accessor without a view consists of zeros, which take no bytes of the file: at
+/// most this many elements beyond one for each byte.
 const MAX_FREE_ZEROS: u64 = 1 << 16;
 
-/// An accessor whose ranges have been checked.
+/// An accessor with checked ranges.
 #[derive(Debug)]
 pub(super) struct Accessor<'a> {
     source: &'a Source<'a>,
@@ -38,43 +38,44 @@ pub(super) struct Accessor<'a> {
     component: ComponentType,
     kind: Type,
     is_normalized: bool,
-    /// `None` stands for zeros.
+    /// `None` for zeros.
     elements: Option<Elements<'a>>,
     sparse: Option<Sparse<'a>>,
 }
 
-/// Elements in a row.
+/// Elements at equal distances.
 #[derive(Debug)]
 struct Elements<'a> {
-    /// From the first byte of the first to the last byte of the last.
+    /// From the first byte of the first element to the last byte of the last.
     bytes: &'a [u8],
-    /// From one to the next, in bytes; not 0.
+    /// The distance between elements, in bytes; not 0.
     stride: usize,
 }
 
-/// Elements that replace others.
+/// Elements that replace others (sparse accessors).
 #[derive(Debug)]
 struct Sparse<'a> {
-    /// Which are replaced; all are there.
+    /// The indices of the replaced elements, all in range.
     indices: Vec<[u32; 1]>,
     values: Elements<'a>,
 }
 
-/// Where elements are said to be.
-struct Layout {
+/// The stated place of elements.
+struct ElementLayout {
+    /// The index of the view.
     view: usize,
     offset: u64,
     count: u64,
-    /// Of one element, in bytes.
+    /// Bytes of an element.
     size: u64,
 }
 
 impl Asset<'_> {
-    /// The accessor that `part` names by its index.
+    /// The accessor with this index, which `part` refers to.
     ///
     /// # Errors
-    /// `Bounds` where its elements leave their view or buffer, those of its
-    /// buffer, `Syntax` where it makes no sense otherwise.
+    /// `Bounds` if its elements leave their view or buffer, `Syntax` if it is malformed
+    /// or does not exist, and the errors of its buffer.
     pub(super) fn accessor(
         &self,
         index: usize,
@@ -84,19 +85,20 @@ impl Asset<'_> {
         let part = || format!("accessors[{index}]");
         let (Checked::Valid(component), Checked::Valid(kind)) = (&json.component_type, &json.type_)
         else {
-            let what = "is of a component type or a type that glTF does not have";
+            let what = "has a type or component type that glTF does not define";
             return Err(self.error(ReadErrorKind::Syntax, part(), what));
         };
         let size = (component.0.size() * kind.multiplicity()) as u64;
         let elements = match json.buffer_view {
             Some(view) => {
                 let offset = json.byte_offset.unwrap_or_default().0;
-                let layout = Layout { view: view.value(), offset, count: json.count.0, size };
+                let layout =
+                    ElementLayout { view: view.value(), offset, count: json.count.0, size };
                 Some(self.elements(&layout, &part)?)
             }
             None => self.check_zeros(json.count.0, &part).map(|()| None)?,
         };
-        // What is in the file, or in the limit of zeros, memory can name.
+        // Bounded by the size of the file or the limit for zeros.
         let count = usize::try_from(json.count.0).unwrap_or(usize::MAX);
         self.spend(count, part)?;
         let sparse = json.sparse.as_ref().map(|sparse| self.sparse(sparse, count, size, &part));
@@ -116,11 +118,11 @@ impl Asset<'_> {
         if count <= MAX_FREE_ZEROS + self.budget.bytes() as u64 {
             return Ok(());
         }
-        let what = format!("has {count} elements and no view that they are in");
+        let what = format!("has {count} elements and no buffer view");
         Err(self.error(ReadErrorKind::Bounds, part(), what))
     }
 
-    /// Elements that replace some of `count`, of `size` bytes each.
+    /// The elements that replace some of `count` elements of `size` bytes each.
     fn sparse(
         &self,
         json: &json::accessor::sparse::Sparse,
@@ -130,11 +132,11 @@ impl Asset<'_> {
     ) -> Result<Sparse<'_>, ReadError> {
         let json::accessor::sparse::Sparse { count: replaced, indices, values, .. } = json;
         let Checked::Valid(component) = &indices.component_type else {
-            let what = "has sparse indices of a component type that indices cannot have";
+            let what = "has sparse indices with a component type that is not allowed";
             return Err(self.error(ReadErrorKind::Syntax, part(), what));
         };
         let at = |view: usize, offset, size| {
-            self.elements(&Layout { view, offset, count: replaced.0, size }, part)
+            self.elements(&ElementLayout { view, offset, count: replaced.0, size }, part)
         };
         let index_size = component.0.size() as u64;
         let found = at(indices.buffer_view.value(), indices.byte_offset.0, index_size)?;
@@ -150,11 +152,11 @@ impl Asset<'_> {
         }
     }
 
-    /// The bytes of a view that `part` names by its index.
+    /// The bytes of the view with this index, which `part` refers to.
     ///
     /// # Errors
-    /// `Bounds` where it leaves its buffer, those of that buffer, `Syntax` where
-    /// there is no such view.
+    /// `Bounds` if it leaves its buffer, `Syntax` if it does not exist, and the errors
+    /// of its buffer.
     pub(super) fn view(&self, index: usize, part: &dyn Fn() -> String) -> Result<&[u8], ReadError> {
         let view = self.get(&self.document.buffer_views, index, "bufferViews", part)?;
         let view_part = || format!("bufferViews[{index}]");
@@ -163,23 +165,23 @@ impl Asset<'_> {
         let length = view.byte_length.0;
         slice(buffer, start, length).ok_or_else(|| {
             let what =
-                format!("takes {length} bytes from byte {start} of a buffer of {}", buffer.len());
+                format!("needs {length} bytes from byte {start} of a buffer with {}", buffer.len());
             self.error(ReadErrorKind::Bounds, view_part(), what)
         })
     }
 
-    /// The bytes that elements take; `part` names their accessor.
+    /// The bytes of elements; `part` is their accessor.
     fn elements(
         &self,
-        layout: &Layout,
+        layout: &ElementLayout,
         part: &dyn Fn() -> String,
     ) -> Result<Elements<'_>, ReadError> {
-        let Layout { view: index, offset, count, size } = *layout;
+        let ElementLayout { view: index, offset, count, size } = *layout;
         let view = self.get(&self.document.buffer_views, index, "bufferViews", part)?;
         let stride = view.byte_stride.map_or(0, |stride| stride.0 as u64);
         let stride = if stride == 0 { size } else { stride };
         if stride < size {
-            let what = format!("has elements of {size} bytes, {stride} apart");
+            let what = format!("has elements of {size} bytes at a stride of {stride}");
             return Err(self.error(ReadErrorKind::Syntax, part(), what));
         }
         let in_view = self.view(index, part)?;
@@ -190,49 +192,50 @@ impl Asset<'_> {
         };
         let bytes = needed.and_then(|needed| slice(in_view, offset, needed)).ok_or_else(|| {
             let what = format!(
-                "has {count} elements of {size} bytes, {stride} apart, from byte {offset} of \
-                 bufferViews[{index}], which has {length}; the file is cut short or damaged"
+                "has {count} elements of {size} bytes at a stride of {stride}, from byte \
+                 {offset} of bufferViews[{index}], which has {length}; the file is truncated or \
+                 damaged"
             );
             self.error(ReadErrorKind::Bounds, part(), what)
         })?;
-        // The stride of elements that are there is at most the length of a view.
+        // The stride of existing elements is at most the length of a view.
         Ok(Elements { bytes, stride: usize::try_from(stride).unwrap_or(usize::MAX) })
     }
 }
 
-/// A part of some bytes; `None` where it is not in them.
+/// A range of `bytes`; `None` if it leaves them.
 fn slice(bytes: &[u8], start: u64, length: u64) -> Option<&[u8]> {
     let end = start.checked_add(length)?;
     bytes.get(Range { start: usize::try_from(start).ok()?, end: usize::try_from(end).ok()? })
 }
 
 impl Accessor<'_> {
-    /// Its index among all of the file.
+    /// Its index in the file.
     pub(super) const fn index(&self) -> usize {
         self.index
     }
 
-    /// How many elements there are.
+    /// The number of elements.
     pub(super) const fn count(&self) -> usize {
         self.count
     }
 
-    /// What its elements are.
+    /// The type of its elements.
     pub(super) const fn kind(&self) -> Type {
         self.kind
     }
 
-    /// What its components are.
+    /// The type of its components.
     pub(super) const fn component(&self) -> ComponentType {
         self.component
     }
 
-    /// Whether its numbers are the ones in the file.
+    /// Whether its numbers are those of the file, not normalized.
     pub(super) const fn is_raw(&self) -> bool {
         matches!(self.component, ComponentType::F32) || !self.is_normalized
     }
 
-    /// Takes whole numbers for 0 to 1, or -1 to 1, whatever the file says.
+    /// Normalizes integers to 0 to 1 or -1 to 1, even if the file does not ask for it.
     pub(super) const fn normalized(mut self) -> Self {
         self.is_normalized = true;
         self
@@ -241,30 +244,30 @@ impl Accessor<'_> {
     /// Its elements as numbers.
     ///
     /// # Errors
-    /// `Syntax` where they have not just `N` components.
+    /// `Syntax` if they do not have `N` components.
     pub(super) fn numbers<const N: usize>(&self) -> Result<Vec<[f32; N]>, ReadError> {
         self.check_components(N)?;
         Ok(self.collect(|elements| elements.numbers(self.component, self.is_normalized)))
     }
 
-    /// Its elements as whole numbers from 0 up, such as indices.
+    /// Its elements as unsigned integers, such as indices.
     ///
     /// # Errors
-    /// `Syntax` where they have not just `N` components, or may be negative.
+    /// `Syntax` if they do not have `N` components, or are of another type.
     pub(super) fn unsigned<const N: usize>(&self) -> Result<Vec<[u32; N]>, ReadError> {
         self.check_components(N)?;
         match self.component {
             ComponentType::U8 | ComponentType::U16 | ComponentType::U32 => {
                 Ok(self.collect(|elements| elements.unsigned(self.component)))
             }
-            _ => Err(self.wrong("is not of unsigned integers, as its use demands")),
+            _ => Err(self.wrong("must have unsigned integers")),
         }
     }
 
     fn check_components(&self, count: usize) -> Result<(), ReadError> {
         match self.kind.multiplicity() {
             found if found == count => Ok(()),
-            found => Err(self.wrong(format!("has elements of {found} numbers, not of {count}"))),
+            found => Err(self.wrong(format!("has elements of {found} numbers instead of {count}"))),
         }
     }
 
@@ -273,7 +276,7 @@ impl Accessor<'_> {
         self.source.error(ReadErrorKind::Syntax, Some(place), what)
     }
 
-    /// Reads elements by `read`, and those that replace some of them.
+    /// Reads elements with `read`, then those that replace some of them.
     fn collect<T: Copy + Default, const N: usize>(
         &self,
         read: impl Fn(&Elements) -> Vec<[T; N]>,
@@ -300,7 +303,7 @@ impl Elements<'_> {
         is_normalized: bool,
     ) -> Vec<[f32; N]> {
         let scaled = |number: f32, largest: f32| match is_normalized {
-            // The least signed integer lies a little below -1.
+            // The least signed integer would be a little below -1.
             true => (number / largest).max(-1.0),
             false => number,
         };
@@ -320,7 +323,7 @@ impl Elements<'_> {
         }
     }
 
-    /// Nothing where the component is no unsigned one.
+    /// Empty for other component types.
     fn unsigned<const N: usize>(&self, component: ComponentType) -> Vec<[u32; N]> {
         match component {
             ComponentType::U8 => self.map(|[byte]| byte.into()),
@@ -353,7 +356,7 @@ mod tests {
     use super::super::sample::Sample;
     use super::*;
 
-    /// What `look` finds in the last accessor of `sample`.
+    /// What `look` returns for the last accessor of `sample`.
     fn with<T>(
         sample: &Sample,
         look: impl FnOnce(Accessor) -> Result<T, ReadError>,
@@ -368,7 +371,7 @@ mod tests {
         with(sample, |accessor| accessor.numbers())
     }
 
-    /// One accessor into a view of `bytes`, with these members.
+    /// A file with one accessor of these members, in a view of `bytes`.
     fn sample(bytes: &[u8], view: &Value, accessor: Value) -> Sample {
         let mut sample = Sample::default();
         sample.view(bytes, view);
@@ -403,7 +406,7 @@ mod tests {
     }
 
     #[test]
-    fn elements_may_lie_apart() {
+    fn elements_may_have_a_stride() {
         let bytes = [9, 1, 2, 9, 3, 4, 9, 5, 6];
         let accessor = json!({"byteOffset": 1, "componentType": 5121, "count": 3, "type": "VEC2"});
         let found = numbers(&sample(&bytes, &json!({"byteStride": 3}), accessor.clone())).unwrap();
@@ -459,7 +462,7 @@ mod tests {
     }
 
     #[test]
-    fn zeros_are_not_for_free_without_end() {
+    fn zeros_are_limited() {
         let zeros = |count: u64| {
             let mut sample = Sample::default();
             sample.accessor(json!({"componentType": 5126, "count": count, "type": "VEC3"}));
@@ -470,12 +473,12 @@ mod tests {
     }
 
     #[test]
-    fn the_use_of_elements_is_checked() {
+    fn the_type_of_elements_is_checked() {
         let accessor = json!({"componentType": 5126, "count": 1, "type": "VEC4"});
         let sample = sample(&[0; 16], &json!({}), accessor);
         let error = numbers::<3>(&sample).unwrap_err();
         assert_eq!(error.place, Some(Place::Part("accessors[0]".into())));
-        assert!(error.what.contains("4 numbers, not of 3"), "{error}");
+        assert!(error.what.contains("4 numbers instead of 3"), "{error}");
         let error = with(&sample, |accessor| accessor.unsigned::<4>()).unwrap_err();
         assert!(error.what.contains("unsigned"), "{error}");
     }

@@ -1,66 +1,69 @@
-//! Puts the nodes of a scene together to one model.
+//! Builds one model from the nodes of a scene.
 //!
 //! ```text
-//! node --mesh--> primitive --> vertices, once for those that share attributes
-//!                         '--> triangles and segments between them
-//! at the end: all vertices into the rest pose, part by part
+//! node --mesh--> primitive --> vertices, shared by primitives with the same attributes
+//!                         '--> triangles and segments of these vertices
+//! at the end: all vertices into the rest pose
 //! ```
 //!
-//! Vertices are kept as the file has them until all are there: the pose that
-//! places them is the same code that animates them later.
+//! Vertices stay as they are in the file until the end, because the pose that places
+//! them then is the same code that animates them later.
 
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::iter;
 
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DVec3, Vec3};
 use gltf_json as json;
 use json::mesh::Semantic;
 use json::validation::Checked;
 
 use super::super::error::{ReadError, ReadErrorKind};
-use super::Asset;
-use super::deform::new_rig;
-use super::edge_extensions::edges;
+use super::super::normal_transform::normal_transform;
+use super::asset::Asset;
+use super::deform::{add_influences, morph_targets, new_rig};
+use super::edge_extensions::edge_marks;
 use super::extension::check_uncompressed;
 use super::material::material;
-use super::scene::Graph;
-use super::texture::Textures;
+use super::primitive::Primitive;
+use super::scene::NodeHierarchy;
+use super::texture::PictureCache;
 use super::topology::{Shapes, shapes};
-use super::vertices::{Looks, Site, positions};
+use super::vertices::{VertexAttributes, positions};
 use crate::index::{NONE, to_u32};
 use crate::model::rig::{Pose, Rig, RigPart};
 use crate::model::{Attributes, Corner, Model, Segment, Smoothing};
 use crate::report::{Place, Report, WarningCode};
 
-/// A model on its way.
+/// A model and its rig, to which nodes are added.
 #[derive(Debug)]
 pub(super) struct ModelBuilder<'a> {
-    pub(super) asset: &'a Asset<'a>,
-    pub(super) report: &'a mut Report,
-    /// Holds the vertices until the end, placed by nothing.
-    pub(super) rig: Rig,
+    asset: &'a Asset<'a>,
+    report: &'a mut Report,
+    /// Holds the positions until the end, without the transforms of their nodes.
+    rig: Rig,
     rest: Pose,
     model: Model,
-    /// The index into the model's materials of each of the file's, or [`NONE`].
+    /// For each material of the file, its index in the model, or [`NONE`].
     materials: Vec<u32>,
-    textures: Textures,
+    pictures: PictureCache,
 }
 
-/// What primitives of a mesh must have in common to share vertices.
+/// The attributes and morph targets that primitives with shared vertices have in
+/// common.
 type VertexKey = (BTreeMap<Checked<Semantic>, json::Index<json::Accessor>>, Vec<Option<usize>>);
 
-/// What a primitive costs beside its vertices, in elements of the budget: many
-/// nodes that share many empty primitives must end as well.
+/// The cost of a primitive without its vertices, in elements of the budget. It limits
+/// files in which many nodes share many empty primitives.
 const PRIMITIVE_ELEMENTS: usize = 64;
 
-/// The colour of vertices that have none, where others have one.
+/// The color of vertices without one, if other vertices have colors.
 const WHITE: [f32; 3] = [1.0; 3];
 
-/// Vertices in a row, all with the same attributes.
+/// A range of vertices with the same attributes.
 #[derive(Debug, Clone, Copy)]
-struct Block {
-    base: u32,
+struct VertexRange {
+    first: u32,
     count: u32,
     has_normals: bool,
     has_texcoords: bool,
@@ -68,24 +71,26 @@ struct Block {
 }
 
 impl<'a> ModelBuilder<'a> {
-    /// # Errors
-    /// Where a skin is not sound.
-    pub(super) fn new(
-        asset: &'a Asset<'a>,
-        graph: &Graph,
-        report: &'a mut Report,
-    ) -> Result<Self, ReadError> {
-        let rig = new_rig(asset, graph)?;
-        let rest = rig.rest_pose();
-        let materials = vec![NONE; asset.document.materials.len()];
-        let (model, textures) = (Model::default(), Textures::default());
-        Ok(Self { asset, report, rig, rest, model, materials, textures })
-    }
-
-    /// Adds what the mesh of a node draws.
+    /// An empty model with the rig of the file.
     ///
     /// # Errors
-    /// Where mesh, skin, positions or indices are not sound.
+    /// As [`new_rig`].
+    pub(super) fn new(
+        asset: &'a Asset<'a>,
+        hierarchy: &NodeHierarchy,
+        report: &'a mut Report,
+    ) -> Result<Self, ReadError> {
+        let rig = new_rig(asset, hierarchy)?;
+        let rest = rig.rest_pose();
+        let materials = vec![NONE; asset.document.materials.len()];
+        let (model, pictures) = (Model::default(), PictureCache::default());
+        Ok(Self { asset, report, rig, rest, model, materials, pictures })
+    }
+
+    /// Adds the mesh of a node, if it has one.
+    ///
+    /// # Errors
+    /// Fails if the mesh, its skin, its positions or its indices have a fault.
     pub(super) fn add_node(&mut self, index: usize) -> Result<(), ReadError> {
         let document = self.asset.document;
         let node = self.asset.get(&document.nodes, index, "nodes", String::new)?;
@@ -95,29 +100,27 @@ impl<'a> ModelBuilder<'a> {
         let extensions = node.extensions.as_ref();
         if extensions.is_some_and(|all| all.others.contains_key("EXT_mesh_gpu_instancing")) {
             self.report.warn(WarningCode::Unsupported, Some(Place::Part(part())), || {
-                "EXT_mesh_gpu_instancing is not read: the mesh is drawn once".into()
+                "EXT_mesh_gpu_instancing is not supported: the mesh is drawn once".into()
             });
         }
         let mut names = [&node.name, &mesh.name].into_iter().flatten();
         let name = names.find(|name| !name.is_empty());
         let group = to_u32(self.model.groups.len());
         self.model.groups.push(name.cloned().unwrap_or_else(part));
-        let mut blocks = HashMap::new();
-        for (at, primitive) in mesh.primitives.iter().enumerate() {
-            let site = Site { mesh: mesh_index, primitive: at };
-            self.asset.spend(PRIMITIVE_ELEMENTS + primitive.attributes.len(), || site.part())?;
-            let block = match blocks.entry(vertex_key(primitive)) {
-                Entry::Occupied(known) => *known.get(),
-                Entry::Vacant(new) => *new.insert(self.add_vertices(index, mesh, primitive, site)?),
+        let mut ranges = HashMap::new();
+        for (at, json) in mesh.primitives.iter().enumerate() {
+            let primitive = Primitive { asset: self.asset, json, mesh: mesh_index, index: at };
+            let cost = PRIMITIVE_ELEMENTS + json.attributes.len();
+            self.asset.spend(cost, || primitive.part())?;
+            let range = match ranges.entry(vertex_key(json)) {
+                Entry::Occupied(shared) => *shared.get(),
+                Entry::Vacant(new) => *new.insert(self.add_vertices(index, mesh, primitive)?),
             };
-            let Some(block) = block else { continue };
-            let material = self.material(primitive);
-            self.model.set_attributes(Attributes {
-                material,
-                group,
-                smoothing: Smoothing::Unstated,
-            });
-            self.add_shapes(primitive, site, block)?;
+            let Some(range) = range else { continue };
+            let material = self.material(json);
+            let smoothing = Smoothing::Unstated;
+            self.model.set_attributes(Attributes { material, group, smoothing });
+            self.add_shapes(primitive, range)?;
         }
         Ok(())
     }
@@ -126,34 +129,33 @@ impl<'a> ModelBuilder<'a> {
     fn material(&mut self, primitive: &json::mesh::Primitive) -> u32 {
         let Some(index) = primitive.material.map(|material| material.value()) else { return NONE };
         let materials = &self.asset.document.materials;
-        let (Some(json), Some(known)) = (materials.get(index), self.materials.get_mut(index))
+        let (Some(json), Some(in_model)) = (materials.get(index), self.materials.get_mut(index))
         else {
             return NONE;
         };
-        if *known == NONE {
-            *known = to_u32(self.model.materials.len());
+        if *in_model == NONE {
+            *in_model = to_u32(self.model.materials.len());
             let mut material = material(json);
             if let Some(info) = &json.pbr_metallic_roughness.base_color_texture {
                 material.diffuse_texture =
-                    self.textures.of_base_color(self.asset, index, info, self.report);
+                    self.pictures.base_color_texture(self.asset, index, info, self.report);
             }
             self.model.materials.push(material);
         }
-        *known
+        *in_model
     }
 
-    /// Adds the vertices of a primitive of `mesh` where it hangs on a node;
-    /// nothing where it has no positions.
+    /// Adds the vertices of a primitive of `mesh` at a node; `None` if it has no
+    /// positions.
     fn add_vertices(
         &mut self,
         node: usize,
         mesh: &json::Mesh,
-        primitive: &json::mesh::Primitive,
-        site: Site,
-    ) -> Result<Option<Block>, ReadError> {
-        check_uncompressed(self.asset, primitive, site)?;
-        let Some(positions) = positions(self.asset, primitive, site, self.report)? else {
-            self.report.warn(WarningCode::Unsupported, site.place(), || {
+        primitive: Primitive,
+    ) -> Result<Option<VertexRange>, ReadError> {
+        check_uncompressed(primitive)?;
+        let Some(positions) = positions(primitive, self.report)? else {
+            self.report.warn(WarningCode::Unsupported, primitive.place(), || {
                 "a primitive without positions was left out".into()
             });
             return Ok(None);
@@ -161,140 +163,122 @@ impl<'a> ModelBuilder<'a> {
         let count = positions.len();
         let start = self.rig.positions.len();
         let vertices = to_u32(start)..to_u32(start + count);
-        let skin = self.add_skin(node, primitive, site, count)?;
-        let targets = self.targets(primitive, site, vertices.start, count)?;
+        let skin = self.add_skin(node, primitive, count)?;
+        let targets = morph_targets(primitive, vertices.start, count)?;
         let json = self.asset.document.nodes.get(node);
-        let own_weights = json.and_then(|node| node.weights.as_ref());
-        let weights = own_weights.or(mesh.weights.as_ref()).into_iter().flatten().copied();
+        let node_weights = json.and_then(|node| node.weights.as_ref());
+        let weights = node_weights.or(mesh.weights.as_ref()).into_iter().flatten().copied();
         let weights = weights.chain(iter::repeat(0.0)).take(targets.len()).collect();
-        let looks = Looks::read(self.asset, primitive, count, site, self.report);
-        let block = Block {
-            base: vertices.start,
+        let attributes = VertexAttributes::read(primitive, count, self.report);
+        let range = VertexRange {
+            first: vertices.start,
             count: to_u32(count),
-            has_normals: !looks.normals.is_empty(),
-            has_texcoords: !looks.texcoords.is_empty(),
+            has_normals: !attributes.normals.is_empty(),
+            has_texcoords: !attributes.texcoords.is_empty(),
             is_mirrored: self.is_mirrored(node, skin),
         };
-        extend_from(&mut self.model.normals, start, looks.normals, [0.0; 3]);
-        extend_from(&mut self.model.texcoords, start, looks.texcoords, [0.0; 2]);
-        extend_from(&mut self.model.colors, start, looks.colors, WHITE);
+        extend_from(&mut self.model.normals, start, attributes.normals, [0.0; 3]);
+        extend_from(&mut self.model.texcoords, start, attributes.texcoords, [0.0; 2]);
+        extend_from(&mut self.model.colors, start, attributes.colors, WHITE);
         self.rig.positions.extend(positions.into_iter().map(|position| position.map(f64::from)));
         self.rig.parts.push(RigPart { vertices, node: to_u32(node), skin, weights, targets });
-        Ok(Some(block))
+        Ok(Some(range))
     }
 
-    /// Hangs the next `count` vertices on the skin of their node, if it has one;
-    /// gives its index, or [`NONE`].
+    /// Adds the influences of the next `count` vertices by the skin of their node;
+    /// returns the index of the skin, or [`NONE`].
     fn add_skin(
         &mut self,
         node: usize,
-        primitive: &json::mesh::Primitive,
-        site: Site,
+        primitive: Primitive,
         count: usize,
     ) -> Result<u32, ReadError> {
         let skin = self.asset.document.nodes.get(node).and_then(|node| node.skin);
         let Some(index) = skin.map(|skin| skin.value()) else { return Ok(NONE) };
         let part = || format!("nodes[{node}].skin");
         let skin = self.asset.get(&self.asset.document.skins, index, "skins", part)?;
-        if self.add_influences(primitive, site, skin.joints.len(), count)? {
+        if add_influences(&mut self.rig, primitive, skin.joints.len(), count, self.report)? {
             return Ok(to_u32(index));
         }
-        self.report.warn(WarningCode::Syntax, site.place(), || {
-            format!("names no joints for the skin of nodes[{node}], which places it instead")
+        self.report.warn(WarningCode::Syntax, primitive.place(), || {
+            format!("names no joints for the skin of nodes[{node}]; the node places it instead")
         });
         Ok(NONE)
     }
 
-    /// Whether the rest pose turns faces inside out, which their winding makes
-    /// good for. The node of a skinned mesh does not place it, its joints do.
+    /// Whether the rest pose mirrors vertices; their faces are reversed then. Skinned
+    /// vertices are placed by their joints, not by their node.
     fn is_mirrored(&self, node: usize, skin: u32) -> bool {
         let joints = self.rest.world_from_mesh.get(skin as usize);
-        let placing = match joints {
+        let transform = match joints {
             Some(joints) => joints.first(),
             None => self.rest.world_from_node.get(node),
         };
-        placing.is_some_and(|transform| transform.matrix3.determinant() < 0.0)
+        transform.is_some_and(|transform| transform.matrix3.determinant() < 0.0)
     }
 
-    /// Adds the triangles or segments of a primitive between vertices of `block`.
-    fn add_shapes(
-        &mut self,
-        primitive: &json::mesh::Primitive,
-        site: Site,
-        block: Block,
-    ) -> Result<(), ReadError> {
-        let Checked::Valid(mode) = primitive.mode else {
-            let what = "has a mode that glTF does not have";
-            return Err(self.asset.error(ReadErrorKind::Syntax, site.part(), what));
+    /// Adds the triangles or segments of a primitive with the vertices of `range`.
+    fn add_shapes(&mut self, primitive: Primitive, range: VertexRange) -> Result<(), ReadError> {
+        let Checked::Valid(mode) = primitive.json.mode else {
+            let what = "has a mode that glTF does not define";
+            return Err(primitive.error(ReadErrorKind::Syntax, what));
         };
-        let corners = self.corners(primitive, site, block)?;
+        let corners = self.corners(primitive, range)?;
         let (shapes, rest) = shapes(mode, &corners);
-        self.report.warn_many(WarningCode::Syntax, rest, site.place(), || {
-            format!("{rest} corners at the end of the list make no shape; they were left out")
+        self.report.warn_many(WarningCode::Syntax, rest, primitive.place(), || {
+            format!("has {rest} surplus corners at the end; they were left out")
         });
         match shapes {
-            Shapes::Triangles(triangles) => self.add_triangles(&triangles, primitive, site, block),
-            Shapes::Segments(segments) => self.add_segments(&segments, block),
+            Shapes::Triangles(triangles) => self.add_triangles(&triangles, primitive, range),
+            Shapes::Segments(segments) => self.add_segments(&segments, range),
             Shapes::Points => {
-                self.report.warn(WarningCode::Unsupported, site.place(), || {
-                    "points are not drawn; they were left out".into()
+                self.report.warn(WarningCode::Unsupported, primitive.place(), || {
+                    "points are not supported; they were left out".into()
                 });
             }
         }
         Ok(())
     }
 
-    /// The vertices of `block` that a primitive lists, one after the other.
-    fn corners(
-        &self,
-        primitive: &json::mesh::Primitive,
-        site: Site,
-        block: Block,
-    ) -> Result<Vec<u32>, ReadError> {
-        let Some(index) = primitive.indices else {
-            self.asset.spend(block.count as usize, || site.part())?;
-            return Ok((0..block.count).collect());
+    /// The corners of a primitive, as indices of the vertices of `range`.
+    fn corners(&self, primitive: Primitive, range: VertexRange) -> Result<Vec<u32>, ReadError> {
+        let Some(index) = primitive.json.indices else {
+            self.asset.spend(range.count as usize, || primitive.part())?;
+            return Ok((0..range.count).collect());
         };
-        let part = || format!("{}.indices", site.part());
+        let part = || format!("{}.indices", primitive.part());
         let accessor = self.asset.accessor(index.value(), part)?;
         let corners = accessor.unsigned::<1>()?.into_flattened();
-        match corners.iter().position(|&corner| corner >= block.count) {
+        match corners.iter().position(|&corner| corner >= range.count) {
             None => Ok(corners),
             Some(at) => {
                 let what = format!(
-                    "index {at} of accessors[{index}] names vertex {} of {}, counted from 0",
-                    corners[at], block.count
+                    "index {at} of accessors[{index}] names vertex {} (counted from 0) of {}",
+                    corners[at], range.count
                 );
-                Err(self.asset.error(ReadErrorKind::Index, site.part(), what))
+                Err(primitive.error(ReadErrorKind::Index, what))
             }
         }
     }
 
-    fn add_triangles(
-        &mut self,
-        triangles: &[[u32; 3]],
-        primitive: &json::mesh::Primitive,
-        site: Site,
-        block: Block,
-    ) {
+    fn add_triangles(&mut self, triangles: &[[u32; 3]], primitive: Primitive, range: VertexRange) {
         for &[a, b, c] in triangles {
-            let corners = if block.is_mirrored { [a, c, b] } else { [a, b, c] };
-            self.model.push_polygon(&corners.map(|corner| block.corner(corner)), 0);
+            let corners = if range.is_mirrored { [a, c, b] } else { [a, b, c] };
+            self.model.push_polygon(&corners.map(|corner| range.corner(corner)), 0);
         }
-        let Some(extensions) = &primitive.extensions else { return };
-        let extensions = &extensions.others;
-        let edges = edges(self.asset, extensions, triangles, block.count, site, self.report);
-        self.add_segments(&edges.marked, block);
-        let hidden = edges.hidden.iter().map(|ends| ends.map(|end| block.base + end));
-        self.model.hidden_edges.extend(hidden);
+        let edges = edge_marks(primitive, triangles, range.count, self.report);
+        self.add_segments(&edges.marked, range);
+        let suppressed = edges.suppressed.iter().map(|ends| ends.map(|end| range.first + end));
+        self.model.hidden_edges.extend(suppressed);
     }
 
-    fn add_segments(&mut self, segments: &[[u32; 2]], block: Block) {
-        let segment = |ends: &[u32; 2]| Segment { ends: ends.map(|end| block.base + end), line: 0 };
+    fn add_segments(&mut self, segments: &[[u32; 2]], range: VertexRange) {
+        let segment =
+            |ends: &[u32; 2]| Segment { ends: ends.map(|end| range.first + end), line: 0 };
         self.model.segments.extend(segments.iter().map(segment));
     }
 
-    /// The model, in its rest pose.
+    /// The model in its rest pose.
     pub(super) fn finish(self) -> Model {
         let Self { mut rig, rest, mut model, .. } = self;
         model.positions = rig.posed_positions(&rest, |part| &rig.parts[part].weights);
@@ -303,7 +287,7 @@ impl<'a> ModelBuilder<'a> {
         if !model.colors.is_empty() {
             model.colors.resize(count, WHITE);
         }
-        keep_one_of_each(&mut model);
+        remove_repeated_edges(&mut model);
         if rig.bends() {
             if !rig.influence_ends.is_empty() {
                 rig.influence_ends.resize(count, to_u32(rig.influences.len()));
@@ -314,9 +298,9 @@ impl<'a> ModelBuilder<'a> {
     }
 }
 
-impl Block {
+impl VertexRange {
     const fn corner(self, vertex: u32) -> Corner {
-        let position = self.base + vertex;
+        let position = self.first + vertex;
         Corner {
             position,
             texcoord: if self.has_texcoords { position } else { NONE },
@@ -331,8 +315,8 @@ fn vertex_key(primitive: &json::mesh::Primitive) -> VertexKey {
     (primitive.attributes.clone(), targets.collect())
 }
 
-/// Puts `elements` behind the first `start` of `list`; where those have none,
-/// `filler` stands in.
+/// Resizes `list` to `start` elements with `filler`, then appends `elements`; does
+/// nothing if there are none.
 fn extend_from<T: Copy>(list: &mut Vec<T>, start: usize, elements: Vec<T>, filler: T) {
     if !elements.is_empty() {
         list.resize(start, filler);
@@ -340,9 +324,9 @@ fn extend_from<T: Copy>(list: &mut Vec<T>, start: usize, elements: Vec<T>, fille
     }
 }
 
-/// Drops segments and hidden edges that are there twice, as those of two
-/// triangles or primitives are, and hidden edges that are drawn after all.
-fn keep_one_of_each(model: &mut Model) {
+/// Removes repeated segments and suppressed edges, which come from edges that two
+/// triangles or primitives share, and suppressed edges that are also segments.
+fn remove_repeated_edges(model: &mut Model) {
     let mut drawn = HashSet::new();
     model.segments.retain(|segment| {
         let [a, b] = segment.ends;
@@ -353,26 +337,16 @@ fn keep_one_of_each(model: &mut Model) {
     model.hidden_edges.retain(|edge| !drawn.contains(edge));
 }
 
-/// Turns normals as the rest pose turns the surface they stand on.
+/// Transforms normals by the rest pose.
 fn pose_normals(normals: &mut [[f32; 3]], rig: &Rig, pose: &Pose) {
     for part in &rig.parts {
         for vertex in part.vertices.clone() {
             let Some(normal) = normals.get_mut(vertex as usize) else { return };
-            let across = normal_matrix(rig.vertex_transform(pose, part, vertex).matrix3);
-            let turned = across * DVec3::from(Vec3::from(*normal));
-            *normal = turned.normalize_or_zero().as_vec3().to_array();
+            let transform = normal_transform(rig.vertex_transform(pose, part, vertex).matrix3);
+            let posed = transform * DVec3::from(Vec3::from(*normal));
+            *normal = posed.normalize_or_zero().as_vec3().to_array();
         }
     }
-}
-
-/// What turns the normals of a surface that `linear` turns: its inverse
-/// transpose, but for a positive factor. By cofactors, as `linear` may have no
-/// inverse: of a flattened surface the one normal remains.
-fn normal_matrix(linear: DMat3) -> DMat3 {
-    let DMat3 { x_axis, y_axis, z_axis } = linear;
-    let cofactors =
-        DMat3::from_cols(y_axis.cross(z_axis), z_axis.cross(x_axis), x_axis.cross(y_axis));
-    cofactors * linear.determinant().signum()
 }
 
 #[cfg(test)]
@@ -398,7 +372,7 @@ mod tests {
     }
 
     #[test]
-    fn mirrored_nodes_turn_the_winding_around() {
+    fn mirrored_nodes_reverse_the_winding() {
         let model = square_on(&json!({"scale": [-1, 1, 1]}));
         assert_eq!(model.positions[1], [-1.0, 0.0, 0.0]);
         assert_eq!(model.corner_positions, [0, 2, 1, 0, 3, 2]);
@@ -436,7 +410,7 @@ mod tests {
             "materials": [{"name": "red"}, {"name": "green"}]
         });
         let (model, _) = sample.read(&rest).unwrap();
-        assert_eq!(model.positions.len(), 16, "twice two blocks of four");
+        assert_eq!(model.positions.len(), 16, "two nodes with two ranges of four vertices");
         assert_eq!(model.corner_positions[..9], [0, 1, 2, 0, 2, 3, 4, 5, 6]);
         assert_eq!(model.corner_positions[9..12], [8, 9, 10]);
         assert_eq!(model.groups, ["m", "b"]);
@@ -461,7 +435,7 @@ mod tests {
         let (model, report) = read(0);
         assert_eq!((model.polygon_count(), report.count(WarningCode::Unsupported)), (0, 1));
         let (_, report) = read(4);
-        assert_eq!(report.count(WarningCode::Syntax), 1, "one corner too many");
+        assert_eq!(report.count(WarningCode::Syntax), 1, "one surplus corner");
     }
 
     #[test]
@@ -489,11 +463,14 @@ mod tests {
         let error = sample.read_primitive(&primitive).unwrap_err();
         assert_eq!(error.kind, ReadErrorKind::Index);
         assert_eq!(error.place, Some(Place::Part("meshes[0].primitives[0]".into())));
-        assert!(error.what.starts_with("index 5 of accessors[1] names vertex 3 of 3"), "{error}");
+        assert!(
+            error.what.starts_with("index 5 of accessors[1] names vertex 3 (counted from 0) of 3"),
+            "{error}"
+        );
     }
 
     #[test]
-    fn what_cannot_be_drawn_is_told() {
+    fn unsupported_parts_give_warnings() {
         let mut sample = Sample::default();
         let positions = sample.floats("VEC3", &SQUARE[..3]);
         let triangle = json!({"attributes": {"POSITION": positions}});
@@ -509,11 +486,11 @@ mod tests {
         assert_eq!(error.kind, ReadErrorKind::Syntax);
         let mut rest = one_mesh(&triangle);
         rest["nodes"][0]["mesh"] = 3.into();
-        assert!(refusal(rest).what.contains("meshes[3], of which there are 1"));
+        assert!(refusal(rest).what.contains("meshes[3]; there are 1"));
     }
 
     #[test]
-    fn compressed_positions_are_refused_even_where_not_required() {
+    fn compressed_positions_are_errors_even_if_not_required() {
         let mut sample = Sample::default();
         let positions = sample.accessor(json!({"componentType": 5126, "count": 3, "type": "VEC3"}));
         let error = sample

@@ -1,4 +1,4 @@
-//! What bends a mesh: skins and morph targets, into a [`Rig`].
+//! Skins and morph targets, as a [`Rig`].
 //!
 //! Based on: glTF 2.0, sections 3.7.2.2 (morph targets) and 3.7.3 (skins).
 
@@ -9,19 +9,19 @@ use gltf_json as json;
 use json::mesh::Semantic;
 
 use super::super::error::{ReadError, ReadErrorKind};
-use super::Asset;
-use super::builder::ModelBuilder;
-use super::scene::{Graph, node_transform};
-use super::vertices::{Site, attribute};
+use super::asset::Asset;
+use super::primitive::Primitive;
+use super::scene::{NodeHierarchy, node_transform};
 use crate::index::to_u32;
 use crate::model::rig::{Displacement, Influence, Rig, RigNode, Skin};
-use crate::report::WarningCode;
+use crate::report::{Report, WarningCode};
 
-/// A rig of all nodes and of the skins that nodes have, without vertices yet.
+/// A rig with all nodes and the skins that nodes use, without vertices.
 ///
 /// # Errors
-/// `Syntax` where a skin is not sound, and those of its accessor.
-pub(super) fn new_rig(asset: &Asset, graph: &Graph) -> Result<Rig, ReadError> {
+/// `Syntax` if a skin is malformed, `Bounds` if it has too few matrices, and the
+/// errors of its accessor.
+pub(super) fn new_rig(asset: &Asset, hierarchy: &NodeHierarchy) -> Result<Rig, ReadError> {
     let nodes = asset.document.nodes.iter();
     let used: BTreeSet<usize> =
         nodes.clone().filter_map(|node| node.skin).map(|skin| skin.value()).collect();
@@ -31,8 +31,8 @@ pub(super) fn new_rig(asset: &Asset, graph: &Graph) -> Result<Rig, ReadError> {
     });
     let node = |(node, &parent)| RigNode { parent, transform: node_transform(node) };
     Ok(Rig {
-        nodes: nodes.zip(&graph.parents).map(node).collect(),
-        node_order: graph.order.iter().map(|&node| to_u32(node)).collect(),
+        nodes: nodes.zip(&hierarchy.parents).map(node).collect(),
+        node_order: hierarchy.order.iter().map(|&node| to_u32(node)).collect(),
         skins: skins.collect::<Result<_, _>>()?,
         ..Rig::default()
     })
@@ -64,111 +64,101 @@ fn read_skin(asset: &Asset, index: usize) -> Result<Skin, ReadError> {
     Ok(Skin { joints, inverse_binds })
 }
 
-impl ModelBuilder<'_> {
-    /// Hangs the next `count` vertices on the joints that a primitive names for
-    /// them; says whether it names any.
-    ///
-    /// # Errors
-    /// `Index` where a vertex hangs on a joint that the skin does not have,
-    /// `Syntax` where counts differ, and those of the accessors.
-    pub(super) fn add_influences(
-        &mut self,
-        primitive: &json::mesh::Primitive,
-        site: Site,
-        joint_count: usize,
-        count: usize,
-    ) -> Result<bool, ReadError> {
-        let sets = self.joint_sets(primitive, site, count)?;
-        if sets.is_empty() {
-            return Ok(false);
-        }
-        let Rig { influences, influence_ends, positions, .. } = &mut self.rig;
-        // Vertices without influences end where those before them do.
-        influence_ends.resize(positions.len(), to_u32(influences.len()));
-        for vertex in 0..count {
-            let of_vertex = sets.iter().filter_map(|set| set.get(vertex));
-            let of_vertex = of_vertex.flat_map(|(joints, weights)| joints.iter().zip(weights));
-            let start = influences.len();
-            influences.extend(of_vertex.clone().filter_map(influence));
-            if influences.len() == start {
-                let first = of_vertex.map(|(&joint, _)| joint).next().unwrap_or_default();
-                influences.push(Influence { joint: first, weight: 1.0 });
-                self.report.warn(WarningCode::Syntax, site.place(), || {
-                    format!("vertex {vertex} has no weights; it follows its first joint")
-                });
-            }
-            let sum: f32 = influences[start..].iter().map(|influence| influence.weight).sum();
-            for influence in &mut influences[start..] {
-                influence.weight /= sum;
-                if influence.joint as usize >= joint_count {
-                    let what = format!(
-                        "vertex {vertex} hangs on joint {} of {joint_count}",
-                        influence.joint
-                    );
-                    return Err(self.asset.error(ReadErrorKind::Index, site.part(), what));
-                }
-            }
-            influence_ends.push(to_u32(influences.len()));
-        }
-        Ok(true)
+/// Adds the influences of the next `count` vertices of `rig`, from the joints and
+/// weights of a primitive, whose skin has `joint_count` joints. Returns whether the
+/// primitive has any.
+///
+/// # Errors
+/// `Index` if the skin does not have a joint, `Syntax` if the counts differ, and the
+/// errors of the accessors.
+pub(super) fn add_influences(
+    rig: &mut Rig,
+    primitive: Primitive,
+    joint_count: usize,
+    count: usize,
+    report: &mut Report,
+) -> Result<bool, ReadError> {
+    let sets = joint_sets(primitive, count)?;
+    if sets.is_empty() {
+        return Ok(false);
     }
-
-    /// The one or two sets of four joints and weights of each vertex.
-    fn joint_sets(
-        &self,
-        primitive: &json::mesh::Primitive,
-        site: Site,
-        count: usize,
-    ) -> Result<Vec<JointSet>, ReadError> {
-        let mut sets = Vec::new();
-        for set in 0..2 {
-            let joints = attribute(self.asset, primitive, Semantic::Joints(set), site)?;
-            let weights = attribute(self.asset, primitive, Semantic::Weights(set), site)?;
-            let (Some(joints), Some(weights)) = (joints, weights) else { break };
-            if joints.count() != count || weights.count() != count {
-                let what = format!("has joints or weights for others than its {count} vertices");
-                return Err(self.asset.error(ReadErrorKind::Syntax, site.part(), what));
-            }
-            let weights = weights.normalized().numbers()?;
-            sets.push(joints.unsigned()?.into_iter().zip(weights).collect());
+    let Rig { influences, influence_ends, positions, .. } = rig;
+    // Vertices without influences have an empty range.
+    influence_ends.resize(positions.len(), to_u32(influences.len()));
+    for vertex in 0..count {
+        let of_vertex = sets.iter().filter_map(|set| set.get(vertex));
+        let of_vertex = of_vertex.flat_map(|(joints, weights)| joints.iter().zip(weights));
+        let start = influences.len();
+        influences.extend(of_vertex.clone().filter_map(influence));
+        if influences.len() == start {
+            let first = of_vertex.map(|(&joint, _)| joint).next().unwrap_or_default();
+            influences.push(Influence { joint: first, weight: 1.0 });
+            report.warn(WarningCode::Syntax, primitive.place(), || {
+                format!("vertex {vertex} has no weights; it follows its first joint")
+            });
         }
-        Ok(sets)
-    }
-
-    /// Where each morph target of a primitive moves its vertices, whose count is
-    /// `count`, the first one `base`.
-    ///
-    /// # Errors
-    /// `Syntax` where counts differ, and those of the accessors.
-    pub(super) fn targets(
-        &self,
-        primitive: &json::mesh::Primitive,
-        site: Site,
-        base: u32,
-        count: usize,
-    ) -> Result<Vec<Vec<Displacement>>, ReadError> {
-        let read = |(at, target): (usize, &json::mesh::MorphTarget)| {
-            let Some(index) = target.positions else { return Ok(Vec::new()) };
-            let part = || format!("{}.targets[{at}]", site.part());
-            let accessor = self.asset.accessor(index.value(), part)?;
-            if accessor.count() != count {
-                let what = format!("moves {} vertices of {count}", accessor.count());
-                return Err(self.asset.error(ReadErrorKind::Syntax, part(), what));
+        let sum: f32 = influences[start..].iter().map(|influence| influence.weight).sum();
+        for Influence { joint, weight } in &mut influences[start..] {
+            *weight /= sum;
+            if *joint as usize >= joint_count {
+                let what = format!("vertex {vertex} names joint {joint}; there are {joint_count}");
+                return Err(primitive.error(ReadErrorKind::Index, what));
             }
-            let offsets = (base..).zip(accessor.numbers()?);
-            let moved = offsets.filter(|(_, offset)| *offset != [0.0; 3]);
-            Ok(moved.map(|(vertex, offset)| Displacement { vertex, offset }).collect())
-        };
-        primitive.targets.iter().flatten().enumerate().map(read).collect()
+        }
+        influence_ends.push(to_u32(influences.len()));
     }
+    Ok(true)
 }
 
 /// Four joints and their weights for each vertex.
 type JointSet = Vec<([u32; 4], [f32; 4])>;
 
-/// Joints of no weight are padding.
+/// The joint sets of a primitive: none, one or two.
+fn joint_sets(primitive: Primitive, count: usize) -> Result<Vec<JointSet>, ReadError> {
+    let mut sets = Vec::new();
+    for set in 0..2 {
+        let joints = primitive.attribute(Semantic::Joints(set))?;
+        let weights = primitive.attribute(Semantic::Weights(set))?;
+        let (Some(joints), Some(weights)) = (joints, weights) else { break };
+        if joints.count() != count || weights.count() != count {
+            let (joints, weights) = (joints.count(), weights.count());
+            let what = format!("has {joints} joints and {weights} weights for {count} vertices");
+            return Err(primitive.error(ReadErrorKind::Syntax, what));
+        }
+        let weights = weights.normalized().numbers()?;
+        sets.push(joints.unsigned()?.into_iter().zip(weights).collect());
+    }
+    Ok(sets)
+}
+
+/// An influence; `None` for a weight of 0, which is padding.
 fn influence((&joint, &weight): (&u32, &f32)) -> Option<Influence> {
     (weight > 0.0 && weight.is_finite()).then_some(Influence { joint, weight })
+}
+
+/// The displacements of each morph target of a primitive with `count` vertices, of
+/// which the first has index `first_vertex`.
+///
+/// # Errors
+/// `Syntax` if the counts differ, and the errors of the accessors.
+pub(super) fn morph_targets(
+    primitive: Primitive,
+    first_vertex: u32,
+    count: usize,
+) -> Result<Vec<Vec<Displacement>>, ReadError> {
+    let read = |(at, target): (usize, &json::mesh::MorphTarget)| {
+        let Some(index) = target.positions else { return Ok(Vec::new()) };
+        let part = || format!("{}.targets[{at}]", primitive.part());
+        let accessor = primitive.asset.accessor(index.value(), part)?;
+        if accessor.count() != count {
+            let what = format!("moves {} vertices of {count}", accessor.count());
+            return Err(primitive.asset.error(ReadErrorKind::Syntax, part(), what));
+        }
+        let offsets = (first_vertex..).zip(accessor.numbers()?);
+        let moved = offsets.filter(|(_, offset)| *offset != [0.0; 3]);
+        Ok(moved.map(|(vertex, offset)| Displacement { vertex, offset }).collect())
+    };
+    primitive.json.targets.iter().flatten().enumerate().map(read).collect()
 }
 
 #[cfg(test)]
@@ -179,10 +169,8 @@ mod tests {
     use super::*;
     use crate::index::NONE;
     use crate::model::Model;
-    use crate::report::Report;
 
-    /// A triangle that hangs on two joints: node 1 at x = 10, and node 2 above
-    /// it at y = 1.
+    /// A triangle with two joints: node 1 at x = 10, and node 2 above it at y = 1.
     fn skinned(joints: &[[u8; 4]; 3], weights: &[[f32; 4]; 3]) -> (Sample, Value) {
         let mut sample = Sample::default();
         let attributes = json!({
@@ -225,18 +213,18 @@ mod tests {
     }
 
     #[test]
-    fn faults_of_skins() {
+    fn faults_in_skins_are_errors() {
         let sound = [[1.0, 0.0, 0.0, 0.0]; 3];
         let refusal = |(sample, rest): (Sample, Value)| sample.read(&rest).unwrap_err();
         let error = refusal(skinned(&[[0; 4], [0; 4], [2, 0, 0, 0]], &sound));
         assert_eq!(error.kind, ReadErrorKind::Index);
-        assert!(error.what.contains("vertex 2 hangs on joint 2 of 2"), "{error}");
+        assert!(error.what.contains("vertex 2 names joint 2; there are 2"), "{error}");
         let (sample, mut rest) = skinned(&[[0; 4]; 3], &sound);
         rest["skins"][0]["joints"] = json!([1, 2, 2]);
         assert_eq!(refusal((sample, rest)).kind, ReadErrorKind::Bounds, "a matrix too few");
         let (sample, mut rest) = skinned(&[[0; 4]; 3], &sound);
         rest["skins"] = json!([rest["skins"][0], {"joints": [77]}]);
-        assert!(sample.read(&rest).is_ok(), "a skin that no node has");
+        assert!(sample.read(&rest).is_ok(), "a skin that no node uses");
         rest["nodes"][0]["skin"] = 5.into();
         assert_eq!(refusal((sample, rest)).kind, ReadErrorKind::Syntax);
         let (sample, rest) = skinned(&[[1; 4]; 3], &[[0.0; 4]; 3]);
@@ -246,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn a_skin_without_joints_leaves_the_node() {
+    fn a_node_places_a_skinned_mesh_without_joints() {
         let (sample, mut rest) = skinned(&[[0; 4]; 3], &[[1.0, 0.0, 0.0, 0.0]; 3]);
         let attributes = rest["meshes"][0]["primitives"][0]["attributes"].as_object_mut().unwrap();
         attributes.retain(|name, _| name == "POSITION");
@@ -273,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn morph_targets_move_by_the_weights_at_rest() {
+    fn morph_targets_move_by_the_rest_weights() {
         let height = |mesh, node| morphed(mesh, node).unwrap().0.positions[1][2];
         assert_eq!(height(json!({}), json!({})), 0.0);
         assert_eq!(height(json!({"weights": [0.5, 1]}), json!({})), 2.0);
@@ -288,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn targets_are_for_all_vertices() {
+    fn morph_targets_need_all_vertices() {
         let error = morphed(json!({"short": true}), json!({})).unwrap_err();
         assert_eq!(error.kind, ReadErrorKind::Syntax);
         assert!(error.what.contains("1 vertices of 3"), "{error}");

@@ -1,26 +1,27 @@
-//! The JSON of a file, as far as geometry and its looks need it.
+//! The JSON of a file: the parts that geometry and materials need.
 //!
-//! Cameras and animations are not even looked at, textures and pictures only one
-//! by one where a material shows them, so that no fault of theirs stops a model;
-//! `lint` tells of them. The elements are
-//! those of `gltf-json`, except where it demands more than the specification
-//! does.
+//! Cameras and animations are not parsed. Textures and images are parsed one by one
+//! when a material uses them, so that a fault in them does not stop the model. The
+//! elements are those of `gltf-json`, except where it is stricter than the
+//! specification.
 
 use gltf_json as json;
 use serde::Deserialize;
+use serde_json::Value;
 use serde_json::error::Category;
 
 use super::super::error::{ReadError, ReadErrorKind};
 use super::super::source::Source;
 use super::glb::Container;
-use super::lint;
 use crate::report::{Place, Report};
 
-/// At most this many objects: a node takes two bytes of text and some 300 of
-/// memory, and so would an endless list of them.
+/// The most objects in the JSON: a node of two bytes takes about 300 bytes of memory.
 const MAX_OBJECTS: usize = 1 << 23;
 
-/// The parts of a file that geometry is made of.
+/// Checks the JSON against rules that do not stop the reader, and adds warnings.
+pub(in crate::format::read) type RuleCheck = fn(&Value, &mut Report);
+
+/// The parts of the JSON that are read.
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Document {
@@ -35,12 +36,12 @@ pub(super) struct Document {
     pub(super) accessors: Vec<json::Accessor>,
     #[serde(default)]
     pub(super) materials: Vec<json::Material>,
-    /// A list, if anybody looks into it.
+    /// A list, unless the file is broken.
     #[serde(default)]
-    pub(super) textures: serde_json::Value,
-    /// A list, if anybody looks into it.
+    pub(super) textures: Value,
+    /// A list, unless the file is broken.
     #[serde(default)]
-    pub(super) images: serde_json::Value,
+    pub(super) images: Value,
     #[serde(default)]
     pub(super) meshes: Vec<json::Mesh>,
     #[serde(default)]
@@ -55,31 +56,32 @@ pub(super) struct Document {
 /// Nodes that are drawn together.
 #[derive(Debug, Default, Deserialize)]
 pub(super) struct Scene {
-    /// Its roots; a scene may be empty, which `gltf-json` refuses.
+    /// Its roots; may be empty, which `gltf-json` refuses.
     #[serde(default)]
     pub(super) nodes: Vec<usize>,
 }
 
-/// Reads the JSON, after telling of what is odd in it.
+/// Parses the JSON, after `check_rules` has warned of the rules that it breaks.
 ///
 /// # Errors
-/// Where it is no JSON, no glTF, not of version 2, or too large.
+/// Fails if it is not JSON, not glTF 2.0, or too large.
 pub(super) fn parse(
     source: &Source,
     container: &Container,
+    check_rules: RuleCheck,
     report: &mut Report,
 ) -> Result<Document, ReadError> {
     let json = container.json;
     if json.trim_ascii().is_empty() {
-        return Err(source.error(ReadErrorKind::Empty, None, "no JSON: the file is empty"));
+        return Err(source.error(ReadErrorKind::Empty, None, "the JSON is empty"));
     }
     let objects = json.iter().filter(|&&byte| byte == b'{').count();
     if objects > MAX_OBJECTS {
-        let what = format!("too large: {objects} objects, at most {MAX_OBJECTS} are read");
+        let what = format!("too large: {objects} objects; the limit is {MAX_OBJECTS}");
         return Err(source.error(ReadErrorKind::Size, None, what));
     }
     let fail = |error| json_error(source, container, &error);
-    lint::check(&serde_json::from_slice(json).map_err(fail)?, report);
+    check_rules(&serde_json::from_slice(json).map_err(fail)?, report);
     let document = serde_json::from_slice(json).map_err(fail)?;
     check_version(source, &document)?;
     Ok(document)
@@ -97,10 +99,10 @@ fn json_error(source: &Source, container: &Container, error: &serde_json::Error)
             Place::Byte((offset + before) as u64)
         }
     };
-    source.error(kind, Some(place), format!("the JSON is no glTF: {error}"))
+    source.error(kind, Some(place), format!("the JSON is not glTF: {error}"))
 }
 
-/// Where a line and column, both counted from 1, are in a text.
+/// The offset of a line and column, both counted from 1.
 fn json_position(text: &[u8], line: usize, column: usize) -> usize {
     let lines_before = text.split_inclusive(|&byte| byte == b'\n').take(line.saturating_sub(1));
     let start: usize = lines_before.map(<[u8]>::len).sum();
@@ -113,19 +115,19 @@ fn check_version(source: &Source, document: &Document) -> Result<(), ReadError> 
         Err(source.error(ReadErrorKind::Format, Some(Place::Part(part.into())), what))
     };
     if version(&asset.version).is_none_or(|(major, _)| major != 2) {
-        let what = format!("glTF of version '{}'; convert it to 2.0", asset.version);
+        let what = format!("glTF version '{}' is not supported; convert it to 2.0", asset.version);
         return fail("asset.version", what);
     }
     match &asset.min_version {
         Some(least) if version(least).is_none_or(|least| least > (2, 0)) => fail(
             "asset.minVersion",
-            format!("needs a reader of glTF '{least}', this one reads 2.0"),
+            format!("requires a reader of glTF '{least}'; this one reads 2.0"),
         ),
         _ => Ok(()),
     }
 }
 
-/// The two numbers of a version such as 2.0.
+/// The major and minor number of a version such as `2.0`.
 fn version(text: &str) -> Option<(u32, u32)> {
     let (major, minor) = text.split_once('.')?;
     Some((major.parse().ok()?, minor.parse().ok()?))
@@ -138,11 +140,11 @@ mod tests {
     fn refusal(json: &str, json_offset: Option<usize>) -> ReadError {
         let source = Source { name: "test.gltf", folder: None, bytes: json.as_bytes() };
         let container = Container { json: json.as_bytes(), json_offset, binary: None };
-        parse(&source, &container, &mut Report::default()).unwrap_err()
+        parse(&source, &container, |_, _| (), &mut Report::default()).unwrap_err()
     }
 
     #[test]
-    fn faults_of_the_text_have_their_place() {
+    fn errors_in_the_text_have_their_place() {
         let error = refusal("{\n\"asset\": }", None);
         assert_eq!((error.kind, error.place), (ReadErrorKind::Syntax, Some(Place::Line(2))));
         let error = refusal("{\n\"asset\": }", Some(20));
@@ -166,18 +168,18 @@ mod tests {
     }
 
     #[test]
-    fn endless_lists_are_refused() {
+    fn too_many_objects_are_refused() {
         let error = refusal(&format!("[{}", "{},".repeat(MAX_OBJECTS + 1)), None);
         assert_eq!(error.kind, ReadErrorKind::Size);
     }
 
     #[test]
-    fn what_geometry_does_not_need_is_not_looked_at() {
+    fn faults_that_do_not_affect_geometry_are_ignored() {
         let json = br#"{"asset": {"version": "2.1", "minVersion": "2.0"}, "images": 7,
             "animations": [{"channels": [{"target": {"path": "pointer"}}]}], "scenes": [{}]}"#;
         let source = Source { name: "test.gltf", folder: None, bytes: json };
         let container = Container { json, json_offset: None, binary: None };
-        let document = parse(&source, &container, &mut Report::default()).unwrap();
+        let document = parse(&source, &container, |_, _| (), &mut Report::default()).unwrap();
         assert!(document.scenes[0].nodes.is_empty());
     }
 }

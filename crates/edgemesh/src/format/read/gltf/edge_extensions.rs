@@ -1,41 +1,41 @@
-//! Edges that the artist chose, from two extensions of primitives.
+//! Marked and suppressed edges, from two extensions of primitives.
 //!
 //! Based on: `EXT_mesh_primitive_edge_visibility` (vendor extension, merged
 //! 2026-05) and `CESIUM_primitive_outline`.
 //!
 //! ```text
-//! values of triangles (0 1 2) (0 2 3):  01 12 20  02 23 30, each in 2 bits,
-//!                                        2  0  1   0  2  0   the least first
+//! values of triangles (0 1 2) (0 2 3):  01 12 20  02 23 30, 2 bits each,
+//!                                        2  0  1   0  2  0   lowest bits first
 //!                            bytes       |--- 18 ----|  |- 2
-//!   0 hidden   1 may be a contour   2 drawn   3 drawn, the same edge once more
+//!   0 suppressed   1 may be a contour   2 marked   3 marked, an edge of a 2 before
 //! ```
 //!
-//! Drafts of the first one had more members; those are not looked at. The
-//! normals of its silhouettes are not needed, since they are the triangles' own.
+//! Members of earlier drafts are ignored. So are the normals of silhouettes, which
+//! the triangles have themselves.
 
 use serde::Deserialize;
 use serde_json::Value;
 
 use super::super::error::{ReadError, ReadErrorKind};
 use super::accessor::Accessor;
+use super::primitive::Primitive;
 use super::topology::polyline;
-use super::vertices::Site;
-use super::{Asset, or_left_out};
 use crate::report::{Report, WarningCode};
 
 const VISIBILITY: &str = "EXT_mesh_primitive_edge_visibility";
 const OUTLINE: &str = "CESIUM_primitive_outline";
 
-/// Edges by the indices of their ends in the primitive, the smaller one first;
-/// those of two triangles may be there twice.
+/// Edges by the indices of their ends in the primitive, the smaller index first; an
+/// edge of two triangles may occur twice.
 #[derive(Debug, Default, PartialEq, Eq)]
-pub(super) struct Edges {
-    /// Drawn in any view.
+pub(super) struct EdgeMarks {
+    /// Edges that are drawn in every view.
     pub(super) marked: Vec<[u32; 2]>,
-    /// Never drawn as creases.
-    pub(super) hidden: Vec<[u32; 2]>,
+    /// Edges that are never drawn as creases.
+    pub(super) suppressed: Vec<[u32; 2]>,
 }
 
+/// The members of `EXT_mesh_primitive_edge_visibility`.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 struct EdgeVisibility {
@@ -44,59 +44,60 @@ struct EdgeVisibility {
     line_strings: Vec<Indices>,
 }
 
-/// A list of vertices, as its accessor.
+/// The accessor of a list of vertices.
 #[derive(Deserialize)]
 struct Indices {
     indices: usize,
 }
 
-/// The edges that the extensions of the primitive at `site` mark and hide among
-/// those of its triangles; an extension that makes no sense is left out with a
-/// warning.
-pub(super) fn edges(
-    asset: &Asset,
-    extensions: &serde_json::Map<String, Value>,
+/// The edges that the extensions of a primitive mark and suppress; a malformed
+/// extension is left out with a warning.
+pub(super) fn edge_marks(
+    primitive: Primitive,
     triangles: &[[u32; 3]],
     vertex_count: u32,
-    site: Site,
     report: &mut Report,
-) -> Edges {
-    let reader = Reader { asset, triangles, site };
-    let mut edges = Edges::default();
-    if let Some(json) = extensions.get(VISIBILITY) {
-        edges = or_left_out(reader.visibility(json), report).unwrap_or_default();
+) -> EdgeMarks {
+    let reader = Reader { primitive, triangles };
+    let mut edges = EdgeMarks::default();
+    if let Some(json) = primitive.extension(VISIBILITY) {
+        match reader.visibility(json) {
+            Ok(visibility) => edges = visibility,
+            Err(error) => error.warn_left_out(report),
+        }
     }
-    if let Some(json) = extensions.get(OUTLINE) {
-        let outline = or_left_out(reader.outline(json), report);
-        edges.marked.extend(outline.into_iter().flatten());
+    if let Some(json) = primitive.extension(OUTLINE) {
+        match reader.outline(json) {
+            Ok(outline) => edges.marked.extend(outline),
+            Err(error) => error.warn_left_out(report),
+        }
     }
     let marked = edges.marked.len();
     edges.marked.retain(|ends| ends.iter().all(|&end| end < vertex_count));
-    report.warn_many(WarningCode::Index, marked - edges.marked.len(), site.place(), || {
-        format!("an edge names a vertex that is none of the {vertex_count}; it was left out")
+    report.warn_many(WarningCode::Index, marked - edges.marked.len(), primitive.place(), || {
+        format!("an edge names a vertex past the last of {vertex_count}; it was left out")
     });
-    for ends in edges.marked.iter_mut().chain(&mut edges.hidden) {
+    for ends in edges.marked.iter_mut().chain(&mut edges.suppressed) {
         ends.sort_unstable();
     }
     edges
 }
 
 struct Reader<'a> {
-    asset: &'a Asset<'a>,
+    primitive: Primitive<'a>,
     triangles: &'a [[u32; 3]],
-    site: Site,
 }
 
 impl Reader<'_> {
-    fn visibility(&self, json: &Value) -> Result<Edges, ReadError> {
+    fn visibility(&self, json: &Value) -> Result<EdgeMarks, ReadError> {
         let json: EdgeVisibility = self.parse(VISIBILITY, json)?;
-        let mut edges = Edges::default();
+        let mut edges = EdgeMarks::default();
         if let Some(accessor) = json.visibility {
             let values = self.values(accessor)?;
             let corners = self.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
             for (edge, value) in corners.zip(values) {
                 match value {
-                    0 => edges.hidden.push(edge),
+                    0 => edges.suppressed.push(edge),
                     2 | 3 => edges.marked.push(edge),
                     _ => {}
                 }
@@ -117,9 +118,11 @@ impl Reader<'_> {
         let needed = (6 * self.triangles.len()).div_ceil(8);
         if bytes.len() != needed {
             let count = self.triangles.len();
-            let what =
-                format!("{} bytes of visibility for {count} triangles, not {needed}", bytes.len());
-            return Err(self.wrong(VISIBILITY, what));
+            let what = format!(
+                "has {} bytes of visibility, and {count} triangles need {needed}",
+                bytes.len()
+            );
+            return Err(self.error(VISIBILITY, what));
         }
         Ok(bytes.into_iter().flat_map(|[byte]| [0, 2, 4, 6].map(|shift| (byte >> shift) & 3)))
     }
@@ -129,28 +132,30 @@ impl Reader<'_> {
         let indices = self.accessor(OUTLINE, json.indices)?.unsigned::<1>()?.into_flattened();
         match indices.as_chunks() {
             (pairs, []) => Ok(pairs.to_vec()),
-            _ => Err(self.wrong(OUTLINE, format!("{} indices are no pairs", indices.len()))),
+            _ => {
+                Err(self.error(OUTLINE, format!("has an odd number of indices, {}", indices.len())))
+            }
         }
     }
 
     fn parse<'j, T: Deserialize<'j>>(&self, name: &str, json: &'j Value) -> Result<T, ReadError> {
-        T::deserialize(json).map_err(|error| self.wrong(name, error.to_string()))
+        T::deserialize(json).map_err(|error| self.error(name, error.to_string()))
     }
 
     fn accessor(&self, name: &str, index: usize) -> Result<Accessor<'_>, ReadError> {
-        self.asset.accessor(index, || self.part(name))
+        self.primitive.asset.accessor(index, || self.part(name))
     }
 
     fn part(&self, name: &str) -> String {
-        format!("{}.extensions.{name}", self.site.part())
+        format!("{}.extensions.{name}", self.primitive.part())
     }
 
-    fn wrong(&self, name: &str, what: String) -> ReadError {
-        self.asset.error(ReadErrorKind::Syntax, self.part(name), what)
+    fn error(&self, name: &str, what: String) -> ReadError {
+        self.primitive.asset.error(ReadErrorKind::Syntax, self.part(name), what)
     }
 }
 
-/// The largest index that an accessor can name, which ends a line string.
+/// The largest index of an accessor, which ends a line string.
 fn largest(accessor: &Accessor) -> u32 {
     match accessor.component().size() {
         1 => u8::MAX.into(),
@@ -167,8 +172,8 @@ mod tests {
     use super::*;
     use crate::model::Model;
 
-    /// The segments and hidden edges of a square of two triangles with an
-    /// extension that `make` fills.
+    /// The segments and suppressed edges of a square of two triangles with the
+    /// extension that `make` returns.
     fn square(
         name: &str,
         make: impl FnOnce(&mut Sample) -> Value,
@@ -192,12 +197,12 @@ mod tests {
 
     #[test]
     fn values_of_edges_two_bits_each() {
-        // [2, 0, 1, 0, 2, 0]: the diagonal 2-0 may be a contour, so 0-2 is hidden.
+        // [2, 0, 1, 0, 2, 0]: the diagonal 2-0 may be a contour, so 0-2 is suppressed.
         let (marked, hidden, report) = visibility(&[[18], [2]]);
         assert_eq!(marked, [[0, 1], [2, 3]]);
         assert_eq!(hidden, [[0, 2], [0, 3], [1, 2]]);
         assert!(report.warnings().is_empty(), "{report:?}");
-        // [2, 0, 2, 3, 2, 0]: the diagonal is hard, and named twice.
+        // [2, 0, 2, 3, 2, 0]: the diagonal is marked twice.
         let (marked, hidden, _) = visibility(&[[226], [2]]);
         assert_eq!(marked, [[0, 1], [0, 2], [2, 3]]);
         assert_eq!(hidden, [[0, 3], [1, 2]]);
@@ -214,15 +219,15 @@ mod tests {
             })
         });
         assert_eq!(marked, [[0, 1], [1, 2], [2, 3]]);
-        assert_eq!(hidden, [[0, 2], [0, 3]], "what is drawn is not hidden");
+        assert_eq!(hidden, [[0, 2], [0, 3]], "marked edges are not suppressed");
         assert_eq!((report.count(WarningCode::Index), report.count(WarningCode::Syntax)), (1, 0));
     }
 
     #[test]
-    fn what_makes_no_sense_is_left_out() {
+    fn malformed_extensions_are_left_out() {
         let (marked, hidden, report) = visibility(&[[255]]);
         assert!(marked.is_empty() && hidden.is_empty());
-        assert!(report.warnings()[0].message.contains("1 bytes of visibility"), "{report:?}");
+        assert!(report.warnings()[0].message.contains("has 1 bytes of visibility"), "{report:?}");
         for json in [json!({"visibility": "all"}), json!([]), json!({"visibility": 99})] {
             let (marked, _, report) = square(VISIBILITY, |_| json);
             assert!(marked.is_empty());

@@ -1,23 +1,22 @@
-//! Extensions that a file cannot be read without.
+//! Required extensions, and those that replace geometry.
 
-use gltf_json::mesh::{Primitive, Semantic};
+use gltf_json::mesh::Semantic;
 use gltf_json::validation::Checked;
 
 use super::super::error::{ReadError, ReadErrorKind};
 use super::super::source::Source;
-use super::Asset;
 use super::document::Document;
-use super::vertices::Site;
+use super::primitive::Primitive;
 use crate::report::Place;
 
-/// Extensions that are read, or that leave geometry as it is; a name that ends
-/// in `_` stands for all that begin so.
-const READ_OR_HARMLESS: [&str; 17] = [
+/// Extensions that are supported, or do not affect geometry; a name that ends with
+/// `_` stands for all names with this prefix.
+const SUPPORTED_OR_HARMLESS: [&str; 17] = [
     "KHR_mesh_quantization",
     "KHR_node_visibility",
     "EXT_mesh_primitive_edge_visibility",
     "CESIUM_primitive_outline",
-    // Look, light, sound, movement and notes only.
+    // Only materials, lights, animation and metadata.
     "KHR_materials_",
     "EXT_materials_",
     "KHR_texture_",
@@ -33,58 +32,54 @@ const READ_OR_HARMLESS: [&str; 17] = [
     "EXT_structural_metadata",
 ];
 
-/// What to do about extensions that change geometry and are not read.
+/// What to do about unsupported extensions that affect geometry.
 const ADVICE: [(&str, &str); 4] = [
     ("KHR_draco_mesh_compression", "decompress it with `gltf-transform copy IN OUT`"),
     ("EXT_meshopt_compression", "decompress it with `gltf-transform copy IN OUT`"),
     ("KHR_meshopt_compression", "decompress it with `gltf-transform copy IN OUT`"),
-    ("EXT_mesh_gpu_instancing", "export the instances as nodes of their own"),
+    ("EXT_mesh_gpu_instancing", "export each instance as a node"),
 ];
 
-/// Checks that nothing is required that is not read.
+/// Checks that all required extensions are supported or harmless.
 ///
 /// # Errors
-/// Names the first such extension and says what to do.
+/// `Extension` for the first that is not, with what to do.
 pub(super) fn check_required(source: &Source, document: &Document) -> Result<(), ReadError> {
     let required = &document.extensions_required;
-    match required.iter().position(|name| !is_read_or_harmless(name)) {
+    match required.iter().position(|name| !is_supported_or_harmless(name)) {
         None => Ok(()),
         Some(at) => {
             let name = &required[at];
             let advice = ADVICE.iter().find(|(known, _)| known == name);
-            let advice = advice.map_or("export it without that", |(_, advice)| advice);
+            let advice = advice.map_or("export the model without it", |(_, advice)| advice);
             let what =
-                format!("the file requires the extension {name}, which is not read: {advice}");
+                format!("the file requires the extension {name}, which is not supported: {advice}");
             let place = Place::Part(format!("extensionsRequired[{at}]"));
             Err(source.error(ReadErrorKind::Extension, Some(place), what))
         }
     }
 }
 
-/// Checks that the positions of the primitive at `site` are there as they are,
-/// where they are compressed as well.
+/// Checks that a primitive with compressed positions has uncompressed ones too.
 ///
 /// # Errors
-/// `Extension` where they are not, although nothing is required.
-pub(super) fn check_uncompressed(
-    asset: &Asset,
-    primitive: &Primitive,
-    site: Site,
-) -> Result<(), ReadError> {
+/// `Extension` if it has not, even if the file does not require the extension.
+pub(super) fn check_uncompressed(primitive: Primitive) -> Result<(), ReadError> {
     let (name, advice) = ADVICE[0];
-    let extensions = primitive.extensions.as_ref();
-    let position = primitive.attributes.get(&Checked::Valid(Semantic::Positions));
-    let accessor = position.and_then(|index| asset.document.accessors.get(index.value()));
-    let is_elsewhere = accessor.is_some_and(|accessor| accessor.buffer_view.is_none());
-    if is_elsewhere && extensions.is_some_and(|all| all.others.contains_key(name)) {
-        let what = format!("the positions are compressed by {name}, which is not read: {advice}");
-        return Err(asset.error(ReadErrorKind::Extension, site.part(), what));
+    let index = primitive.json.attributes.get(&Checked::Valid(Semantic::Positions));
+    let accessors = &primitive.asset.document.accessors;
+    let accessor = index.and_then(|index| accessors.get(index.value()));
+    let has_no_data = accessor.is_some_and(|accessor| accessor.buffer_view.is_none());
+    if has_no_data && primitive.extension(name).is_some() {
+        let what =
+            format!("the positions are compressed by {name}, which is not supported: {advice}");
+        return Err(primitive.error(ReadErrorKind::Extension, what));
     }
     Ok(())
 }
 
-fn is_read_or_harmless(name: &str) -> bool {
-    READ_OR_HARMLESS
+fn is_supported_or_harmless(name: &str) -> bool {
+    SUPPORTED_OR_HARMLESS
         .iter()
         .any(|known| if known.ends_with('_') { name.starts_with(known) } else { name == *known })
 }
@@ -107,13 +102,13 @@ mod tests {
     }
 
     #[test]
-    fn others_are_named_with_advice() {
+    fn other_required_extensions_are_errors_with_advice() {
         let error = check(&["KHR_materials_unlit", "KHR_draco_mesh_compression"]).unwrap_err();
         assert_eq!(error.kind, ReadErrorKind::Extension);
         assert_eq!(error.place, Some(Place::Part("extensionsRequired[1]".into())));
         assert!(error.what.contains("KHR_draco_mesh_compression"), "{error}");
         assert!(error.what.contains("gltf-transform"), "{error}");
         assert!(check(&["ACME_gizmo"]).unwrap_err().what.contains("ACME_gizmo"));
-        assert!(check(&["KHR_mesh_quantization_2"]).is_err(), "no prefix");
+        assert!(check(&["KHR_mesh_quantization_2"]).is_err(), "not a prefix");
     }
 }

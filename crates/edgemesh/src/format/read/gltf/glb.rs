@@ -1,15 +1,17 @@
-//! The binary container, GLB.
+//! The binary container GLB.
 //!
 //! Based on: glTF 2.0, section 4.4 (binary glTF layout).
 //!
 //! ```text
 //! 0    4        8       12      16      20
 //! glTF version  length  length  "JSON"  text, blanks  length  "BIN\0"  bytes  ...
-//! |---- header -------| |------ chunk 0 ------------| |------ chunk 1 ------| any others
+//! |---- header -------| |------ chunk 0 ------------| |------ chunk 1 ------| others
 //! ```
 
+use super::super::byte_order_mark::without_mark;
 use super::super::error::{ReadError, ReadErrorKind};
 use super::super::source::Source;
+use crate::format::little_endian::u32_at;
 use crate::report::{Place, Report, WarningCode};
 
 const MAGIC: &[u8] = b"glTF";
@@ -18,22 +20,21 @@ const CHUNK_HEADER_BYTES: usize = 8;
 const JSON: u32 = u32::from_le_bytes(*b"JSON");
 const BINARY: u32 = u32::from_le_bytes(*b"BIN\0");
 
-/// The two things that a file holds, whichever its form.
+/// The JSON and the binary data of a file in either form.
 #[derive(Debug)]
 pub(super) struct Container<'a> {
     /// The JSON text.
     pub(super) json: &'a [u8],
-    /// Where it begins in a binary file; `None` where it is a text file, whose
-    /// places are lines.
+    /// Its offset in a binary file; `None` for a text file, whose places are lines.
     pub(super) json_offset: Option<usize>,
-    /// The binary chunk.
+    /// The binary chunk, if the file has one.
     pub(super) binary: Option<&'a [u8]>,
 }
 
-/// Takes a file apart.
+/// Finds the JSON and the binary chunk of a file.
 ///
 /// # Errors
-/// Each rule of the container that the file breaks, with its byte.
+/// Fails if the file breaks a rule of the container, with the offset in bytes.
 pub(super) fn open<'a>(
     source: &Source<'a>,
     report: &mut Report,
@@ -41,39 +42,40 @@ pub(super) fn open<'a>(
     if source.bytes.starts_with(MAGIC) {
         return open_chunks(source, check_header(source, report)?);
     }
-    let marked = source.bytes.strip_prefix(b"\xef\xbb\xbf");
-    if marked.is_some() {
+    let json = without_mark(source.bytes);
+    if json.len() < source.bytes.len() {
         report.warn(WarningCode::Syntax, Some(Place::Byte(0)), || {
-            "a byte order mark, which glTF forbids; it was skipped".into()
+            "a byte order mark, which glTF forbids, was skipped".into()
         });
     }
-    Ok(Container { json: marked.unwrap_or(source.bytes), json_offset: None, binary: None })
+    Ok(Container { json, json_offset: None, binary: None })
 }
 
-/// The bytes that the header says the file has.
+/// The bytes of the file up to the length that the header states.
 fn check_header<'a>(source: &Source<'a>, report: &mut Report) -> Result<&'a [u8], ReadError> {
     let bytes = source.bytes;
     let fail =
         |kind, offset, what: String| Err(source.error(kind, Some(Place::Byte(offset)), what));
-    let (Some(version), Some(length)) = (word_at(bytes, 4), word_at(bytes, 8)) else {
-        let what = format!("the file ends in its header, after {} of 12 bytes", bytes.len());
+    let (Some(version), Some(length)) = (u32_at(bytes, 4), u32_at(bytes, 8)) else {
+        let what = format!("the file ends within its header, after {} of 12 bytes", bytes.len());
         return fail(ReadErrorKind::Truncated, bytes.len() as u64, what);
     };
     if version != 2 {
-        let what = format!("binary glTF of version {version}; convert it to version 2");
+        let what =
+            format!("binary glTF version {version} is not supported; convert it to version 2");
         return fail(ReadErrorKind::Format, 4, what);
     }
     let Some(whole) = bytes.get(..length as usize) else {
-        let what = format!("the header states {length} bytes, the file has {}", bytes.len());
+        let what = format!("the header states {length} bytes, and the file has {}", bytes.len());
         return fail(ReadErrorKind::Truncated, bytes.len() as u64, what);
     };
     if whole.len() < HEADER_BYTES + CHUNK_HEADER_BYTES {
-        let what = format!("the header states {length} bytes, too few for any chunk");
+        let what = format!("the header states {length} bytes, too few for a chunk");
         return fail(ReadErrorKind::Format, 8, what);
     }
     if whole.len() < bytes.len() {
         report.warn(WarningCode::Truncated, Some(Place::Byte(whole.len() as u64)), || {
-            format!("{} bytes behind the stated end were skipped", bytes.len() - whole.len())
+            format!("{} bytes after the stated end were skipped", bytes.len() - whole.len())
         });
     }
     Ok(whole)
@@ -83,7 +85,7 @@ fn open_chunks<'a>(source: &Source<'a>, bytes: &'a [u8]) -> Result<Container<'a>
     let first = chunk_at(source, bytes, HEADER_BYTES)?;
     let at = |offset: usize| Some(Place::Byte(offset as u64));
     if first.kind != JSON {
-        let what = format!("the first chunk is of kind {:#010x}, not the JSON", first.kind);
+        let what = format!("the first chunk has type {:#010x} instead of JSON", first.kind);
         return Err(source.error(ReadErrorKind::Syntax, at(HEADER_BYTES), what));
     }
     let mut binary = None;
@@ -94,11 +96,10 @@ fn open_chunks<'a>(source: &Source<'a>, bytes: &'a [u8]) -> Result<Container<'a>
         match chunk.kind {
             BINARY if offset == second => binary = Some(chunk.bytes),
             BINARY | JSON => {
-                let what = "a JSON chunk that is not the first, or a BIN chunk that is not the \
-                            second one";
+                let what = "a JSON chunk must be the first, and a BIN chunk the second";
                 return Err(source.error(ReadErrorKind::Syntax, at(offset), what));
             }
-            // Chunks of other kinds belong to extensions.
+            // Chunks of other types belong to extensions.
             _ => {}
         }
         offset += CHUNK_HEADER_BYTES + chunk.bytes.len();
@@ -114,26 +115,21 @@ struct Chunk<'a> {
 
 fn chunk_at<'a>(source: &Source, bytes: &'a [u8], offset: usize) -> Result<Chunk<'a>, ReadError> {
     let fail = |kind, what: String| Err(source.error(kind, Some(Place::Byte(offset as u64)), what));
-    let (Some(length), Some(kind)) = (word_at(bytes, offset), word_at(bytes, offset + 4)) else {
-        let what = "the file ends in the header of a chunk".into();
+    let (Some(length), Some(kind)) = (u32_at(bytes, offset), u32_at(bytes, offset + 4)) else {
+        let what = "the file ends within the header of a chunk".into();
         return fail(ReadErrorKind::Truncated, what);
     };
     let start = offset + CHUNK_HEADER_BYTES;
     let rest = bytes.get(start..).unwrap_or_default();
     let Some(inside) = rest.get(..length as usize) else {
-        let what = format!("a chunk states {length} bytes, the file has {} more", rest.len());
+        let what = format!("a chunk states {length} bytes, and the file has {} more", rest.len());
         return fail(ReadErrorKind::Truncated, what);
     };
     if !length.is_multiple_of(4) {
-        let what = format!("a chunk of {length} bytes, which is no multiple of 4");
+        let what = format!("a chunk has {length} bytes, which is not a multiple of 4");
         return fail(ReadErrorKind::Syntax, what);
     }
     Ok(Chunk { kind, bytes: inside })
-}
-
-/// Four bytes as a number, the least significant first.
-fn word_at(bytes: &[u8], offset: usize) -> Option<u32> {
-    bytes.get(offset..)?.first_chunk().copied().map(u32::from_le_bytes)
 }
 
 #[cfg(test)]
@@ -203,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn what_follows_the_end_is_skipped_with_a_warning() {
+    fn bytes_after_the_stated_end_are_skipped_with_a_warning() {
         let mut report = Report::default();
         let bytes = [file(&[chunk(JSON, b"{}  ")]), b"more".to_vec()].concat();
         assert!(opened(&bytes, &mut report).is_ok());
@@ -211,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn text_is_taken_as_it_is() {
+    fn text_files_are_json() {
         let mut report = Report::default();
         assert_eq!(opened(b"{}", &mut report).unwrap(), (b"{}".to_vec(), None));
         assert!(report.warnings().is_empty());

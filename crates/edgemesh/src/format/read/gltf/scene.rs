@@ -1,31 +1,33 @@
-//! Nodes: which hang on which, where they stand, which are drawn.
+//! Nodes: their hierarchy, their transforms, and which are drawn.
 //!
 //! Based on: glTF 2.0, section 3.5 (scenes and nodes).
 //!
-//! A file may hang 20,000 nodes on each other, or a node on itself, so nothing
-//! here calls itself: parents are noted first, and whoever cannot be reached
-//! from a node without a parent is part of a loop.
+//! A chain of nodes can be 20,000 deep, and a broken file can have a cycle. So the
+//! functions here do not recurse: they find the parents first, and a node that is
+//! not reached from a root is part of a cycle.
 
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 use gltf_json as json;
 
 use super::super::error::{ReadError, ReadErrorKind};
-use super::Asset;
+use super::asset::Asset;
 use crate::index::{NONE, to_u32};
 use crate::model::rig::NodeTransform;
 
-/// How the nodes of a file hang on each other: as trees.
+/// The nodes of a file as trees.
 #[derive(Debug)]
-pub(super) struct Graph {
+pub(super) struct NodeHierarchy {
     /// The parent of each node, or [`NONE`].
     pub(super) parents: Vec<u32>,
-    /// All nodes, each behind its parent.
+    /// All nodes, each after its parent.
     pub(super) order: Vec<usize>,
 }
 
-impl Graph {
+impl NodeHierarchy {
+    /// The hierarchy of all nodes.
+    ///
     /// # Errors
-    /// `Cycle` where nodes are no trees, `Syntax` where a child is no node.
+    /// `Cycle` if the nodes are not trees, `Syntax` if a child does not exist.
     pub(super) fn new(asset: &Asset) -> Result<Self, ReadError> {
         let nodes = &asset.document.nodes;
         let parents = find_parents(asset)?;
@@ -40,11 +42,11 @@ impl Graph {
         }
     }
 
-    /// The nodes that are drawn, each behind its parent: those of the default
-    /// scene, else of the first, else all.
+    /// The nodes that are drawn, each after its parent: those of the default scene,
+    /// else of the first scene, else all.
     ///
     /// # Errors
-    /// `Syntax` where the scene names what is no node.
+    /// `Syntax` if the scene names a node that does not exist.
     pub(super) fn drawn_nodes(&self, asset: &Asset) -> Result<Vec<usize>, ReadError> {
         let document = asset.document;
         let default = document.scene.and_then(|scene| document.scenes.get(scene));
@@ -68,7 +70,8 @@ fn find_parents(asset: &Asset) -> Result<Vec<u32>, ReadError> {
             let part = || format!("nodes[{at}].children");
             asset.get(nodes, child, "nodes", part)?;
             if parents[child] != NONE {
-                let what = format!("nodes[{child}] hangs on nodes[{}] already", parents[child]);
+                let what =
+                    format!("nodes[{child}] is already a child of nodes[{}]", parents[child]);
                 return Err(asset.error(ReadErrorKind::Cycle, part(), what));
             }
             parents[child] = to_u32(at);
@@ -77,8 +80,8 @@ fn find_parents(asset: &Asset) -> Result<Vec<u32>, ReadError> {
     Ok(parents)
 }
 
-/// The nodes below `roots`, depth first, and whether each was reached; a node
-/// that `enters` refuses, and all below it, is left out.
+/// The nodes below `roots`, depth first, and whether each node was reached. Nodes for
+/// which `enters` is false are left out, with all below them.
 fn walk(
     nodes: &[json::Node],
     roots: impl DoubleEndedIterator<Item = usize>,
@@ -103,8 +106,8 @@ fn children(node: &json::Node) -> impl DoubleEndedIterator<Item = usize> {
     node.children.iter().flatten().map(json::Index::value)
 }
 
-/// Whether a node can be seen: `KHR_node_visibility` hides it, and so does a
-/// scale of zero along all axes (specification, 3.5.3).
+/// Whether a node is visible: `KHR_node_visibility` can hide it, and so does a scale of
+/// zero along all axes (specification, section 3.5.3).
 pub(super) fn is_visible(node: &json::Node) -> bool {
     if node.scale.is_some_and(|scale| scale.iter().all(|&axis| axis == 0.0)) {
         return false;
@@ -113,7 +116,7 @@ pub(super) fn is_visible(node: &json::Node) -> bool {
     extension.and_then(|visibility| visibility.get("visible")) != Some(&false.into())
 }
 
-/// Where a node stands in its parent.
+/// The transform from a node to its parent.
 pub(super) fn node_transform(node: &json::Node) -> NodeTransform {
     if let Some(matrix) = node.matrix {
         let matrix = DMat4::from_cols_array(&matrix.map(f64::from));
@@ -135,13 +138,13 @@ mod tests {
     use super::super::document::Document;
     use super::*;
 
-    /// The parents and the drawn nodes of a file with this JSON beside its asset.
+    /// The parents and the drawn nodes of a file with this JSON.
     fn graph(json: &str) -> Result<(Vec<u32>, Vec<usize>), ReadError> {
         let json = format!(r#"{{"asset": {{"version": "2.0"}}, {json}}}"#);
         let document: Document = serde_json::from_str(&json).unwrap();
         let source = Source { name: "test.gltf", folder: None, bytes: b"" };
         let asset = Asset::new(&source, &document, None);
-        let graph = Graph::new(&asset)?;
+        let graph = NodeHierarchy::new(&asset)?;
         let drawn = graph.drawn_nodes(&asset)?;
         Ok((graph.parents, drawn))
     }
@@ -156,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn the_default_scene_goes_before_the_first() {
+    fn the_default_scene_comes_before_the_first() {
         let scenes = r#""scenes": [{"nodes": [4]}, {"nodes": [2, 2]}, {}]"#;
         let drawn = |scene: &str| graph(&format!("{TREES}, {scenes}{scene}")).unwrap().1;
         assert_eq!(drawn(r#", "scene": 1"#), [2, 3], "twice in the list, drawn once");
@@ -165,16 +168,16 @@ mod tests {
     }
 
     #[test]
-    fn invisible_nodes_take_their_children_with_them() {
+    fn the_children_of_invisible_nodes_are_not_drawn() {
         let hidden = r#"{"children": [1], "extensions": {"KHR_node_visibility":
             {"visible": false}}}"#;
         assert_eq!(graph(&format!(r#""nodes": [{hidden}, {{}}, {{}}]"#)).unwrap().1, [2]);
         let flat = r#""nodes": [{"scale": [0, 0, 0], "children": [1]}, {}, {"scale": [1, 0, 1]}]"#;
-        assert_eq!(graph(flat).unwrap().1, [2], "flat is not gone");
+        assert_eq!(graph(flat).unwrap().1, [2], "a flat node is drawn");
     }
 
     #[test]
-    fn loops_and_two_parents_are_refused() {
+    fn cycles_and_second_parents_are_errors() {
         let refusal = |json| graph(json).unwrap_err();
         let error = refusal(r#""nodes": [{}, {"children": [2]}, {"children": [1]}]"#);
         assert_eq!(error.kind, ReadErrorKind::Cycle);
@@ -201,7 +204,7 @@ mod tests {
         assert_eq!(point("{}"), DVec3::ONE);
         assert_eq!(point(r#"{"matrix": [2,0,0,0, 0,1,0,0, 0,0,1,0, 5,6,7,1]}"#).x, 7.0);
         let turned = r#"{"rotation": [0, 0, 2, 0], "scale": [2, 1, 1]}"#;
-        assert_eq!(point(turned), DVec3::new(-2.0, -1.0, 1.0), "the quaternion is made a unit");
+        assert_eq!(point(turned), DVec3::new(-2.0, -1.0, 1.0), "the quaternion is normalized");
         assert_eq!(point(r#"{"rotation": [0, 0, 0, 0]}"#), DVec3::ONE);
     }
 }

@@ -1,11 +1,11 @@
-//! The picture of a base colour: in a view of a buffer, in the JSON itself, or
-//! in a file beside it.
+//! The textures of base colors: pictures in buffer views, in data URIs, or in files
+//! beside the model.
 //!
 //! Based on: glTF 2.0, section 3.8 (textures and images).
 //!
-//! A fault of a texture or of its picture costs the texture, with a warning.
-//! Each picture is looked at once, however many materials show it. Views may
-//! overlap, so what is taken out of them is no more than was read all in all.
+//! A fault in a texture or its picture costs the texture, with a warning. Each picture
+//! is read once, even if several materials use it. Views may overlap, so the bytes
+//! copied from them are limited to the bytes of the files.
 
 use std::collections::HashMap;
 
@@ -13,41 +13,42 @@ use gltf_json as json;
 use serde::Deserialize;
 
 use super::super::picture::{picture_beside, picture_of_bytes};
-use super::Asset;
-use super::buffer::{Target, target};
+use super::asset::Asset;
+use super::uri::{UriTarget, resolve};
 use crate::model::Texture;
 use crate::report::{Place, Report, WarningCode};
 
 /// An extension that moves texture coordinates.
 const TRANSFORM: &str = "KHR_texture_transform";
 
-/// A texture of the file: its picture, which extensions may give instead.
+/// An element of `textures`.
 #[derive(Deserialize)]
-struct StatedTexture {
+struct JsonTexture {
+    /// The index of its image; extensions may state one instead.
     source: Option<usize>,
 }
 
-/// A picture of the file.
+/// An element of `images`.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct StatedImage<'a> {
+struct JsonImage<'a> {
     name: Option<&'a str>,
     uri: Option<&'a str>,
     buffer_view: Option<usize>,
 }
 
-/// The pictures that were looked at.
+/// The pictures that were read so far.
 #[derive(Debug, Default)]
-pub(super) struct Textures {
-    /// By the index of the picture; `None` where there is none to show.
-    known: HashMap<usize, Option<Texture>>,
-    /// How many bytes were taken out of views.
-    copied: usize,
+pub(super) struct PictureCache {
+    /// By the index of the image; `None` for one with a fault.
+    pictures: HashMap<usize, Option<Texture>>,
+    /// The bytes that were copied from views.
+    copied_bytes: usize,
 }
 
-impl Textures {
-    /// The texture of the base colour of a material.
-    pub(super) fn of_base_color(
+impl PictureCache {
+    /// The texture of the base color of a material.
+    pub(super) fn base_color_texture(
         &mut self,
         asset: &Asset,
         material: usize,
@@ -61,70 +62,75 @@ impl Textures {
         let set = moved_set.unwrap_or(info.tex_coord.into());
         if set != 0 {
             report.warn(WarningCode::Unsupported, Some(Place::Part(part())), || {
-                format!("lies by texture coordinates of set {set}, not 0; it was left out")
+                format!(
+                    "uses texture coordinate set {set}; only set 0 is supported, so it was left out"
+                )
             });
             return None;
         }
         if transform.is_some() {
             report.warn(WarningCode::Unsupported, Some(Place::Part(part())), || {
-                format!("{TRANSFORM} is not read: the texture lies as if it were not there")
+                format!("{TRANSFORM} is not supported; the texture was not transformed")
             });
         }
         let texture = info.index.value();
-        let image = asset.image_of(texture).map_err(|(place, what)| left_out(report, place, &what));
+        let image =
+            asset.image_of(texture).map_err(|(place, what)| warn_left_out(report, place, &what));
         let image = image.ok()?;
-        if !self.known.contains_key(&image) {
-            let found = self.picture(asset, image);
-            let found = found.map_err(|what| left_out(report, format!("images[{image}]"), &what));
-            self.known.insert(image, found.ok());
+        if let Some(picture) = self.pictures.get(&image) {
+            return picture.clone();
         }
-        self.known.get(&image).cloned().flatten()
+        let picture = self.read_picture(asset, image);
+        let picture =
+            picture.map_err(|what| warn_left_out(report, format!("images[{image}]"), &what)).ok();
+        self.pictures.insert(image, picture.clone());
+        picture
     }
 
-    /// The picture of an image; the error goes behind its place.
-    fn picture(&mut self, asset: &Asset, image: usize) -> Result<Texture, String> {
-        let StatedImage { name, uri, buffer_view } = stated(&asset.document.images, image)?;
-        let own_name = || match name {
+    /// The picture of an image; the error follows its place in a sentence.
+    fn read_picture(&mut self, asset: &Asset, image: usize) -> Result<Texture, String> {
+        let JsonImage { name, uri, buffer_view } = element(&asset.document.images, image)?;
+        let picture_name = || match name {
             Some(name) if !name.is_empty() => name.to_owned(),
             _ => format!("images[{image}]"),
         };
         match (uri, buffer_view) {
-            (Some(uri), _) => match target(uri)? {
-                Target::Bytes(bytes) => picture_of_bytes(&own_name(), bytes),
-                Target::Path(path) => picture_beside(asset.source, &path)
+            (Some(uri), _) => match resolve(uri)? {
+                UriTarget::Bytes(bytes) => picture_of_bytes(&picture_name(), bytes),
+                UriTarget::Path(path) => picture_beside(asset.source, &path)
                     .map_err(|why| format!("names '{path}', which {why}")),
             },
             (None, Some(view)) => {
                 let part = || format!("images[{image}].bufferView");
                 let bytes = asset.view(view, &part).map_err(|error| error.what)?;
-                self.copied = self.copied.saturating_add(bytes.len());
-                if self.copied > asset.budget.bytes() {
-                    return Err("shares its bytes with too many others".into());
+                self.copied_bytes = self.copied_bytes.saturating_add(bytes.len());
+                if self.copied_bytes > asset.budget.bytes() {
+                    return Err("shares its bytes with too many other images".into());
                 }
-                picture_of_bytes(&own_name(), bytes)
+                picture_of_bytes(&picture_name(), bytes)
             }
-            (None, None) => Err("has neither a URI nor a view of a buffer".into()),
+            (None, None) => Err("has neither a URI nor a buffer view".into()),
         }
     }
 }
 
 impl Asset<'_> {
-    /// The image of a texture; the error has the place, and what goes behind it.
+    /// The image of a texture; the error is a place and the sentence that follows it.
     fn image_of(&self, texture: usize) -> Result<usize, (String, String)> {
         let place = || format!("textures[{texture}]");
-        let found: StatedTexture =
-            stated(&self.document.textures, texture).map_err(|what| (place(), what))?;
+        let found: JsonTexture =
+            element(&self.document.textures, texture).map_err(|what| (place(), what))?;
         found.source.ok_or_else(|| (place(), "has no PNG or JPEG picture".into()))
     }
 }
 
-/// An element of a list that the file may well not have.
-fn stated<'a, T: Deserialize<'a>>(list: &'a serde_json::Value, index: usize) -> Result<T, String> {
-    let element = list.get(index).ok_or("is not there")?;
-    T::deserialize(element).map_err(|error| format!("is not understood: {error}"))
+/// An element of a list of the JSON; the error follows its place in a sentence.
+fn element<'a, T: Deserialize<'a>>(list: &'a serde_json::Value, index: usize) -> Result<T, String> {
+    let element = list.get(index).ok_or("does not exist")?;
+    T::deserialize(element).map_err(|error| format!("is malformed: {error}"))
 }
 
-fn left_out(report: &mut Report, place: String, what: &str) {
+fn warn_left_out(report: &mut Report, place: String, what: &str) {
     report.warn(WarningCode::Material, Some(Place::Part(place)), || {
         format!("{what}; the texture was left out")
     });
@@ -140,12 +146,11 @@ mod tests {
 
     use super::super::super::picture::SAMPLES;
     use super::super::super::source::Source;
-    use super::super::read_gltf;
-    use super::super::sample::{SQUARE, Sample, joined};
+    use super::super::sample::{SQUARE, Sample, joined, read_source};
     use super::*;
     use crate::model::{Model, TextureSource};
 
-    /// The members of a file with a triangle for each of these materials.
+    /// The JSON of a file with a triangle for each of these materials.
     fn triangles(sample: &mut Sample, materials: &[Value]) -> Value {
         let positions = sample.floats("VEC3", &SQUARE[..3]);
         let texcoords = sample.floats("VEC2", &[[0.0, 0.0]; 3]);
@@ -162,8 +167,8 @@ mod tests {
         json!({"pbrMetallicRoughness": {"baseColorTexture": texture}})
     }
 
-    /// What the reader makes of a file of one triangle with this texture, in a
-    /// folder with the file `beside.png`.
+    /// The texture of a file with one triangle and this texture, in a folder with the
+    /// file `a beside.png`, and the warnings.
     fn read(texture: &Value, textures: &Value, images: &Value) -> (Option<Texture>, Report) {
         let mut sample = Sample::default();
         // The view and the accessor before those of the triangle.
@@ -183,9 +188,7 @@ mod tests {
         let text = json.to_string();
         let source =
             Source { name: "test.gltf", folder: Some(folder.path()), bytes: text.as_bytes() };
-        let mut report = Report::default();
-        let model = read_gltf(&source, &mut report).unwrap();
-        (model, report)
+        read_source(&source).unwrap()
     }
 
     #[test]
@@ -211,35 +214,36 @@ mod tests {
     }
 
     #[test]
-    fn a_fault_costs_the_texture_and_a_warning() {
+    fn a_texture_with_a_fault_is_left_out_with_a_warning() {
         let [one, first] = [json!({"index": 0}), json!([{"source": 0}])];
         for (textures, images, place, what) in [
-            (json!([]), json!([]), "textures[0]", "is not there"),
-            (json!(7), json!([]), "textures[0]", "is not there"),
-            (json!([{"source": "x"}]), json!([]), "textures[0]", "is not understood"),
+            (json!([]), json!([]), "textures[0]", "does not exist"),
+            (json!(7), json!([]), "textures[0]", "does not exist"),
+            (json!([{"source": "x"}]), json!([]), "textures[0]", "is malformed"),
             (json!([{"extensions": {}}]), json!([]), "textures[0]", "no PNG or JPEG picture"),
-            (first.clone(), json!([]), "images[0]", "is not there"),
-            (first.clone(), json!([{}]), "images[0]", "neither a URI nor a view"),
-            (first.clone(), json!([{"uri": 1}]), "images[0]", "is not understood"),
+            (first.clone(), json!([]), "images[0]", "does not exist"),
+            (first.clone(), json!([{}]), "images[0]", "neither a URI nor a buffer view"),
+            (first.clone(), json!([{"uri": 1}]), "images[0]", "is malformed"),
             (first.clone(), json!([{"uri": "none.png"}]), "images[0]", "was not found"),
             (first.clone(), json!([{"uri": "../a.png"}]), "images[0]", "lies outside"),
-            (first.clone(), json!([{"uri": "c.ktx2"}]), "images[0]", "is no PNG or JPEG"),
+            (first.clone(), json!([{"uri": "c.ktx2"}]), "images[0]", "is not a PNG or JPEG"),
             (first.clone(), json!([{"uri": "http://a/b.png"}]), "images[0]", "not opened"),
-            (first.clone(), json!([{"uri": "data:;base64,AAAA"}]), "images[0]", "is no PNG"),
-            (first.clone(), json!([{"bufferView": 9}]), "images[0]", "of which there are 3"),
-            (first.clone(), json!([{"bufferView": 1}]), "images[0]", "is no PNG or JPEG"),
+            (first.clone(), json!([{"uri": "data:;base64,AAAA"}]), "images[0]", "is not a PNG"),
+            (first.clone(), json!([{"bufferView": 9}]), "images[0]", "there are 3"),
+            (first.clone(), json!([{"bufferView": 1}]), "images[0]", "is not a PNG or JPEG"),
         ] {
             let (texture, report) = read(&one, &textures, &images);
             assert_eq!(texture, None, "{textures} {images}");
-            let told = report.warnings().iter().find(|told| told.code == WarningCode::Material);
-            let told = told.unwrap_or_else(|| panic!("{textures} {images}: {report:?}"));
-            assert_eq!((told.count, &told.place), (1, &Some(Place::Part(place.into()))));
-            assert!(told.message.contains(what), "{textures} {images}: {}", told.message);
+            let warning =
+                report.warnings().iter().find(|warning| warning.code == WarningCode::Material);
+            let warning = warning.unwrap_or_else(|| panic!("{textures} {images}: {report:?}"));
+            assert_eq!((warning.count, &warning.place), (1, &Some(Place::Part(place.into()))));
+            assert!(warning.message.contains(what), "{textures} {images}: {}", warning.message);
         }
     }
 
     #[test]
-    fn other_texture_coordinates_are_told() {
+    fn other_texture_coordinates_give_a_warning() {
         let of = |texture: Value| {
             let images = json!([{"bufferView": 0}]);
             let (texture, report) = read(&texture, &json!([{"source": 0}]), &images);
@@ -252,22 +256,22 @@ mod tests {
             texture["extensions"][TRANSFORM] = moved;
             of(texture)
         };
-        assert_eq!(moved(json!(0), json!({"scale": [2, 2]})), (true, 1), "as if not there");
+        assert_eq!(moved(json!(0), json!({"scale": [2, 2]})), (true, 1), "without the transform");
         assert_eq!(moved(json!(1), json!({"texCoord": 0})), (true, 1), "the extension wins");
         assert_eq!(moved(json!(0), json!({"texCoord": 1})), (false, 1));
     }
 
     #[test]
-    fn a_picture_is_looked_at_once() {
+    fn a_picture_is_read_once() {
         let mut sample = Sample::default();
         let view = sample.view(SAMPLES[0], &json!({}));
         let materials = [0, 1, 2].map(|index| textured(&json!({"index": index})));
-        let looks = json!({
+        let textures = json!({
             "textures": [{"source": 0}, {"source": 0}, {"source": 1}],
             "images": [{"bufferView": view}, {"uri": "none.png"}]
         });
         let rest = triangles(&mut sample, &[&materials[..], &materials[..]].concat());
-        let (model, report) = read_beside(&sample.json(&joined(rest, &looks)));
+        let (model, report) = read_beside(&sample.json(&joined(rest, &textures)));
         let sources: Vec<_> = model.materials.iter().map(|m| m.diffuse_texture.clone()).collect();
         assert_eq!((sources[0].is_some(), &sources[0]), (true, &sources[1]));
         assert_eq!((&sources[2], &sources[4]), (&None, &sources[0]));
@@ -276,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn views_that_overlap_do_not_multiply() {
+    fn overlapping_views_are_limited() {
         let mut sample = Sample::default();
         let large = [SAMPLES[0], &vec![0; 4000]].concat();
         let view = sample.view(&large, &json!({}));

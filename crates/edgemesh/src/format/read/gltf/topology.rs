@@ -1,27 +1,27 @@
-//! From a list of corners to triangles and segments.
+//! Turns a list of corners into triangles or segments.
 //!
 //! Based on: glTF 2.0, section 3.7.2.1 (topology types).
 //!
 //! ```text
 //! strip 0---2---4     triangles (0 1 2) (1 3 2) (2 3 4): every second one is
-//!        \ / \ /      turned, so that all wind alike
+//!        \ / \ /      reversed, so that all have one winding
 //!         1---3
 //! ```
 
 use gltf_json::mesh::Mode;
 
-/// What a primitive draws, as indices of its vertices.
+/// The shapes of a primitive, as indices of its vertices.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Shapes {
-    /// Loose, in a strip or in a fan.
+    /// From a list, strip or fan.
     Triangles(Vec<[u32; 3]>),
-    /// Loose, in a strip or in a loop.
+    /// From a list, strip or loop.
     Segments(Vec<[u32; 2]>),
-    /// Not drawn here.
+    /// Points, which are not drawn.
     Points,
 }
 
-/// The shapes that `corners` make, and how many corners at their end make none.
+/// The shapes of `corners`, and the number of corners left over at the end.
 pub(super) fn shapes(mode: Mode, corners: &[u32]) -> (Shapes, usize) {
     match mode {
         Mode::Points => (Shapes::Points, 0),
@@ -29,32 +29,32 @@ pub(super) fn shapes(mode: Mode, corners: &[u32]) -> (Shapes, usize) {
             let (pairs, rest) = corners.as_chunks();
             (Shapes::Segments(pairs.to_vec()), rest.len())
         }
-        Mode::LineStrip => (Shapes::Segments(polyline(corners)), left_of(corners, 2)),
+        Mode::LineStrip => (Shapes::Segments(polyline(corners)), left_over(corners, 2)),
         Mode::LineLoop => {
             let mut segments = polyline(corners);
             if let ([first, _, ..], Some(last)) = (corners, corners.last()) {
                 segments.push([*last, *first]);
             }
-            (Shapes::Segments(segments), left_of(corners, 2))
+            (Shapes::Segments(segments), left_over(corners, 2))
         }
         Mode::Triangles => {
             let (triples, rest) = corners.as_chunks();
             (Shapes::Triangles(triples.to_vec()), rest.len())
         }
         Mode::TriangleStrip => {
-            let turned = |(at, &[a, b, c]): (usize, &[u32; 3])| {
+            let reversed_if_odd = |(at, &[a, b, c]): (usize, &[u32; 3])| {
                 if at % 2 == 0 { [a, b, c] } else { [a, c, b] }
             };
-            let triangles = corners.array_windows().enumerate().map(turned).collect();
-            (Shapes::Triangles(triangles), left_of(corners, 3))
+            let triangles = corners.array_windows().enumerate().map(reversed_if_odd).collect();
+            (Shapes::Triangles(triangles), left_over(corners, 3))
         }
         Mode::TriangleFan => {
-            // By the specification the center comes last.
+            // The center comes last, by the specification.
             let triangles = match corners {
                 [center, rim @ ..] => rim.array_windows().map(|&[a, b]| [a, b, *center]).collect(),
                 [] => Vec::new(),
             };
-            (Shapes::Triangles(triangles), left_of(corners, 3))
+            (Shapes::Triangles(triangles), left_over(corners, 3))
         }
     }
 }
@@ -64,8 +64,8 @@ pub(super) fn polyline(corners: &[u32]) -> Vec<[u32; 2]> {
     corners.array_windows().copied().collect()
 }
 
-/// All corners, where they are too few for one shape.
-const fn left_of(corners: &[u32], least: usize) -> usize {
+/// The number of corners if they are too few for a shape, else 0.
+const fn left_over(corners: &[u32], least: usize) -> usize {
     if corners.len() < least { corners.len() } else { 0 }
 }
 
@@ -74,7 +74,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn triangles_wind_as_the_specification_says() {
+    fn triangles_have_the_specified_winding() {
         let triangles = |mode, corners: &[u32]| match shapes(mode, corners) {
             (Shapes::Triangles(triangles), rest) => (triangles, rest),
             (other, _) => panic!("{other:?}"),

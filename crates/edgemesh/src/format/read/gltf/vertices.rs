@@ -1,118 +1,75 @@
-//! The vertices of a primitive, as its attributes list them.
+//! Positions, normals, texture coordinates and colors of a primitive.
 //!
 //! Based on: glTF 2.0, section 3.7.2.1 (meshes) and `KHR_mesh_quantization`.
 //!
-//! Positions must be sound, as must what bends them (see `deform`); a fault of
-//! any other attribute costs that attribute only, with a warning.
+//! Faults in positions are errors, as are those in skins and morph targets
+//! (`deform`). A fault in another attribute costs only that attribute, with a
+//! warning.
 
 use gltf_json as json;
 use json::accessor::Type;
 use json::mesh::Semantic;
-use json::validation::Checked;
 
 use super::super::error::{ReadError, ReadErrorKind};
 use super::accessor::Accessor;
-use super::{Asset, or_left_out};
+use super::primitive::Primitive;
 use crate::report::{Place, Report, WarningCode};
 
-/// Where a primitive stands in the JSON.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Site {
-    pub(super) mesh: usize,
-    pub(super) primitive: usize,
-}
-
-impl Site {
-    /// Its path.
-    pub(super) fn part(self) -> String {
-        format!("meshes[{}].primitives[{}]", self.mesh, self.primitive)
-    }
-
-    /// Its place in the file.
-    pub(super) fn place(self) -> Option<Place> {
-        Some(Place::Part(self.part()))
-    }
-}
-
-/// What a primitive says of its vertices beyond their positions; each list is
-/// empty where it says nothing, and else as long as theirs.
+/// The attributes of vertices besides positions; each list has one element for each
+/// vertex, or is empty.
 #[derive(Debug, Default, PartialEq)]
-pub(super) struct Looks {
+pub(super) struct VertexAttributes {
     pub(super) normals: Vec<[f32; 3]>,
     pub(super) texcoords: Vec<[f32; 2]>,
     pub(super) colors: Vec<[f32; 3]>,
 }
 
-impl Looks {
-    /// Reads those of the `count` vertices of the primitive at `site`.
-    pub(super) fn read(
-        asset: &Asset,
-        primitive: &json::mesh::Primitive,
-        count: usize,
-        site: Site,
-        report: &mut Report,
-    ) -> Self {
-        let mut attributes = Attributes { asset, primitive, site, count, report };
+impl VertexAttributes {
+    /// Reads the attributes of the `count` vertices of a primitive.
+    pub(super) fn read(primitive: Primitive, count: usize, report: &mut Report) -> Self {
+        let mut reader = AttributeReader { primitive, count, report };
         Self {
-            normals: attributes.optional(Semantic::Normals, |accessor| accessor.numbers()),
-            texcoords: attributes.optional(Semantic::TexCoords(0), texcoords),
-            colors: attributes.optional(Semantic::Colors(0), colors),
+            normals: reader.read(Semantic::Normals, |accessor| accessor.numbers()),
+            texcoords: reader.read(Semantic::TexCoords(0), texcoords),
+            colors: reader.read(Semantic::Colors(0), colors),
         }
     }
 }
 
-/// The accessor of an attribute, if the primitive has it.
+/// The positions, if the primitive has any; warns if they leave their stated bounds.
 ///
 /// # Errors
-/// Those of the accessor.
-pub(super) fn attribute<'a>(
-    asset: &'a Asset<'a>,
-    primitive: &json::mesh::Primitive,
-    semantic: Semantic,
-    site: Site,
-) -> Result<Option<Accessor<'a>>, ReadError> {
-    let part = || format!("{}.attributes", site.part());
-    let index = primitive.attributes.get(&Checked::Valid(semantic));
-    index.map(|index| asset.accessor(index.value(), part)).transpose()
-}
-
-/// The positions, with a warning where they leave the bounds that are stated.
-///
-/// # Errors
-/// Those of the accessor.
+/// As [`Primitive::attribute`].
 pub(super) fn positions(
-    asset: &Asset,
-    primitive: &json::mesh::Primitive,
-    site: Site,
+    primitive: Primitive,
     report: &mut Report,
 ) -> Result<Option<Vec<[f32; 3]>>, ReadError> {
-    let Some(accessor) = attribute(asset, primitive, Semantic::Positions, site)? else {
-        return Ok(None);
-    };
+    let Some(accessor) = primitive.attribute(Semantic::Positions)? else { return Ok(None) };
     let positions = accessor.numbers()?;
-    if accessor.is_raw() {
-        check_bounds(asset, &accessor, &positions, report);
+    if accessor.is_raw()
+        && let Some(json) = primitive.asset.document.accessors.get(accessor.index())
+    {
+        check_bounds(json, accessor.index(), &positions, report);
     }
     Ok(Some(positions))
 }
 
-fn check_bounds(asset: &Asset, accessor: &Accessor, found: &[[f32; 3]], report: &mut Report) {
-    let Some(json) = asset.document.accessors.get(accessor.index()) else { return };
+fn check_bounds(json: &json::Accessor, index: usize, found: &[[f32; 3]], report: &mut Report) {
     let stated = |list: &Option<json::Value>, at: usize| list.as_ref()?.get(at)?.as_f64();
     for (at, axis) in ["x", "y", "z"].into_iter().enumerate() {
         let (Some(least), Some(most)) = (stated(&json.min, at), stated(&json.max, at)) else {
             continue;
         };
-        // Decimal digits are often cut short where bounds are written.
+        // Programs often write bounds with few digits.
         let slack = 1e-5 * least.abs().max(most.abs());
         let is_outside =
             |value: f64| value.is_finite() && (value < least - slack || value > most + slack);
         let outside = found.iter().find(|position| is_outside(position[at].into()));
         if let Some(position) = outside {
-            let place = Some(Place::Part(format!("accessors[{}]", accessor.index())));
+            let place = Some(Place::Part(format!("accessors[{index}]")));
             report.warn(WarningCode::Syntax, place, || {
                 let value = position[at];
-                format!("has {axis} = {value}, outside of the stated {least} to {most}")
+                format!("has {axis} = {value}, outside the stated range of {least} to {most}")
             });
         }
     }
@@ -122,49 +79,41 @@ fn is_finite<const N: usize>(element: &[f32; N]) -> bool {
     element.iter().all(|number| number.is_finite())
 }
 
-/// Sets elements that are not finite to zeros, with a warning.
-fn set_finite<const N: usize>(
-    elements: &mut [[f32; N]],
-    name: &str,
-    site: Site,
-    report: &mut Report,
-) {
-    for element in elements.iter_mut().filter(|element| !is_finite(element)) {
-        report.warn(WarningCode::NonFinite, site.place(), || {
-            format!("{name} of a vertex is not finite; it was set to 0")
-        });
-        *element = [0.0; N];
-    }
-}
-
-/// Reads the attributes that a primitive may lack.
-struct Attributes<'a> {
-    asset: &'a Asset<'a>,
-    primitive: &'a json::mesh::Primitive,
-    site: Site,
+/// Reads optional attributes.
+struct AttributeReader<'a> {
+    primitive: Primitive<'a>,
+    /// The number of vertices.
     count: usize,
     report: &'a mut Report,
 }
 
-impl Attributes<'_> {
-    /// The elements that `read` makes of an attribute; empty where there is none,
-    /// or none that is sound.
-    fn optional<const N: usize>(
+impl AttributeReader<'_> {
+    /// The elements that `convert` makes of an attribute; empty if the primitive does
+    /// not have it, or it has a fault. Elements that are not finite become zeros.
+    fn read<const N: usize>(
         &mut self,
         semantic: Semantic,
-        read: impl FnOnce(Accessor) -> Result<Vec<[f32; N]>, ReadError>,
+        convert: impl FnOnce(Accessor) -> Result<Vec<[f32; N]>, ReadError>,
     ) -> Vec<[f32; N]> {
         let name = semantic.to_string();
-        let accessor = attribute(self.asset, self.primitive, semantic, self.site);
+        let accessor = self.primitive.attribute(semantic);
         let elements = accessor.and_then(|accessor| match accessor {
             None => Ok(Vec::new()),
             Some(accessor) => {
                 self.check_count(accessor.count(), &name)?;
-                read(accessor)
+                convert(accessor)
             }
         });
-        let mut elements = or_left_out(elements, self.report).unwrap_or_default();
-        set_finite(&mut elements, &name, self.site, self.report);
+        let mut elements = elements.unwrap_or_else(|error| {
+            error.warn_left_out(self.report);
+            Vec::new()
+        });
+        for element in elements.iter_mut().filter(|element| !is_finite(element)) {
+            self.report.warn(WarningCode::NonFinite, self.primitive.place(), || {
+                format!("{name} of a vertex is not finite; it was set to 0")
+            });
+            *element = [0.0; N];
+        }
         elements
     }
 
@@ -173,18 +122,18 @@ impl Attributes<'_> {
             return Ok(());
         }
         let what = format!("has {count} {name} for {} vertices", self.count);
-        Err(self.asset.error(ReadErrorKind::Syntax, self.site.part(), what))
+        Err(self.primitive.error(ReadErrorKind::Syntax, what))
     }
 }
 
-/// Texture coordinates from the lower left corner of a picture on, as a model has
-/// them; glTF counts from the upper left one.
+/// Texture coordinates with their origin in the lower left corner of a picture; that
+/// of glTF is in the upper left.
 fn texcoords(accessor: Accessor) -> Result<Vec<[f32; 2]>, ReadError> {
     let texcoords: Vec<[f32; 2]> = accessor.numbers()?;
     Ok(texcoords.into_iter().map(|[u, v]| [u, 1.0 - v]).collect())
 }
 
-/// Colours without their alpha; whole numbers are always 0 to 1 here.
+/// Colors without alpha; integers are normalized.
 fn colors(accessor: Accessor) -> Result<Vec<[f32; 3]>, ReadError> {
     let accessor = accessor.normalized();
     if accessor.kind() != Type::Vec4 {
@@ -217,8 +166,8 @@ mod tests {
         assert_eq!(model.corner_normals, [0, 1, 2]);
         assert_eq!(model.corner_texcoords, [0, 1, 2]);
         assert_eq!(model.normals, [[0.0, 0.0, 1.0]; 3]);
-        assert_eq!(model.texcoords, [[0.0, 0.75]; 3], "from the lower left corner on");
-        assert_eq!(model.colors, [[1.0, 0.0, 0.2]; 3], "bytes are 0 to 1, flag or not");
+        assert_eq!(model.texcoords, [[0.0, 0.75]; 3], "from the lower left corner");
+        assert_eq!(model.colors, [[1.0, 0.0, 0.2]; 3], "bytes are normalized in any case");
     }
 
     #[test]
@@ -246,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn a_faulty_attribute_costs_only_itself() {
+    fn a_faulty_attribute_is_left_out_alone() {
         let mut sample = Sample::default();
         let positions = sample.floats("VEC3", &SQUARE[..3]);
         let too_few = sample.floats("VEC3", &SQUARE[..2]);
@@ -267,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn positions_outside_of_their_bounds_are_told() {
+    fn positions_outside_their_bounds_give_a_warning() {
         let mut sample = Sample::default();
         sample.floats("VEC3", &SQUARE[..3]);
         let positions = sample.accessor(json!({
@@ -291,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn positions_must_be_sound() {
+    fn faults_of_positions_are_errors() {
         let mut sample = Sample::default();
         let four = sample.floats("VEC4", &[[0.0; 4]; 3]);
         let read = |positions: usize| {
@@ -300,7 +249,7 @@ mod tests {
         assert_eq!(read(four).kind, ReadErrorKind::Syntax);
         let error = read(7);
         assert_eq!(error.kind, ReadErrorKind::Syntax);
-        assert!(error.what.contains("accessors[7], of which there are 1"), "{error}");
+        assert!(error.what.contains("accessors[7]; there are 1"), "{error}");
         let place = "meshes[0].primitives[0].attributes";
         assert_eq!(error.place, Some(Place::Part(place.into())));
     }

@@ -1,24 +1,26 @@
 //! Wavefront OBJ, in parallel.
 //!
-//! Based on the format's own description (Alias|Wavefront, *Advanced
-//! Visualizer Manual*, appendix B1) and on files as they are.
+//! Source: Alias|Wavefront, *Advanced Visualizer Manual*, appendix B1, and what
+//! programs write.
 //!
-//! Idea: the text is cut at line ends into chunks, which are parsed side by
-//! side as if each were a file ([`chunk`]) and then put together in their
-//! order ([`merge`]): indices that count back are made absolute, line numbers
-//! move on, and the state that a chunk leaves (material, group, smoothing)
-//! begins the next one. The result does not depend on the chunks.
+//! Idea: the text is cut at line ends into blocks. Each is parsed as if it were a
+//! file ([`block`]), all in parallel, and then they are merged in their order
+//! ([`merge`]): relative indices and line numbers become absolute, and the state at
+//! the end of a block (material, group, smoothing) begins the next one. The result
+//! does not depend on where the text was cut.
 //!
 //! ```text
-//! bytes --split--> chunk chunk chunk --parse--> part part part --merge--> Model
+//! bytes --split--> texts --parse--> blocks --merge--> Model <-- materials, mtl
 //! ```
 //!
-//! Rejected: `tobj` and `obj-rs`, which name no lines, lose polygons, smoothing
-//! groups or `l` lines, and refuse files that others write; they stand beside
-//! this reader in its tests. `tobj` still reads the materials.
+//! Rejected: `tobj` and `obj-rs`, which report no lines, lose polygons, smoothing
+//! groups or `l` statements, and refuse files that other programs write. Tests
+//! compare this reader with both.
 
-mod chunk;
+mod block;
+mod materials;
 mod merge;
+mod mtl;
 mod statement;
 
 use std::borrow::Cow;
@@ -26,42 +28,45 @@ use std::borrow::Cow;
 use memchr::memchr;
 use rayon::prelude::*;
 
-use self::chunk::parse_chunk;
+use self::block::parse_block;
 use self::merge::merge;
+use super::byte_order_mark::without_mark;
 use super::error::{ReadError, ReadErrorKind};
 use super::source::Source;
 use crate::model::Model;
 use crate::report::Report;
 
-/// Bytes of a chunk: large enough that its costs do not show, small enough that
-/// a file of some megabytes keeps every core busy.
-const CHUNK_BYTES: usize = 1 << 20;
+/// Bytes of a block: large enough to hide its overhead, small enough that a file of
+/// some megabytes keeps every core busy.
+const BLOCK_BYTES: usize = 1 << 20;
 
-/// Reads an OBJ file.
+/// Reads an OBJ file in UTF-8, UTF-16 or an old code page.
+///
+/// # Errors
+/// Number: a coordinate is not a number. Index: a face or line names a vertex that
+/// does not exist. Size: too many elements. Format: broken UTF-16.
 pub(super) fn read_obj(source: &Source, report: &mut Report) -> Result<Model, ReadError> {
     let text = utf8_of(source)?;
-    read_in_chunks(source, &text, CHUNK_BYTES, report)
+    read_in_blocks(source, &text, BLOCK_BYTES, report)
 }
 
-fn read_in_chunks(
+fn read_in_blocks(
     source: &Source,
     text: &[u8],
-    chunk_bytes: usize,
+    block_bytes: usize,
     report: &mut Report,
 ) -> Result<Model, ReadError> {
-    let parts = split(text, chunk_bytes).into_par_iter().map(parse_chunk).collect();
-    merge(source, parts, report)
+    let blocks = split(text, block_bytes).into_par_iter().map(parse_block).collect();
+    merge(source, blocks, report)
 }
 
-/// The text without its byte order mark; UTF-16, which some programs write, is
-/// turned into UTF-8.
+/// The text without its byte order mark, UTF-16 converted to UTF-8.
 fn utf8_of<'a>(source: &Source<'a>) -> Result<Cow<'a, [u8]>, ReadError> {
     let bytes = source.bytes;
     let (rest, is_big_endian) = match bytes {
-        [0xef, 0xbb, 0xbf, rest @ ..] => return Ok(Cow::Borrowed(rest)),
         [0xff, 0xfe, rest @ ..] => (rest, false),
         [0xfe, 0xff, rest @ ..] => (rest, true),
-        _ => return Ok(Cow::Borrowed(bytes)),
+        _ => return Ok(Cow::Borrowed(without_mark(bytes))),
     };
     let units = rest.as_chunks::<2>().0.iter().map(|&unit| match is_big_endian {
         true => u16::from_be_bytes(unit),
@@ -74,22 +79,22 @@ fn utf8_of<'a>(source: &Source<'a>) -> Result<Cow<'a, [u8]>, ReadError> {
     })
 }
 
-/// Cuts the text behind line ends, where no statement goes on in the next line.
-fn split(text: &[u8], chunk_bytes: usize) -> Vec<&[u8]> {
-    let mut chunks = Vec::new();
+/// Cuts the text after line ends, but not where a statement continues.
+fn split(text: &[u8], block_bytes: usize) -> Vec<&[u8]> {
+    let mut blocks = Vec::new();
     let mut start = 0;
     while start < text.len() {
-        let end = chunk_end(text, (start + chunk_bytes).min(text.len()));
-        chunks.push(&text[start..end]);
+        let end = block_end(text, (start + block_bytes).min(text.len()));
+        blocks.push(&text[start..end]);
         start = end;
     }
-    chunks
+    blocks
 }
 
-/// The first end of a statement at `from` or behind it.
-fn chunk_end(text: &[u8], from: usize) -> usize {
+/// The first end of a statement at or after `from`.
+fn block_end(text: &[u8], from: usize) -> usize {
     let mut at = from;
-    // From one byte before, so that a line end there counts.
+    // From one byte before, to find a line end there.
     while let Some(found) = memchr(b'\n', &text[at - 1..]) {
         let line_end = at - 1 + found;
         if !text[..line_end].trim_ascii_end().ends_with(b"\\") {
@@ -114,16 +119,16 @@ mod tests {
     use crate::model::{Material, Segment, Smoothing, Texture, TextureSource};
     use crate::report::{Place, WarningCode};
 
-    fn try_read(text: &[u8], chunk_bytes: usize) -> (Result<Model, ReadError>, Report) {
+    fn try_read(text: &[u8], block_bytes: usize) -> (Result<Model, ReadError>, Report) {
         let mut report = Report::default();
         let source = Source { name: "test.obj", folder: None, bytes: text };
         let text = utf8_of(&source).unwrap();
-        let model = read_in_chunks(&source, &text, chunk_bytes, &mut report);
+        let model = read_in_blocks(&source, &text, block_bytes, &mut report);
         (model, report)
     }
 
     fn read(text: &str) -> Model {
-        try_read(text.as_bytes(), CHUNK_BYTES).0.unwrap()
+        try_read(text.as_bytes(), BLOCK_BYTES).0.unwrap()
     }
 
     const THREE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -144,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_end_and_go_on_in_every_way() {
+    fn lines_end_and_continue_in_every_way() {
         let text = "v 0 0 0\r\nv 1 0 0\rv 0 1 0\nf 1 \\\r\n2 \\\n 3\nf 3 2 1 \\";
         let model = read(text);
         assert_eq!(model.corner_positions, [0, 1, 2, 2, 1, 0]);
@@ -171,20 +176,20 @@ mod tests {
         }
     }
 
-    /// The vertex that the face means is behind what cannot be read.
+    /// The vertex that the face names comes after a line that cannot be read.
     #[test]
-    fn what_cannot_be_read_goes_before_indices_that_it_makes_wrong() {
+    fn an_unreadable_line_is_reported_before_wrong_indices() {
         let text = b"v 0 0 0\nv 1 0 0\nf 1 2 3\nv 0 x 0\nv 0 1 0\n";
-        for chunk_bytes in [1, 16, CHUNK_BYTES] {
-            let error = try_read(text, chunk_bytes).0.unwrap_err();
+        for block_bytes in [1, 16, BLOCK_BYTES] {
+            let error = try_read(text, block_bytes).0.unwrap_err();
             assert_eq!((error.kind, error.place), (ReadErrorKind::Number, Some(Place::Line(4))));
         }
     }
 
     #[test]
-    fn wrong_attributes_cost_only_themselves() {
+    fn wrong_attributes_are_left_out_and_the_face_is_kept() {
         let text = format!("{THREE}vt 0 0\nf 1/1 2/7 3/-3\nf 1/x 2 3\n");
-        let (model, report) = try_read(text.as_bytes(), CHUNK_BYTES);
+        let (model, report) = try_read(text.as_bytes(), BLOCK_BYTES);
         assert_eq!(model.unwrap().corner_texcoords, [0, NONE, NONE, NONE, NONE, NONE]);
         assert_eq!(report.count(WarningCode::Index), 3);
     }
@@ -205,7 +210,7 @@ mod tests {
         assert_eq!(smoothing, [Smoothing::Group(0), Smoothing::Group(1)], "off before the first");
     }
 
-    /// From the files to the fill of the edge mesh.
+    /// From files to the fill of the edge mesh.
     #[test]
     fn materials_groups_and_textures_reach_the_fill() {
         let folder = tempfile::tempdir().unwrap();
@@ -250,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_drawn_by_hand_are_segments() {
+    fn line_statements_are_segments() {
         let model = read(&format!("{THREE}l 1 2/1 -1\nl 1\n"));
         let ends: Vec<_> = model.segments.iter().map(|segment| segment.ends).collect();
         assert_eq!(ends, [[0, 1], [1, 2]]);
@@ -258,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_may_be_partial() {
+    fn colors_may_be_partial() {
         let model = read("v 0 0 0\nv 1 0 0 1\nv 0 1 0 0.5 0 1\nv 0 1 1 1 0 0 1\nf 1 2 3\n");
         assert_eq!(model.colors, [[1.0; 3], [1.0; 3], [0.5, 0.0, 1.0], [1.0, 0.0, 0.0]]);
         assert!(read(&format!("{THREE}f 1 2 3\n")).colors.is_empty());
@@ -266,19 +271,19 @@ mod tests {
 
     #[test]
     fn not_a_number_and_not_finite_differ() {
-        let error = try_read(b"v 0 zero 0\n", CHUNK_BYTES).0.unwrap_err();
+        let error = try_read(b"v 0 zero 0\n", BLOCK_BYTES).0.unwrap_err();
         assert_eq!((error.kind, error.place), (ReadErrorKind::Number, Some(Place::Line(1))));
-        let error = try_read(b"v 0 1\n", CHUNK_BYTES).0.unwrap_err();
+        let error = try_read(b"v 0 1\n", BLOCK_BYTES).0.unwrap_err();
         assert!(error.what.contains("has 2"), "{error}");
         let (_, report) = try_read(format!("{THREE}v 1e400 0 0\nf 1 2 3\n").as_bytes(), 8);
         assert_eq!(report.warnings()[0].place, Some(Place::Line(4)));
-        let (model, report) = try_read(b"v 3.1+e2 0 0\n", CHUNK_BYTES);
+        let (model, report) = try_read(b"v 3.1+e2 0 0\n", BLOCK_BYTES);
         assert_eq!(model.unwrap().positions[0][0].to_bits(), 3.1_f64.to_bits());
         assert_eq!(report.count(WarningCode::Syntax), 1);
     }
 
     #[test]
-    fn utf16_is_read_as_what_it_says() {
+    fn utf16_is_read() {
         let text = format!("{THREE}f 1 2 3\n");
         for big_endian in [false, true] {
             let bytes: Vec<u8> = format!("\u{feff}{text}")
@@ -289,10 +294,9 @@ mod tests {
         }
     }
 
-    /// All that a file can say, in an order that makes chunks depend on each
-    /// other.
+    /// Every kind of statement, in an order that makes blocks depend on each other.
     #[test]
-    fn the_chunks_make_no_difference() {
+    fn the_result_does_not_depend_on_the_blocks() {
         let mut text = String::from("mtllib none.mtl\n# comment \\\nstill comment\n");
         for k in 0..60 {
             text += &format!("v {k} {} 0.25{}\n", k % 7, ["", " 1 0 0", " 1"][k % 3]);
@@ -309,10 +313,10 @@ mod tests {
         let (whole, whole_report) = try_read(text.as_bytes(), usize::MAX >> 1);
         let whole = whole.unwrap();
         assert!(whole.polygon_count() > 30 && whole.runs.len() > 10);
-        for chunk_bytes in [1, 7, 50, 333] {
-            let (model, report) = try_read(text.as_bytes(), chunk_bytes);
-            assert_eq!(format!("{:?}", model.unwrap()), format!("{whole:?}"), "{chunk_bytes}");
-            assert_eq!(report, whole_report, "{chunk_bytes}");
+        for block_bytes in [1, 7, 50, 333] {
+            let (model, report) = try_read(text.as_bytes(), block_bytes);
+            assert_eq!(format!("{:?}", model.unwrap()), format!("{whole:?}"), "{block_bytes}");
+            assert_eq!(report, whole_report, "{block_bytes}");
         }
     }
 }

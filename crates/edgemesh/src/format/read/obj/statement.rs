@@ -1,34 +1,34 @@
-//! The words of a statement, whatever way it is written.
+//! The words, indices and names of statements.
 
 use crate::index::{MAX_INDEX, NONE};
 
-/// An index as a chunk stores it: absolute and counted from 0, or counted from
-/// the chunk's own start, which the next stage adds.
+/// An index within a block: absolute and counted from 0, or relative to the block's
+/// first element, whose index [`Self::resolve`] adds.
 ///
 /// ```text
-/// bit 31   0: absolute     1: relative, biased so that it may reach back
+/// bit 31   0: absolute     1: relative, with a bias, so that it can be negative
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct ChunkIndex(pub(super) u32);
+pub(super) struct BlockIndex(pub(super) u32);
 
-impl ChunkIndex {
+impl BlockIndex {
     const RELATIVE: u32 = 1 << 31;
     const BIAS: i64 = 1 << 30;
 
-    /// An index of the file, counted from 1, that is known to be small.
+    /// An index of the file, counted from 1, with bit 31 clear.
     #[inline]
     pub(super) const fn absolute(index: u32) -> Self {
         Self(index - 1)
     }
 
-    /// An index from the chunk's own start on; negative in the chunks before.
+    /// An index relative to the block's first element; negative in earlier blocks.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the bias")]
     fn relative(index: i64) -> Self {
         Self((index + Self::BIAS) as u32 | Self::RELATIVE)
     }
 
-    /// The absolute index, where the chunk begins at `base`; negative where it
-    /// reaches before the first element.
+    /// The absolute index if the block's first element has index `base`; negative if
+    /// it lies before the first element of the file.
     #[inline]
     pub(super) fn resolve(self, base: usize) -> i64 {
         if self.0 & Self::RELATIVE == 0 {
@@ -39,9 +39,13 @@ impl ChunkIndex {
     }
 }
 
-/// Reads an index: 1 is the first element, -1 the latest of the `count` that
-/// the chunk has listed so far.
-pub(super) fn parse_index(word: &[u8], count: usize) -> Result<ChunkIndex, String> {
+/// Reads an index: 1 is the first element of the file, -1 the last of the `count`
+/// elements that the block has listed so far.
+///
+/// # Errors
+/// Fails if it is 0, not a whole number, or too large; the message follows the word
+/// in a sentence.
+pub(super) fn parse_index(word: &[u8], count: usize) -> Result<BlockIndex, String> {
     let is_whole = word.strip_prefix(b"-").or(word.strip_prefix(b"+")).unwrap_or(word);
     if is_whole.is_empty() || !is_whole.iter().all(u8::is_ascii_digit) {
         return Err("is not a whole number".into());
@@ -52,15 +56,15 @@ pub(super) fn parse_index(word: &[u8], count: usize) -> Result<ChunkIndex, Strin
     };
     let limit = MAX_INDEX as i64;
     match index {
-        0 => Err("indices count from 1".into()),
-        // Past every count there can be: the merge says by how much.
-        1.. => Ok(ChunkIndex::absolute(u32::try_from(index.min(limit + 1)).unwrap_or(NONE))),
+        0 => Err("has index 0; indices count from 1".into()),
+        // Past every possible count: the merge reports it.
+        1.. => Ok(BlockIndex::absolute(u32::try_from(index.min(limit + 1)).unwrap_or(NONE))),
         _ if index < -limit => Err("reaches before the first vertex".into()),
-        _ => Ok(ChunkIndex::relative(count as i64 + index)),
+        _ => Ok(BlockIndex::relative(count as i64 + index)),
     }
 }
 
-/// Splits a statement into its keyword and the rest.
+/// The keyword of a statement, and the text after it.
 pub(super) fn split_keyword(text: &[u8]) -> (&[u8], &[u8]) {
     let end = text.iter().position(u8::is_ascii_whitespace).unwrap_or(text.len());
     (&text[..end], text[end..].trim_ascii_start())
@@ -76,15 +80,14 @@ pub(super) fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
-/// A name, which may hold blanks and bytes of old code pages; those are read as
-/// Latin-1.
+/// A name, which may hold blanks; if it is not UTF-8 it is read as Latin-1.
 pub(super) fn name_of(rest: &[u8]) -> String {
     let rest = rest.trim_ascii();
     std::str::from_utf8(rest)
         .map_or_else(|_| rest.iter().copied().map(char::from).collect(), str::to_owned)
 }
 
-/// The number of a smoothing group; `off` and anything else is 0.
+/// The number of a smoothing group; 0 for `off` and all other words.
 pub(super) fn smoothing_group(rest: &[u8]) -> u32 {
     std::str::from_utf8(rest.trim_ascii()).ok().and_then(|text| text.parse().ok()).unwrap_or(0)
 }
@@ -101,13 +104,13 @@ mod tests {
         assert_eq!(resolved("1", 5, 100), Ok(0));
         assert_eq!(resolved("+7", 5, 100), Ok(6));
         assert_eq!(resolved("-1", 5, 100), Ok(104));
-        assert_eq!(resolved("-6", 5, 100), Ok(99), "in the chunk before");
+        assert_eq!(resolved("-6", 5, 100), Ok(99), "in the block before");
         assert_eq!(resolved("-106", 5, 100), Ok(-1), "before the first");
         assert_eq!(resolved("4000000000", 5, 100), Ok(MAX_INDEX as i64));
         for word in ["0", "", "-", "1.5", "x", "99999999999999999999", "--1", "-1073741824"] {
             assert!(parse_index(word.as_bytes(), 5).is_err(), "{word}");
         }
-        assert_ne!(ChunkIndex::relative(MAX_INDEX as i64 - 1).0, NONE);
+        assert_ne!(BlockIndex::relative(MAX_INDEX as i64 - 1).0, NONE);
     }
 
     #[test]

@@ -1,8 +1,7 @@
-//! Rows as bytes, without gaps.
+//! Binary rows, without gaps.
 //!
-//! Where an element has single values only, all its rows are equally long, and
-//! the offsets of the values that are wanted are known before the first one.
-//! With lists, the values are walked through one by one.
+//! The rows of an element without lists are equally long, and the offsets of the
+//! values are known in advance. Rows with lists are read value by value.
 //!
 //! ```text
 //! | x | y | z | r g b a |    stride 16, columns at 0, 4, 8
@@ -12,33 +11,33 @@
 use super::super::error::ReadError;
 use super::super::source::Source;
 use super::header::{Encoding, Header};
-use super::rows::{Plan, Row, Rows, Step, check_room, cut_off, list_length};
+use super::rows::{Row, RowPlan, Rows, Step, check_room, list_length, truncated};
 use super::scalar::Scalar;
 use crate::report::{Place, Report};
 
-/// The rows of a file in bytes.
+/// The rows of a binary file.
 #[derive(Debug)]
 pub(super) struct BinaryRows<'s, 'a> {
     source: &'s Source<'a>,
     is_big_endian: bool,
     /// The offset of the next byte.
     at: usize,
-    /// Rows of this element so far.
+    /// The number of rows of this element so far.
     row: u64,
     /// The offset of the last row.
     start: usize,
-    /// Where values stand in a row; `None` where there are lists.
+    /// The layout of a row; `None` if it has lists.
     layout: Option<Layout>,
 }
 
-/// The values that are wanted of rows of one length.
+/// The offsets of values in rows of fixed length.
 #[derive(Debug, Default)]
 struct Layout {
     stride: usize,
     columns: Vec<Column>,
 }
 
-/// One of them.
+/// A value in a row, and the slot that it goes to.
 #[derive(Debug)]
 struct Column {
     offset: usize,
@@ -47,7 +46,7 @@ struct Column {
 }
 
 impl Layout {
-    fn new(plan: &Plan) -> Option<Self> {
+    fn new(plan: &RowPlan) -> Option<Self> {
         let mut layout = Self::default();
         for &step in &plan.steps {
             let Step::Value { kind, slot } = step else { return None };
@@ -58,7 +57,7 @@ impl Layout {
         Some(layout)
     }
 
-    /// Reads the row at the start of `bytes`; `None` where they are too few.
+    /// Reads the row at the start of `bytes`; `None` if they are too few.
     #[inline]
     fn read(&self, bytes: &[u8], is_big_endian: bool, row: &mut Row) -> Option<()> {
         let bytes = bytes.get(..self.stride)?;
@@ -71,7 +70,7 @@ impl Layout {
 }
 
 impl<'s, 'a> BinaryRows<'s, 'a> {
-    /// The rows behind `header`.
+    /// The rows after `header`.
     pub(super) const fn new(source: &'s Source<'a>, header: &Header) -> Self {
         let is_big_endian = matches!(header.encoding, Encoding::BigEndian);
         let (at, start) = (header.end, header.end);
@@ -90,32 +89,32 @@ impl<'s, 'a> BinaryRows<'s, 'a> {
         Some(value)
     }
 
-    /// Reads a row with lists.
-    fn walk(&mut self, plan: &Plan, row: &mut Row) -> Result<(), ReadError> {
+    /// Reads a row with lists, value by value.
+    fn walk(&mut self, plan: &RowPlan, row: &mut Row) -> Result<(), ReadError> {
         for &step in &plan.steps {
             match step {
                 Step::Value { kind, slot } => {
-                    let value = self.value(kind).ok_or_else(|| self.cut_off(plan))?;
+                    let value = self.value(kind).ok_or_else(|| self.truncated_error(plan))?;
                     if let Some(slot) = slot {
                         row.values[slot] = value;
                     }
                 }
                 Step::List { length, kind, is_kept } => {
-                    let length = self.value(length).ok_or_else(|| self.cut_off(plan))?;
+                    let length = self.value(length).ok_or_else(|| self.truncated_error(plan))?;
                     let length = list_length(self.source, self.place(), length)?;
                     let list = is_kept.then_some(&mut row.list);
-                    self.list(kind, length, list).ok_or_else(|| self.cut_off(plan))?;
+                    self.list(kind, length, list).ok_or_else(|| self.truncated_error(plan))?;
                 }
             }
         }
         Ok(())
     }
 
-    /// Reads the values of a list, or steps over them; `None` where there are
-    /// too few.
+    /// Reads the values of a list into `list`, or skips them; `None` at the end of the
+    /// file.
     fn list(&mut self, kind: Scalar, length: usize, list: Option<&mut Vec<f64>>) -> Option<()> {
         let size = kind.size();
-        // At most 8 * MAX_INDEX, which no address overflows.
+        // At most 8 * MAX_INDEX, which cannot overflow.
         let bytes = self.left().get(..length * size)?;
         self.at += bytes.len();
         if let Some(list) = list {
@@ -127,13 +126,13 @@ impl<'s, 'a> BinaryRows<'s, 'a> {
     }
 
     #[cold]
-    fn cut_off(&self, plan: &Plan) -> ReadError {
-        cut_off(self.source, self.place(), plan.element, self.row)
+    fn truncated_error(&self, plan: &RowPlan) -> ReadError {
+        truncated(self.source, self.place(), plan.element, self.row)
     }
 }
 
 impl Rows for BinaryRows<'_, '_> {
-    fn begin(&mut self, plan: &Plan) -> Result<(), ReadError> {
+    fn begin(&mut self, plan: &RowPlan) -> Result<(), ReadError> {
         (self.row, self.start) = (0, self.at);
         self.layout = Layout::new(plan);
         let size = |step: &Step| match step {
@@ -144,12 +143,17 @@ impl Rows for BinaryRows<'_, '_> {
         check_room(self.source, self.place(), plan.element, needed, self.left().len())
     }
 
-    fn read(&mut self, plan: &Plan, row: &mut Row, _report: &mut Report) -> Result<(), ReadError> {
+    fn read(
+        &mut self,
+        plan: &RowPlan,
+        row: &mut Row,
+        _report: &mut Report,
+    ) -> Result<(), ReadError> {
         self.row += 1;
         self.start = self.at;
         let left = self.left();
         let Some(layout) = &self.layout else { return self.walk(plan, row) };
-        layout.read(left, self.is_big_endian, row).ok_or_else(|| self.cut_off(plan))?;
+        layout.read(left, self.is_big_endian, row).ok_or_else(|| self.truncated_error(plan))?;
         self.at += layout.stride;
         Ok(())
     }

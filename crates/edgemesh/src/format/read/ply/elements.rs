@@ -1,9 +1,8 @@
-//! What the rows of the elements mean: vertices, faces, strips and edges.
+//! Turns the rows of elements into vertices, faces, strips and edges.
 //!
-//! Elements may come in any order, faces before their vertices too. So what the
-//! vertices are going to have is taken from the header first, and indices are
-//! held against the count there; whether that count is true is found when the
-//! vertices are read.
+//! Elements may come in any order, even faces before vertices. So the attributes
+//! and the number of vertices are taken from the header; the number is verified
+//! when the vertices are read.
 //!
 //! ```text
 //! strip 0 1 2 3 4 -1        1---3       0 1 2, 2 1 3, 2 3 4: every other
@@ -17,13 +16,13 @@ use super::super::error::{ReadError, ReadErrorKind};
 use super::super::source::Source;
 use super::super::words::quoted;
 use super::header::{Element, Header};
-use super::rows::{Plan, Row, Rows, SLOTS};
+use super::rows::{Row, RowPlan, Rows, SLOTS};
 use super::scalar::Scalar;
 use crate::index::{MAX_INDEX, NONE};
 use crate::model::{Corner, Model, Segment};
 use crate::report::{Place, Report, WarningCode};
 
-/// Names of what a vertex may have, by slot.
+/// The names of vertex properties, by slot.
 const VERTEX_SLOTS: [&[&str]; SLOTS] = [
     &["x"],
     &["y"],
@@ -44,13 +43,13 @@ const NORMAL: Range<usize> = 3..6;
 const COLOR: Range<usize> = 6..9;
 const TEXCOORD: Range<usize> = 9..11;
 
-/// Names of the ends of an edge.
+/// The names of the ends of an edge, by slot.
 const EDGE_SLOTS: [&[&str]; 2] = [&["vertex1"], &["vertex2"]];
 
-/// Names of the list of a face's or a strip's corners.
+/// The names of the list of corners of a face or strip.
 const CORNER_LISTS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
-/// What is wrong with an element without such a list.
+/// Why an element without such a list is skipped.
 const NO_LIST: &str = "has no list vertex_indices or vertex_index";
 
 /// Reads all rows into a model.
@@ -61,7 +60,7 @@ pub(super) fn read_elements(
     report: &mut Report,
 ) -> Result<Model, ReadError> {
     let vertex = header.elements.iter().find(|element| element.name == b"vertex");
-    let plan = vertex.map(|vertex| Plan::new(vertex, &VERTEX_SLOTS, &[]));
+    let plan = vertex.map(|vertex| RowPlan::new(vertex, &VERTEX_SLOTS, &[]));
     let has = |slots| plan.as_ref().is_some_and(|plan| plan.has(slots));
     let mut reader = ElementReader {
         source,
@@ -75,11 +74,11 @@ pub(super) fn read_elements(
     };
     for element in &header.elements {
         match element.name {
-            b"vertex" => reader.vertices(&Plan::new(element, &VERTEX_SLOTS, &[]))?,
-            b"face" => reader.faces(&Plan::new(element, &[], &CORNER_LISTS))?,
-            b"tristrips" => reader.strips(&Plan::new(element, &[], &CORNER_LISTS))?,
-            b"edge" => reader.edges(&Plan::new(element, &EDGE_SLOTS, &[]))?,
-            _ => reader.skip(element, "is not known")?,
+            b"vertex" => reader.vertices(&RowPlan::new(element, &VERTEX_SLOTS, &[]))?,
+            b"face" => reader.faces(&RowPlan::new(element, &[], &CORNER_LISTS))?,
+            b"tristrips" => reader.strips(&RowPlan::new(element, &[], &CORNER_LISTS))?,
+            b"edge" => reader.edges(&RowPlan::new(element, &EDGE_SLOTS, &[]))?,
+            _ => reader.skip(element, "is unknown")?,
         }
     }
     reader.warn_of_rest();
@@ -92,7 +91,7 @@ struct ElementReader<'s, 'a, R> {
     report: &'s mut Report,
     row: Row,
     model: Model,
-    /// How many vertices the header announces.
+    /// The number of vertices by the header.
     vertex_count: u64,
     /// Whether each vertex has a normal.
     has_normals: bool,
@@ -101,7 +100,7 @@ struct ElementReader<'s, 'a, R> {
 }
 
 impl<R: Rows> ElementReader<'_, '_, R> {
-    fn vertices(&mut self, plan: &Plan) -> Result<(), ReadError> {
+    fn vertices(&mut self, plan: &RowPlan) -> Result<(), ReadError> {
         if !plan.has(POSITION) {
             let place = Some(Place::Line(plan.element.line));
             let what = "the vertices lack one of the properties x, y, z";
@@ -113,8 +112,8 @@ impl<R: Rows> ElementReader<'_, '_, R> {
             return Err(self.too_large());
         }
         let has_colors = plan.has(COLOR);
-        let full = |slot: usize| plan.slots[slot].map_or(1.0, Scalar::full_color);
-        let full = [0, 1, 2].map(|channel| full(COLOR.start + channel));
+        let maximum = |slot: usize| plan.slots[slot].map_or(1.0, Scalar::color_maximum);
+        let maxima = [0, 1, 2].map(|channel| maximum(COLOR.start + channel));
         for _ in 0..count {
             self.rows.read(plan, &mut self.row, self.report)?;
             let [x, y, z, nx, ny, nz, red, green, blue, u, v] = self.row.values;
@@ -123,7 +122,7 @@ impl<R: Rows> ElementReader<'_, '_, R> {
                 self.model.normals.push([nx, ny, nz].map(narrow));
             }
             if has_colors {
-                let color = [red / full[0], green / full[1], blue / full[2]];
+                let color = [red / maxima[0], green / maxima[1], blue / maxima[2]];
                 self.model.colors.push(color.map(narrow));
             }
             if self.has_texcoords {
@@ -133,7 +132,7 @@ impl<R: Rows> ElementReader<'_, '_, R> {
         Ok(())
     }
 
-    fn faces(&mut self, plan: &Plan) -> Result<(), ReadError> {
+    fn faces(&mut self, plan: &RowPlan) -> Result<(), ReadError> {
         if !plan.has_list {
             return self.skip(plan.element, NO_LIST);
         }
@@ -150,7 +149,7 @@ impl<R: Rows> ElementReader<'_, '_, R> {
         Ok(())
     }
 
-    fn strips(&mut self, plan: &Plan) -> Result<(), ReadError> {
+    fn strips(&mut self, plan: &RowPlan) -> Result<(), ReadError> {
         if !plan.has_list {
             return self.skip(plan.element, NO_LIST);
         }
@@ -181,7 +180,7 @@ impl<R: Rows> ElementReader<'_, '_, R> {
         Ok(())
     }
 
-    fn edges(&mut self, plan: &Plan) -> Result<(), ReadError> {
+    fn edges(&mut self, plan: &RowPlan) -> Result<(), ReadError> {
         if !plan.has(0..EDGE_SLOTS.len()) {
             return self.skip(plan.element, "lacks vertex1 or vertex2");
         }
@@ -195,18 +194,17 @@ impl<R: Rows> ElementReader<'_, '_, R> {
         Ok(())
     }
 
-    /// Steps over the rows of an element that is not read, because it `lacks`
-    /// something.
-    fn skip(&mut self, element: &Element, lacks: &str) -> Result<(), ReadError> {
-        let plan = Plan::new(element, &[], &[]);
-        // Rows without values take no bytes, however many there are.
+    /// Skips the rows of an element with a warning; `why` follows its name.
+    fn skip(&mut self, element: &Element, why: &str) -> Result<(), ReadError> {
+        let plan = RowPlan::new(element, &[], &[]);
+        // Rows without values take no bytes, whatever their number.
         if plan.steps.is_empty() || element.count == 0 {
             return Ok(());
         }
         let place = Some(Place::Line(element.line));
         self.report.warn(WarningCode::Unsupported, place, || {
             let name = quoted(element.name);
-            format!("the element {name} {lacks}; its {} rows were left out", element.count)
+            format!("the element {name} {why}; its {} rows were left out", element.count)
         });
         self.rows.begin(&plan)?;
         for _ in 0..element.count {
@@ -215,11 +213,11 @@ impl<R: Rows> ElementReader<'_, '_, R> {
         Ok(())
     }
 
-    /// The corner at a vertex, with what the vertex has.
+    /// The corner at a vertex, with the attributes of the vertex.
     fn corner(&self, value: f64) -> Result<Corner, ReadError> {
         let position = self.index(value)?;
-        let if_any = |has: bool| if has { position } else { NONE };
-        let (texcoord, normal) = (if_any(self.has_texcoords), if_any(self.has_normals));
+        let index_if = |has: bool| if has { position } else { NONE };
+        let (texcoord, normal) = (index_if(self.has_texcoords), index_if(self.has_normals));
         Ok(Corner { position, texcoord, normal })
     }
 
@@ -229,15 +227,19 @@ impl<R: Rows> ElementReader<'_, '_, R> {
             #[expect(clippy::cast_possible_truncation, reason = "below MAX_INDEX")]
             return Ok(value as u32);
         }
-        let what = format!("vertex {value} is named, counted from 0, of {}", self.vertex_count);
+        let what =
+            format!("index {value} is not one of {} vertices, counted from 0", self.vertex_count);
         Err(self.source.error(ReadErrorKind::Index, Some(self.rows.place()), what))
     }
 
-    /// Adds a polygon, unless it has fewer than three corners.
+    /// Adds a polygon; one with fewer than three corners is dropped with a warning.
     fn push(&mut self, corners: &[Corner]) -> Result<(), ReadError> {
         if corners.len() < 3 {
             self.report.warn(WarningCode::Degenerate, Some(self.rows.place()), || {
-                format!("a face of {} corners was dropped", corners.len())
+                format!(
+                    "a face needs three corners, this one has {}; it was dropped",
+                    corners.len()
+                )
             });
             return Ok(());
         }
@@ -256,13 +258,13 @@ impl<R: Rows> ElementReader<'_, '_, R> {
     fn warn_of_rest(&mut self) {
         if let Some(place) = self.rows.first_unread() {
             self.report.warn(WarningCode::Syntax, Some(place), || {
-                "what is behind the last row that the header announces was left out".into()
+                "the content after the last row was left out".into()
             });
         }
     }
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "32 bits are what the model holds")]
+#[expect(clippy::cast_possible_truncation, reason = "attributes have 32 bits")]
 const fn narrow(value: f64) -> f32 {
     value as f32
 }

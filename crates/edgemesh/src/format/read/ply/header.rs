@@ -1,22 +1,21 @@
-//! The header of a PLY file: what the rows behind it consist of.
+//! The header of a PLY file, which describes the rows after it.
 //!
-//! Source: G. Turk, *The PLY Polygon File Format* (1994). Idea: a line a
-//! statement, read by one cursor; the names stay slices of the file.
+//! Source: G. Turk, *The PLY Polygon File Format* (1994). Each line is a statement.
+//! Names are slices of the file.
 //!
 //! ```text
 //! ply
 //! format ascii 1.0                             encoding
-//! comment ..., obj_info ...                    left out
-//! element face 12                              12 rows, one a line
+//! comment ..., obj_info ...                    ignored
+//! element face 12                              12 rows
 //!   property uchar red                         one value
-//!   property list uchar int vertex_indices     its length, then as many values
+//!   property list uchar int vertex_indices     a count, then as many values
 //! end_header
 //! ```
 //!
-//! Version 1.0 is the only one there is; a file of another is refused. A line
-//! that begins with none of these words is left out with a warning, since some
-//! exporters forget `comment`; a statement that cannot be understood is an
-//! error, as all behind it would be read wrongly.
+//! Version 1.0 is the only one; others are refused. A line that begins with another
+//! word is left out with a warning, because some exporters forget `comment`. A
+//! malformed statement is an error, because the rows would be read wrongly.
 
 use super::super::error::{ReadError, ReadErrorKind};
 use super::super::source::Source;
@@ -24,26 +23,26 @@ use super::super::words::{Words, quoted};
 use super::scalar::Scalar;
 use crate::report::{Place, Report, WarningCode};
 
-/// Elements that become a part of the model, so that each may come only once.
+/// The elements that are read; each may come only once.
 const READ_ELEMENTS: [&[u8]; 4] = [b"vertex", b"face", b"tristrips", b"edge"];
 
-/// How the rows are written.
+/// How rows are encoded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Encoding {
-    /// As text, one row a line.
+    /// Text, one row a line.
     Ascii,
-    /// As bytes, the least significant one first.
+    /// Binary, least significant byte first.
     LittleEndian,
-    /// As bytes, the most significant one first.
+    /// Binary, most significant byte first.
     BigEndian,
 }
 
-/// What a file announces.
+/// The header of a file.
 #[derive(Debug)]
 pub(super) struct Header<'a> {
-    /// How the rows are written.
+    /// The encoding of the rows.
     pub(super) encoding: Encoding,
-    /// The kinds of rows, in the order in which they follow the header.
+    /// The elements, in the order of their rows.
     pub(super) elements: Vec<Element<'a>>,
     /// The offset of the first row in bytes.
     pub(super) end: usize,
@@ -51,23 +50,23 @@ pub(super) struct Header<'a> {
     pub(super) end_line: u32,
 }
 
-/// A kind of row.
+/// A kind of row, such as a vertex.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Element<'a> {
-    /// Its name, as `vertex`.
+    /// Its name, such as `vertex`.
     pub(super) name: &'a [u8],
-    /// How many rows are announced; not to be believed.
+    /// The stated number of rows, which may be wrong.
     pub(super) count: u64,
-    /// What a row consists of.
+    /// The values of a row.
     pub(super) properties: Vec<Property<'a>>,
-    /// The line of the header that announces it.
+    /// Its line in the header.
     pub(super) line: u32,
 }
 
 /// A value or a list of values in a row.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Property<'a> {
-    /// Its name, as `x`.
+    /// Its name, such as `x`.
     pub(super) name: &'a [u8],
     /// The type of the value or values.
     pub(super) kind: Scalar,
@@ -78,8 +77,8 @@ pub(super) struct Property<'a> {
 /// Reads the header at the start of the file.
 ///
 /// # Errors
-/// Format for an unknown encoding or version, Syntax for a statement that
-/// breaks the rules, Truncated where `end_header` is missing.
+/// Format: not PLY, or an unknown encoding or version. Syntax: a malformed statement.
+/// Truncated: `end_header` is missing.
 pub(super) fn read_header<'a>(
     source: &Source<'a>,
     report: &mut Report,
@@ -87,7 +86,7 @@ pub(super) fn read_header<'a>(
     let words = Words::new(source.bytes, 0, 1);
     let mut reader = HeaderReader { source, words, encoding: None, elements: Vec::new() };
     if reader.words.end_line() != b"ply" {
-        let what = "does not begin with a line 'ply': no PLY file";
+        let what = "does not begin with a line 'ply', so it is not a PLY file";
         return Err(source.error(ReadErrorKind::Format, Some(Place::Line(1)), what));
     }
     while reader.statement(report)? {}
@@ -99,10 +98,10 @@ pub(super) fn read_header<'a>(
     Ok(Header { encoding, elements: reader.elements, end, end_line })
 }
 
-/// Where the first row begins, given the offset of the line behind the header.
+/// The offset of the first row, given that of the line after the header.
 ///
-/// Where lines end in a return alone, a line feed behind the last one is the
-/// first byte of the rows.
+/// If lines end with CR alone, a line feed after the header is the first byte of the
+/// rows.
 fn end_of_header(bytes: &[u8], end: usize) -> usize {
     let ends_in_return = matches!(bytes, [b'p', b'l', b'y', b'\r', next, ..] if *next != b'\n');
     match bytes.get(..end) {
@@ -119,12 +118,12 @@ struct HeaderReader<'s, 'a> {
 }
 
 impl<'a> HeaderReader<'_, 'a> {
-    /// Reads one line; false where it is the last one, whose end is not
-    /// stepped over.
+    /// Reads one line with its end; returns false at `end_header`, whose line end is
+    /// not read.
     fn statement(&mut self, report: &mut Report) -> Result<bool, ReadError> {
         match self.words.word() {
             None if self.words.left().is_empty() => {
-                let what = "the file ends in its header: 'end_header' is missing";
+                let what = "the file ends within its header: 'end_header' is missing";
                 return Err(self.error(ReadErrorKind::Truncated, what));
             }
             None | Some(b"comment" | b"obj_info") => {}
@@ -134,7 +133,10 @@ impl<'a> HeaderReader<'_, 'a> {
             Some(b"end_header") => return Ok(false),
             Some(word) => {
                 report.warn(WarningCode::Syntax, Some(Place::Line(self.words.line())), || {
-                    format!("no header line begins with {}; the line was left out", quoted(word))
+                    format!(
+                        "header lines do not begin with {}; the line was left out",
+                        quoted(word)
+                    )
                 });
             }
         }
@@ -150,10 +152,11 @@ impl<'a> HeaderReader<'_, 'a> {
             (b"binary_little_endian", b"1.0") => return Ok(Encoding::LittleEndian),
             (b"binary_big_endian", b"1.0") => return Ok(Encoding::BigEndian),
             (_, b"1.0") => format!(
-                "the encoding {} is not read: ascii, binary_little_endian, binary_big_endian are",
+                "the encoding {} is not supported; use ascii, binary_little_endian or \
+                 binary_big_endian",
                 quoted(encoding)
             ),
-            _ => format!("the version {} is not read: only 1.0 is", quoted(version)),
+            _ => format!("the version {} is not supported; use 1.0", quoted(version)),
         };
         Err(self.error(ReadErrorKind::Format, what))
     }
@@ -162,11 +165,11 @@ impl<'a> HeaderReader<'_, 'a> {
         let name = self.word("a name")?;
         let count = self.word("a count")?;
         let Some(count) = std::str::from_utf8(count).ok().and_then(|word| word.parse().ok()) else {
-            return Err(self.syntax(format!("{} is no count of rows", quoted(count))));
+            return Err(self.syntax(format!("{} is not a count of rows", quoted(count))));
         };
-        let is_twice = || self.elements.iter().any(|element| element.name == name);
-        if READ_ELEMENTS.contains(&name) && is_twice() {
-            return Err(self.syntax(format!("the element {} comes twice", quoted(name))));
+        let is_repeated = || self.elements.iter().any(|element| element.name == name);
+        if READ_ELEMENTS.contains(&name) && is_repeated() {
+            return Err(self.syntax(format!("the element {} occurs twice", quoted(name))));
         }
         let line = self.words.line();
         self.elements.push(Element { name, count, properties: Vec::new(), line });
@@ -182,7 +185,7 @@ impl<'a> HeaderReader<'_, 'a> {
             kind => (None, kind),
         };
         if length.is_some_and(Scalar::is_float) {
-            return Err(self.syntax("the length of a list cannot have fractions"));
+            return Err(self.syntax("the length of a list cannot be a float"));
         }
         let kind = self.scalar(kind)?;
         let name = self.word("a name")?;
@@ -194,8 +197,7 @@ impl<'a> HeaderReader<'_, 'a> {
     }
 
     fn scalar(&self, name: &[u8]) -> Result<Scalar, ReadError> {
-        Scalar::of_name(name)
-            .ok_or_else(|| self.syntax(format!("{} is no type of values", quoted(name))))
+        Scalar::of_name(name).ok_or_else(|| self.syntax(format!("{} is not a type", quoted(name))))
     }
 
     fn word(&mut self, what: &str) -> Result<&'a [u8], ReadError> {
@@ -238,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_begin_behind_one_end_of_line() {
+    fn rows_begin_after_one_line_end() {
         for (text, rows) in [
             ("ply\nformat ascii 1.0\nend_header\n\n", "\n"),
             ("ply\nformat ascii 1.0\nend_header\r\n\n", "\n"),
@@ -252,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_are_no_statements_are_left_out() {
+    fn lines_that_are_not_statements_are_left_out() {
         let text = "ply\nformat ascii 1.0\nmade by hand\n\nwith care\nend_header\n";
         let mut report = Report::default();
         header(text, &mut report).unwrap();
@@ -262,25 +264,25 @@ mod tests {
     }
 
     #[test]
-    fn statements_that_are_not_understood_are_errors_with_their_line() {
+    fn malformed_statements_are_errors_with_their_line() {
         use ReadErrorKind::{Format, Syntax, Truncated};
         for (lines, kind, line, what) in [
-            ("format ascii 9.9", Format, 2, "the version '9.9' is not read"),
-            ("format binary 1.0", Format, 2, "the encoding 'binary' is not read"),
+            ("format ascii 9.9", Format, 2, "the version '9.9' is not supported"),
+            ("format binary 1.0", Format, 2, "the encoding 'binary' is not supported"),
             ("format ascii", Syntax, 2, "ends before a version"),
             ("element face 1\nend_header", Syntax, 3, "no line 'format'"),
             ("element", Syntax, 2, "ends before a name"),
             ("element vertex", Syntax, 2, "ends before a count"),
-            ("element vertex -1", Syntax, 2, "'-1' is no count"),
-            ("element vertex 1e3", Syntax, 2, "'1e3' is no count"),
-            ("element vertex 99999999999999999999", Syntax, 2, "is no count"),
-            ("element face 1\nelement face 2", Syntax, 3, "'face' comes twice"),
+            ("element vertex -1", Syntax, 2, "'-1' is not a count"),
+            ("element vertex 1e3", Syntax, 2, "'1e3' is not a count"),
+            ("element vertex 99999999999999999999", Syntax, 2, "is not a count"),
+            ("element face 1\nelement face 2", Syntax, 3, "'face' occurs twice"),
             ("property float x", Syntax, 2, "before the first element"),
-            ("element a 1\nproperty real x", Syntax, 3, "'real' is no type"),
+            ("element a 1\nproperty real x", Syntax, 3, "'real' is not a type"),
             ("element a 1\nproperty float", Syntax, 3, "ends before a name"),
             ("element a 1\nproperty list uchar", Syntax, 3, "ends before a type"),
-            ("element a 1\nproperty list list int x", Syntax, 3, "'list' is no type"),
-            ("element a 1\nproperty list float int x", Syntax, 3, "cannot have fractions"),
+            ("element a 1\nproperty list list int x", Syntax, 3, "'list' is not a type"),
+            ("element a 1\nproperty list float int x", Syntax, 3, "cannot be a float"),
             ("format ascii 1.0\nelement a 1", Truncated, 4, "'end_header' is missing"),
         ] {
             let text = format!("ply\n{lines}\n");

@@ -1,17 +1,16 @@
-//! PLY, as text and as bytes of both orders.
+//! PLY, text and binary in both byte orders.
 //!
 //! Source: G. Turk, *The PLY Polygon File Format* (1994), and what programs
-//! write today. The header describes rows of values; what they mean is only a
-//! convention of names, which [`elements`] has in tables. All that has no place
-//! there is stepped over: elements with a warning, since they may be geometry,
-//! single properties without one, as `confidence` or `alpha`.
+//! write today. The header describes rows of values; their meaning is a convention
+//! of names, which [`elements`] lists in tables. Unknown elements are skipped with a
+//! warning, because they may be geometry; unknown properties, such as `confidence`
+//! or `alpha`, without one.
 //!
 //! ```text
-//! header --> elements, each a Plan --> rows: text or binary --> elements --> Model
+//! header --> elements, each with a RowPlan --> rows: text or binary --> elements --> Model
 //! ```
 //!
-//! A file that ends too early is an error: what is missing is named somewhere
-//! in what is there, as faces name vertices.
+//! A truncated file is an error, because faces name vertices that may be missing.
 
 mod binary;
 mod elements;
@@ -32,13 +31,12 @@ use super::source::Source;
 use crate::model::Model;
 use crate::report::Report;
 
-/// Reads a PLY file: polygons, triangle strips, and the edges that it lists.
+/// Reads a PLY file: polygons, triangle strips and edges.
 ///
 /// # Errors
-/// Format: no PLY file of version 1.0. Syntax: a header or row that breaks the
-/// rules. Number: a word that is no number. Index: a vertex that is not there.
-/// Truncated: fewer bytes than are announced. Size: more elements than can be
-/// named.
+/// Format: not PLY 1.0. Syntax: the header or a row breaks the rules. Number: a word
+/// is not a number. Index: a vertex does not exist. Truncated: the file is shorter
+/// than its header states. Size: too many elements.
 pub(super) fn read_ply(source: &Source, report: &mut Report) -> Result<Model, ReadError> {
     let header = read_header(source, report)?;
     match header.encoding {

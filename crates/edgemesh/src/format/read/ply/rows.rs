@@ -1,8 +1,7 @@
-//! Rows of values, whichever way they are written.
+//! Rows of values, in text or binary.
 //!
-//! A [`Plan`] says what becomes of each property; the two encodings follow it
-//! and fill a [`Row`]. So what the values mean is written once, and neither
-//! encoding knows it.
+//! A [`RowPlan`] maps each property to its place in a [`Row`]. Both encodings follow
+//! it, so that neither knows what the values mean.
 //!
 //! ```text
 //! properties  x  y  confidence  z    and    red  vertex_indices
@@ -20,50 +19,50 @@ use super::scalar::Scalar;
 use crate::index::MAX_INDEX;
 use crate::report::{Place, Report};
 
-/// The most values of a row that anyone asks for: those of a vertex.
+/// The most values that are read of a row: those of a vertex.
 pub(super) const SLOTS: usize = 11;
 
-/// What becomes of the properties of an element.
+/// Where the properties of an element go.
 #[derive(Debug)]
-pub(super) struct Plan<'e> {
+pub(super) struct RowPlan<'e> {
     /// The element.
     pub(super) element: &'e Element<'e>,
-    /// One step a property.
+    /// One step for each property.
     pub(super) steps: Vec<Step>,
-    /// The type of the value in each slot; `None` where there is none.
+    /// The type of the value in each slot; `None` if the element has none.
     pub(super) slots: [Option<Scalar>; SLOTS],
-    /// Whether one of the lists is kept.
+    /// Whether the element has a list that is kept.
     pub(super) has_list: bool,
 }
 
-/// What becomes of one property.
+/// How one property is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Step {
-    /// A value, which goes to a slot or nowhere.
+    /// A value, stored in a slot or skipped.
     Value { kind: Scalar, slot: Option<usize> },
-    /// A list, which is kept or not.
+    /// A list, kept or skipped.
     List { length: Scalar, kind: Scalar, is_kept: bool },
 }
 
-/// What a row said.
+/// The values of a row.
 #[derive(Debug, Default)]
 pub(super) struct Row {
-    /// The values by slot; meaningless where the element has none for it.
+    /// The values by slot; undefined for slots without a property.
     pub(super) values: [f64; SLOTS],
-    /// The values of the list that is kept.
+    /// The values of the kept list.
     pub(super) list: Vec<f64>,
 }
 
-impl<'e> Plan<'e> {
-    /// Gives each value the slot whose names hold its own, and keeps the list
-    /// that `list_names` hold; where two would do, the first one counts.
+impl<'e> RowPlan<'e> {
+    /// Gives each property the slot that lists its name in `slot_names`, and keeps the
+    /// list whose name is in `list_names`. Of several such properties the first counts.
     pub(super) fn new(
         element: &'e Element<'e>,
         slot_names: &[&[&str]],
         list_names: &[&str],
     ) -> Self {
         let mut plan = Self { element, steps: Vec::new(), slots: [None; SLOTS], has_list: false };
-        let holds = |names: &[&str], name: &[u8]| names.iter().any(|own| own.as_bytes() == name);
+        let holds = |names: &[&str], name: &[u8]| names.iter().any(|one| one.as_bytes() == name);
         for property in &element.properties {
             let kind = property.kind;
             plan.steps.push(match property.length {
@@ -85,39 +84,39 @@ impl<'e> Plan<'e> {
         plan
     }
 
-    /// Whether the element has values for all these slots.
+    /// Whether the element has values for all of `slots`.
     pub(super) fn has(&self, slots: Range<usize>) -> bool {
         self.slots[slots].iter().all(Option::is_some)
     }
 }
 
-/// The rows of a file, in turn.
+/// The rows of a file, in their order.
 pub(super) trait Rows {
-    /// Gets ready for the rows of `plan`.
+    /// Prepares for the rows of `plan`.
     ///
     /// # Errors
-    /// Truncated, where the bytes that are left cannot hold as many rows as are
-    /// announced; behind this, memory may be reserved for them.
-    fn begin(&mut self, plan: &Plan) -> Result<(), ReadError>;
+    /// Truncated: the remaining bytes cannot hold all rows. After this check, memory
+    /// may be reserved for them.
+    fn begin(&mut self, plan: &RowPlan) -> Result<(), ReadError>;
 
     /// Reads the next row.
     ///
     /// # Errors
-    /// Truncated at the end of the file; Syntax and Number, where text is no
-    /// row of the element.
-    fn read(&mut self, plan: &Plan, row: &mut Row, report: &mut Report) -> Result<(), ReadError>;
+    /// Truncated: the file ends. Syntax, Number: the text is not a row of the element.
+    fn read(&mut self, plan: &RowPlan, row: &mut Row, report: &mut Report)
+    -> Result<(), ReadError>;
 
-    /// Where the row stands that was read last.
+    /// The place of the last row that was read.
     fn place(&self) -> Place;
 
-    /// Its line; 0 where rows are no lines.
+    /// The line of that row; 0 in binary files.
     fn line(&self) -> u32;
 
-    /// Where something stands behind the last row; `None` where nothing does.
+    /// The place of the first content after the last row, if there is any.
     fn first_unread(&mut self) -> Option<Place>;
 }
 
-/// Checks that rows that take `needed` bytes at least fit into those `left`.
+/// Checks that the rows of `element`, at least `needed` bytes, fit into `left` bytes.
 pub(super) fn check_room(
     source: &Source,
     place: Place,
@@ -130,28 +129,29 @@ pub(super) fn check_room(
     }
     let what = format!(
         "{} rows of {} need at least {needed} bytes, but {left} are left; \
-         the file was cut off, or its header is wrong",
+         the file is truncated, or its header is wrong",
         element.count,
         quoted(element.name)
     );
     Err(source.error(ReadErrorKind::Truncated, Some(place), what))
 }
 
-/// The error for a file that ends in row `row` of `element`.
-pub(super) fn cut_off(source: &Source, place: Place, element: &Element, row: u64) -> ReadError {
+/// The error of a file that ends in row `row` of `element`.
+pub(super) fn truncated(source: &Source, place: Place, element: &Element, row: u64) -> ReadError {
     let name = quoted(element.name);
-    let what = format!("the file ends in row {row} of {} of {name}; it was cut off", element.count);
+    let what =
+        format!("the file is truncated: it ends in row {row} of {} of {name}", element.count);
     source.error(ReadErrorKind::Truncated, Some(place), what)
 }
 
-/// The length of a list.
+/// The length of a list as a count.
 ///
 /// # Errors
-/// Syntax, where `length` is no count, or one too large to be named.
+/// Syntax: `length` is not a whole number from 0 to [`MAX_INDEX`].
 pub(super) fn list_length(source: &Source, place: Place, length: f64) -> Result<usize, ReadError> {
     let is_count = length.fract() == 0.0 && (0.0..=MAX_INDEX as f64).contains(&length);
     if !is_count {
-        let what = format!("a list of {length} values; lists have from 0 to {MAX_INDEX}");
+        let what = format!("a list has {length} values; lists have from 0 to {MAX_INDEX}");
         return Err(source.error(ReadErrorKind::Syntax, Some(place), what));
     }
     #[expect(clippy::cast_possible_truncation, reason = "at most MAX_INDEX")]

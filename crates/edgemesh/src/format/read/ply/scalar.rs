@@ -1,7 +1,7 @@
 //! The eight number types of PLY.
 //!
-//! All of them fit into 64-bit floats exactly, so that is what every value
-//! becomes, and what uses it need not know its type.
+//! A 64-bit float holds the values of all of them exactly, so every value becomes
+//! one.
 
 /// The type of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,7 +25,7 @@ pub(super) enum Scalar {
 }
 
 impl Scalar {
-    /// The type that a header calls `name`, in the old way or the new one.
+    /// The type with this name in a header; each type has an old and a new name.
     pub(super) fn of_name(name: &[u8]) -> Option<Self> {
         Some(match name {
             b"char" | b"int8" => Self::I8,
@@ -40,7 +40,7 @@ impl Scalar {
         })
     }
 
-    /// Bytes of a value in a binary file.
+    /// The bytes of a value in a binary file.
     pub(super) const fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -50,15 +50,15 @@ impl Scalar {
         }
     }
 
-    /// Whether values may have fractions.
+    /// Whether it is a floating-point type.
     pub(super) const fn is_float(self) -> bool {
         matches!(self, Self::F32 | Self::F64)
     }
 
-    /// What a colour of this type is divided by, so that full is 1.
+    /// The value of a full color channel.
     ///
-    /// Programs that write colours as `int` mean the range of a byte, too.
-    pub(super) const fn full_color(self) -> f64 {
+    /// Programs that write colors as `int` use the range of a byte.
+    pub(super) const fn color_maximum(self) -> f64 {
         match self {
             Self::F32 | Self::F64 => 1.0,
             Self::I16 | Self::U16 => 65535.0,
@@ -66,7 +66,7 @@ impl Scalar {
         }
     }
 
-    /// The value at the start of `bytes`; `None` where they are too few.
+    /// The value at the start of `bytes`; `None` if they are too few.
     #[inline]
     pub(super) fn decode(self, bytes: &[u8], is_big_endian: bool) -> Option<f64> {
         Some(match self {
@@ -82,7 +82,7 @@ impl Scalar {
     }
 }
 
-/// The first `N` bytes, the least significant one first.
+/// The first `N` bytes, reordered to little-endian.
 #[inline]
 fn first<const N: usize>(bytes: &[u8], is_big_endian: bool) -> Option<[u8; N]> {
     let mut chunk = *bytes.first_chunk::<N>()?;

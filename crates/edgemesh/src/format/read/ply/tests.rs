@@ -1,4 +1,4 @@
-//! Whole small files in all three encodings.
+//! Small files in all three encodings.
 
 use super::*;
 use crate::format::read::error::ReadErrorKind;
@@ -10,13 +10,13 @@ fn read(bytes: &[u8], report: &mut Report) -> Result<Model, ReadError> {
     read_ply(&Source { name: "test", folder: None, bytes }, report)
 }
 
-/// A file in text with these lines of header and rows.
+/// A text file with these header lines and rows.
 fn ascii(header: &str, rows: &str) -> Vec<u8> {
     format!("ply\nformat ascii 1.0\n{header}\nend_header\n{rows}").into_bytes()
 }
 
-/// A file in bytes, given its header and the bytes of its values, the least
-/// significant one first.
+/// A binary file with this header, and with values whose bytes are given in
+/// little-endian order.
 fn binary(header: &str, is_big_endian: bool, values: &[&[u8]]) -> Vec<u8> {
     let order = if is_big_endian { "big" } else { "little" };
     let head = format!("ply\nformat binary_{order}_endian 1.0\n{header}\nend_header\n");
@@ -38,7 +38,7 @@ fn positions_of_square() -> [[f64; 3]; 4] {
     [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]]
 }
 
-/// The file of `rows` behind a header of four vertices and two faces.
+/// A text file with four vertices and two faces; `rows` are those of the faces.
 fn square(rows: &str) -> Vec<u8> {
     ascii(&format!("{VERTICES}\n{FACES}"), &format!("{SQUARE}{rows}"))
 }
@@ -58,7 +58,7 @@ fn polygons_keep_their_corners_and_lines() {
     assert_eq!((model.corner_positions.len(), &model.polygon_lines[..]), (7, &[14, 16][..]));
 }
 
-/// Every type, a list to skip, and faces before their vertices.
+/// Every type, a list to skip, and faces before vertices.
 const MIXED: &str = "element note 1\nproperty list ushort double words\nproperty char end\n\
     element face 1\nproperty uchar kind\nproperty list uint short vertex_index\n\
     property list char ushort other\n\
@@ -73,7 +73,7 @@ fn check_mixed(bytes: &[u8], face: Place) {
     let [warning] = report.warnings() else { panic!("{report:?}") };
     assert_eq!((warning.code, warning.count), (WarningCode::Unsupported, 1));
     assert_eq!(warning.place, Some(Place::Line(3)));
-    assert!(warning.message.contains("'note' is not known"), "{}", warning.message);
+    assert!(warning.message.contains("'note' is unknown"), "{}", warning.message);
 }
 
 #[test]
@@ -122,14 +122,14 @@ fn vertices_bring_normals_colors_and_texture_coordinates() {
     let model = read(&ascii(header, rows), &mut Report::default()).unwrap();
     assert_eq!(model.normals, [[0., 0., 2.], [0., 0., 3.], [0., 0., -1.]]);
     assert_eq!(model.colors, [[1., 0., 0.5], [0.2, 1., 2.], [0., 0.2, 0.]]);
-    assert_eq!(model.texcoords, [[0., 1.], [0.25, 0.], [1., 1.]], "s goes before u");
+    assert_eq!(model.texcoords, [[0., 1.], [0.25, 0.], [1., 1.]], "s comes before u");
     assert_eq!(model.corner_positions, [2, 0, 1]);
     assert_eq!(model.corner_normals, [2, 0, 1]);
     assert_eq!(model.corner_texcoords, [2, 0, 1]);
 }
 
 #[test]
-fn halves_of_attributes_are_none() {
+fn incomplete_attributes_are_ignored() {
     let header = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
         property float nx\nproperty float ny\nproperty uchar red\nproperty float u\n\
         element face 1\nproperty list uchar int vertex_indices";
@@ -140,7 +140,7 @@ fn halves_of_attributes_are_none() {
 }
 
 #[test]
-fn strips_become_triangles_that_wind_one_way() {
+fn strips_become_triangles_with_one_winding() {
     let header = format!("{VERTICES}\nelement tristrips 2\nproperty list int int vertex_indices");
     let rows = format!("{SQUARE}9 0 1 3 2 -1 3 2 1 -1\n5 -1 0 1 1 2\n");
     let mut report = Report::default();
@@ -164,7 +164,7 @@ fn edges_are_segments() {
 }
 
 #[test]
-fn what_is_too_much_is_left_out_with_a_warning() {
+fn surplus_content_is_left_out_with_a_warning() {
     use WarningCode::{Degenerate, Syntax, Unsupported};
     let no_list = FACES.replace("vertex_indices", "corners");
     let no_ends = "element edge 1\nproperty int vertex1";
@@ -183,25 +183,25 @@ fn what_is_too_much_is_left_out_with_a_warning() {
     }
     let mut report = Report::default();
     read(&square("3 0 1 2\n3 0 1 3\n\n \r\n"), &mut report).unwrap();
-    assert!(report.warnings().is_empty(), "blanks at the end are nothing");
+    assert!(report.warnings().is_empty(), "blanks at the end are ignored");
 }
 
 #[test]
 fn errors_of_text_have_their_line() {
     use ReadErrorKind::{Index, Number, Syntax, Truncated};
     for (rows, kind, line, what) in [
-        ("3 0 1 -1\n3 0 1 2\n", Index, 14, "vertex -1 is named, counted from 0, of 4"),
-        ("3 0 1 2\n3 0 1 4\n", Index, 15, "vertex 4 is named"),
-        ("3 0 1 1.5\n3 0 1 2\n", Index, 14, "vertex 1.5"),
-        ("3 0 1 nan\n3 0 1 2\n", Index, 14, "vertex NaN"),
-        ("3 0 1 two\n3 0 1 2\n", Number, 14, "'two' is no number"),
-        ("3 0 1\n3 0 1 2\n", Syntax, 14, "row 1 of 'face' has fewer values"),
-        ("-3 0 1\n3 0 1 2\n", Syntax, 14, "a list of -3 values"),
-        ("1e300 0\n3 0 1 2\n", Syntax, 14, "a list of 1000000"),
-        ("1.5 0\n3 0 1 2\n", Syntax, 14, "a list of 1.5 values"),
-        ("nan 0\n3 0 1 2\n", Syntax, 14, "a list of NaN values"),
-        ("3 0 1 2\n", Truncated, 15, "the file ends in row 2 of 2 of 'face'"),
-        ("3 0 1 2\n3 0 1", Truncated, 15, "the file ends in row 2 of 2 of 'face'"),
+        ("3 0 1 -1\n3 0 1 2\n", Index, 14, "index -1 is not one of 4 vertices"),
+        ("3 0 1 2\n3 0 1 4\n", Index, 15, "index 4 is not"),
+        ("3 0 1 1.5\n3 0 1 2\n", Index, 14, "index 1.5"),
+        ("3 0 1 nan\n3 0 1 2\n", Index, 14, "index NaN"),
+        ("3 0 1 two\n3 0 1 2\n", Number, 14, "'two' is not a number"),
+        ("3 0 1\n3 0 1 2\n", Syntax, 14, "row 1 of 'face' has too few values"),
+        ("-3 0 1\n3 0 1 2\n", Syntax, 14, "a list has -3 values"),
+        ("1e300 0\n3 0 1 2\n", Syntax, 14, "a list has 1000000"),
+        ("1.5 0\n3 0 1 2\n", Syntax, 14, "a list has 1.5 values"),
+        ("nan 0\n3 0 1 2\n", Syntax, 14, "a list has NaN values"),
+        ("3 0 1 2\n", Truncated, 15, "ends in row 2 of 2 of 'face'"),
+        ("3 0 1 2\n3 0 1", Truncated, 15, "ends in row 2 of 2 of 'face'"),
         ("", Truncated, 14, "2 rows of 'face' need at least 3 bytes, but 0 are left"),
     ] {
         let error = read(&square(rows), &mut Report::default()).unwrap_err();
@@ -221,13 +221,13 @@ fn errors_of_bytes_have_their_offset() {
     let file = |values: &[u8]| binary(header, false, &[values]);
     let start = file(&[]).len() as u64;
     for (values, kind, at, what) in [
-        (&[0, 0, 0, 3, 0, 0, 1, 0][..], Index, 3, "vertex 1 is named"),
-        (&[0, 0, 0, 0, 3, 0, 0, 255], Index, 4, "vertex -1 is named"),
-        (&[0, 0, 0, 0, 255], Syntax, 4, "a list of -1 values"),
+        (&[0, 0, 0, 3, 0, 0, 1, 0][..], Index, 3, "index 1 is not"),
+        (&[0, 0, 0, 0, 3, 0, 0, 255], Index, 4, "index -1 is not"),
+        (&[0, 0, 0, 0, 255], Syntax, 4, "a list has -1 values"),
         (&[0, 0], Truncated, 0, "1 rows of 'vertex' need at least 3 bytes, but 2 are left"),
         (&[0, 0, 0, 9], Truncated, 3, "2 rows of 'face' need at least 2 bytes"),
-        (&[0, 0, 0, 3, 0, 0, 0, 2, 0], Truncated, 7, "the file ends in row 2 of 2 of 'face'"),
-        (&[0, 0, 0, 4, 0, 0, 0], Truncated, 3, "the file ends in row 1 of 2 of 'face'"),
+        (&[0, 0, 0, 3, 0, 0, 0, 2, 0], Truncated, 7, "ends in row 2 of 2 of 'face'"),
+        (&[0, 0, 0, 4, 0, 0, 0], Truncated, 3, "ends in row 1 of 2 of 'face'"),
     ] {
         let error = read(&file(values), &mut Report::default()).unwrap_err();
         let place = Some(Place::Byte(start + at));
@@ -242,7 +242,7 @@ fn errors_of_bytes_have_their_offset() {
 }
 
 #[test]
-fn counts_are_not_believed() {
+fn stated_counts_are_checked() {
     let huge = "element vertex 18446744073709551615\nproperty float x\nproperty float y\n\
         property float z";
     let no_values = "element nothing 18446744073709551615";

@@ -1,32 +1,32 @@
-//! Rows as text: one row a line, values between blanks.
+//! Text rows: one row a line, with blanks between the values.
 //!
-//! The rule is strict where a row is too short, since the values behind a
-//! missing one would all move, and lenient where it is too long: what is behind
-//! the last value is left out with a warning. Empty lines do not count.
+//! A row that is too short is an error, because the values after a missing one
+//! would shift. Text after the last value is left out with a warning. Empty lines
+//! are skipped.
 //!
-//! Rejected: rows that go on in the next line, as the C library reads them. A
-//! row without its last value would then take one from the next.
+//! Rejected: rows that continue in the next line, as the original C library reads
+//! them. A row without its last value would then take one from the next row.
 
 use super::super::error::{ReadError, ReadErrorKind};
 use super::super::source::Source;
 use super::super::words::{Words, quoted};
 use super::header::Header;
-use super::rows::{Plan, Row, Rows, Step, check_room, cut_off, list_length};
+use super::rows::{Row, RowPlan, Rows, Step, check_room, list_length, truncated};
 use crate::report::{Place, Report, WarningCode};
 
-/// The rows of a file in text.
+/// The rows of a text file.
 #[derive(Debug)]
 pub(super) struct TextRows<'s, 'a> {
     source: &'s Source<'a>,
     words: Words<'a>,
-    /// Rows of this element so far.
+    /// The number of rows of this element so far.
     row: u64,
     /// The line of the last row.
     line: u32,
 }
 
 impl<'s, 'a> TextRows<'s, 'a> {
-    /// The rows behind `header`.
+    /// The rows after `header`.
     pub(super) const fn new(source: &'s Source<'a>, header: &Header) -> Self {
         let words = Words::new(source.bytes, header.end, header.end_line);
         Self { source, words, row: 0, line: header.end_line }
@@ -34,19 +34,19 @@ impl<'s, 'a> TextRows<'s, 'a> {
 
     /// The next value of the row.
     #[inline]
-    fn number(&mut self, plan: &Plan) -> Result<f64, ReadError> {
+    fn number(&mut self, plan: &RowPlan) -> Result<f64, ReadError> {
         match self.words.number() {
             Some(Ok(number)) => Ok(number),
             Some(Err(word)) => {
-                let what = format!("{} is no number", quoted(word));
+                let what = format!("{} is not a number", quoted(word));
                 Err(self.source.error(ReadErrorKind::Number, Some(self.place()), what))
             }
             None => Err(self.too_short(plan)),
         }
     }
 
-    /// Reads a list, or steps over it.
-    fn list(&mut self, plan: &Plan, list: Option<&mut Vec<f64>>) -> Result<(), ReadError> {
+    /// Reads a list into `list`, or skips it.
+    fn list(&mut self, plan: &RowPlan, list: Option<&mut Vec<f64>>) -> Result<(), ReadError> {
         let length = self.number(plan)?;
         let length = list_length(self.source, self.place(), length)?;
         let Some(list) = list else {
@@ -59,33 +59,38 @@ impl<'s, 'a> TextRows<'s, 'a> {
         Ok(())
     }
 
-    /// Steps over the next value of the row, which need be no number.
-    fn skip_value(&mut self, plan: &Plan) -> Result<(), ReadError> {
+    /// Skips the next value of the row, which need not be a number.
+    fn skip_value(&mut self, plan: &RowPlan) -> Result<(), ReadError> {
         self.words.word().map(|_| ()).ok_or_else(|| self.too_short(plan))
     }
 
     #[cold]
-    fn too_short(&self, plan: &Plan) -> ReadError {
+    fn too_short(&self, plan: &RowPlan) -> ReadError {
         if self.words.left().is_empty() {
-            return cut_off(self.source, self.place(), plan.element, self.row);
+            return truncated(self.source, self.place(), plan.element, self.row);
         }
         let name = quoted(plan.element.name);
-        let what = format!("row {} of {name} has fewer values than it should", self.row);
+        let what = format!("row {} of {name} has too few values", self.row);
         self.source.error(ReadErrorKind::Syntax, Some(self.place()), what)
     }
 }
 
 impl Rows for TextRows<'_, '_> {
-    fn begin(&mut self, plan: &Plan) -> Result<(), ReadError> {
+    fn begin(&mut self, plan: &RowPlan) -> Result<(), ReadError> {
         self.row = 0;
         self.line = self.words.line();
-        // A digit and a blank or the end of the line, which the last may lack.
+        // A digit and a blank or line end, which the last value may lack.
         let row_bytes = 2 * plan.steps.len() as u64;
         let needed = plan.element.count.saturating_mul(row_bytes).saturating_sub(1);
         check_room(self.source, self.place(), plan.element, needed, self.words.left().len())
     }
 
-    fn read(&mut self, plan: &Plan, row: &mut Row, report: &mut Report) -> Result<(), ReadError> {
+    fn read(
+        &mut self,
+        plan: &RowPlan,
+        row: &mut Row,
+        report: &mut Report,
+    ) -> Result<(), ReadError> {
         self.words.skip_space();
         self.row += 1;
         self.line = self.words.line();
@@ -102,7 +107,7 @@ impl Rows for TextRows<'_, '_> {
         if !rest.is_empty() {
             report.warn(WarningCode::Syntax, Some(self.place()), || {
                 let name = quoted(plan.element.name);
-                format!("{} behind the last value of {name} was left out", quoted(rest))
+                format!("{} after the last value of {name} was left out", quoted(rest))
             });
         }
         Ok(())

@@ -1,4 +1,4 @@
-//! STL as bytes, the least significant one first.
+//! Binary STL, little-endian.
 //!
 //! ```text
 //! 0      80 84                 134
@@ -6,9 +6,8 @@
 //!            '-> normal, 3 corners: 12 floats; attribute: 2 bytes
 //! ```
 //!
-//! The count `n` is held against the size: of the two, the smaller one holds,
-//! with a warning where they differ. Facets in the bytes behind the last one
-//! that is counted cannot be told from other data.
+//! If the count `n` and the size of the file disagree, the smaller counts, with a
+//! warning: bytes after the last counted facet may be anything.
 
 use rayon::prelude::*;
 
@@ -24,11 +23,11 @@ const HEAD_BYTES: usize = 84;
 /// Bytes of a facet.
 const FACET_BYTES: usize = 50;
 
-/// Facets that are worth another thread.
+/// The least number of facets for another thread.
 const FACETS_A_THREAD: usize = 1 << 14;
 
-/// Whether a file of `size` bytes that begins with `head` is a binary one by its
-/// own count of facets: the one mark that such files have.
+/// Whether `size`, in bytes, is that of a binary STL file whose first bytes are
+/// `head`: the format has no signature but its count of facets.
 pub(in crate::format::read) fn size_fits(head: &[u8], size: u64) -> bool {
     let needed = |count| HEAD_BYTES as u64 + FACET_BYTES as u64 * u64::from(count);
     count(head).is_some_and(|count| size == needed(count))
@@ -41,41 +40,41 @@ fn count(bytes: &[u8]) -> Option<u32> {
 /// Reads a binary file.
 ///
 /// # Errors
-/// Empty, where the count is 0; Truncated, where not one facet is whole.
+/// Empty: the count is 0. Truncated: the first facet is incomplete.
 pub(super) fn read_binary(source: &Source, report: &mut Report) -> Result<Model, ReadError> {
     let error = |kind, place, what| Err(source.error(kind, Some(Place::Byte(place)), what));
     let size = source.bytes.len();
     let Some(count) = count(source.bytes) else {
-        let what = format!("{size} bytes are no text STL, and too few for a binary one");
+        let what = format!("{size} bytes are too few for binary STL, and not text STL");
         return error(ReadErrorKind::Truncated, size as u64, what);
     };
-    let behind_head = source.bytes.get(HEAD_BYTES..).unwrap_or_default();
-    let (facets, _) = behind_head.as_chunks::<FACET_BYTES>();
+    let body = source.bytes.get(HEAD_BYTES..).unwrap_or_default();
+    let (facets, _) = body.as_chunks::<FACET_BYTES>();
     let whole = facets.len();
     if count == 0 {
-        let what = format!("the count of triangles is 0, in a file with room for {whole}");
+        let what = format!("the count of triangles is 0 in a file with room for {whole}");
         return error(ReadErrorKind::Empty, HEAD_BYTES as u64 - 4, what);
     }
     if whole == 0 {
-        let what = format!("the file was cut off: no triangle of {count} is whole");
+        let what = format!("the file is truncated: none of {count} triangles is complete");
         return error(ReadErrorKind::Truncated, size as u64, what);
     }
     let facets = facets.get(..count as usize).unwrap_or(facets);
-    let rest = behind_head.get(facets.len() * FACET_BYTES..).unwrap_or_default();
+    let rest = body.get(facets.len() * FACET_BYTES..).unwrap_or_default();
     let is_blank = |byte: &u8| *byte == 0 || byte.is_ascii_whitespace();
     if count as usize > whole || !rest.iter().all(is_blank) {
         let place = Place::Byte((size - rest.len()) as u64);
         report.warn(WarningCode::Truncated, Some(place), || {
             format!(
-                "{count} triangles are counted, but there is room for {whole}; {} were read",
-                facets.len()
+                "the stated number of triangles is {count}, and the file has room for {whole}; \
+                 the smaller number was read"
             )
         });
     }
     Ok(model_of(facets))
 }
 
-/// At most 4 GiB of facets: corners stay below [`crate::index::MAX_INDEX`].
+/// The facets of 4 GiB have fewer corners than [`crate::index::MAX_INDEX`].
 fn model_of(facets: &[[u8; FACET_BYTES]]) -> Model {
     let triangles: Vec<[[f64; 3]; 3]> =
         facets.par_iter().with_min_len(FACETS_A_THREAD).map(corners).collect();
@@ -85,7 +84,7 @@ fn model_of(facets: &[[u8; FACET_BYTES]]) -> Model {
 }
 
 fn corners(facet: &[u8; FACET_BYTES]) -> [[f64; 3]; 3] {
-    // The normal is three of these, and the attribute stays behind them.
+    // Three floats of normal, nine of corners; two bytes of attribute remain.
     let floats = facet.as_chunks::<4>().0;
     let coordinate = |at: usize| f64::from(f32::from_le_bytes(floats[at]));
     [3, 6, 9].map(|at| [at, at + 1, at + 2].map(coordinate))
@@ -95,7 +94,7 @@ fn corners(facet: &[u8; FACET_BYTES]) -> [[f64; 3]; 3] {
 mod tests {
     use super::*;
 
-    /// A file that states `count` and has `facets`, whose corners have the
+    /// A file with the count `count` and with `facets` facets, whose corners have the
     /// coordinates 1 to 9 and whose normals are NaN.
     fn file(count: u32, facets: usize) -> Vec<u8> {
         let mut bytes = vec![b'x'; 80];
@@ -113,18 +112,18 @@ mod tests {
     }
 
     #[test]
-    fn facets_are_three_corners_of_their_own() {
+    fn every_facet_has_its_own_three_vertices() {
         let mut report = Report::default();
         let model = read(&file(2, 2), &mut report).unwrap();
         let triangle = [[1., 2., 3.], [4., 5., 6.], [7., 8., 9.]];
         assert_eq!(model.positions, [triangle, triangle].concat());
         assert_eq!(model.corner_positions, [0, 1, 2, 3, 4, 5]);
         assert_eq!((model.polygon_count(), model.is_triangles()), (2, true));
-        assert!(report.warnings().is_empty(), "normals and attributes are no matter");
+        assert!(report.warnings().is_empty(), "normals and attributes are ignored");
     }
 
     #[test]
-    fn the_smaller_of_count_and_size_holds() {
+    fn the_smaller_of_count_and_size_counts() {
         for (count, facets, cut, read_count, place) in
             [(3, 2, 0, 2, 184), (2, 2, 1, 1, 134), (1, 2, 0, 1, 134), (u32::MAX, 1, 0, 1, 134)]
         {
@@ -140,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn padding_is_no_matter() {
+    fn padding_is_ignored() {
         let mut report = Report::default();
         let padded = [file(1, 1), b"\0\0\r\n ".to_vec()].concat();
         assert_eq!(read(&padded, &mut report).unwrap().polygon_count(), 1);
@@ -148,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_whole_is_an_error() {
+    fn a_file_without_a_complete_facet_is_an_error() {
         use ReadErrorKind::{Empty, Truncated};
         let cut = |count, bytes| file(count, 1).get(..bytes).unwrap().to_vec();
         for (bytes, kind, place) in [
@@ -165,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn sizes_speak_for_counts() {
+    fn the_size_follows_from_the_count() {
         let fits = |bytes: &[u8]| size_fits(bytes, bytes.len() as u64);
         assert!(fits(&file(2, 2)) && fits(&file(0, 0)));
         assert!(!fits(&file(2, 1)) && !fits(&file(1, 2)));

@@ -1,19 +1,19 @@
-//! STL, as text and as bytes.
+//! STL, text and binary.
 //!
 //! Source: 3D Systems, *Stereolithography Interface Specification* (1988), and
-//! what programs write today. Neither form has shared vertices: each facet
-//! becomes three vertices of its own, and the builder welds them. Normals are
-//! left out, since they follow from the corners and are often wrong, and so is
-//! the attribute word, which some programs fill with a colour.
+//! what programs write today. Neither form shares vertices: each facet becomes
+//! three new vertices, which the builder welds. Normals are ignored, because they
+//! follow from the corners and are often wrong. So is the attribute word, which
+//! some programs fill with a color.
 //!
-//! Telling the forms apart by the word `solid` alone fails, as binary files may
-//! begin with it. So the size speaks first, and then whether there are zero
-//! bytes at the start, which no text has and every binary file:
+//! The word `solid` does not distinguish the forms: binary files may begin with it.
+//! So the size is checked first, then whether the start has zero bytes, which
+//! binary files have and text has not:
 //!
 //! ```text
 //! size = 84 + 50 * count                      binary
 //! no zero byte, and 'solid' or 'facet'        text
-//! all else                                    binary, with a wrong count
+//! otherwise                                   binary, with a wrong count
 //! ```
 
 mod binary;
@@ -27,16 +27,16 @@ use super::source::Source;
 use crate::model::Model;
 use crate::report::Report;
 
-/// How much of a file is looked at to tell the forms apart.
+/// The bytes that are examined to distinguish the forms.
 const HEAD_BYTES: usize = 1024;
 
-/// Reads an STL file; the solids of a text are groups by name.
+/// Reads an STL file; the named solids of a text file become groups.
 ///
-/// A file that ends too early gives the facets that are whole, with a warning.
+/// A truncated file gives its complete facets, with a warning.
 ///
 /// # Errors
-/// Empty: a count of no triangles. Truncated: not one whole triangle in a
-/// binary file. Number: a coordinate of a text is no number.
+/// Empty: the count of a binary file is 0. Truncated: a binary file has no complete
+/// facet. Number: a coordinate of a text file is not a number.
 pub(super) fn read_stl(source: &Source, report: &mut Report) -> Result<Model, ReadError> {
     if !size_fits(source.bytes, source.bytes.len() as u64) && is_text(source.bytes) {
         read_text(source, report)
@@ -56,7 +56,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn forms_are_told_apart() {
+    fn forms_are_distinguished() {
         let mut binary = b"solid facet".to_vec();
         binary.resize(84 + 50, b' ');
         binary[80..84].copy_from_slice(&1_u32.to_le_bytes());
@@ -70,6 +70,6 @@ mod tests {
         assert_eq!(counts(&binary), (1, 0), "by zero bytes");
         let facet = "Facet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\n";
         assert_eq!(counts(format!("\u{feff} SOLID\n{facet}").as_bytes()), (1, 1));
-        assert_eq!(counts(facet.as_bytes()), (1, 1), "no solid, but text");
+        assert_eq!(counts(facet.as_bytes()), (1, 1), "text without a solid");
     }
 }

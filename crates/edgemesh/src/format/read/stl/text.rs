@@ -1,11 +1,11 @@
-//! STL as text.
+//! Text STL.
 //!
-//! Words are read one by one, in any case and however they are spread over
-//! lines; only a name and the three numbers of a vertex end with their line.
+//! Words may be in upper or lower case, and on any line; only the name of a solid
+//! and the three numbers of a vertex end with their line.
 //!
 //! ```text
 //! solid NAME                      a group
-//!   facet normal 0 0 1            the normal is left out
+//!   facet normal 0 0 1            the normal is ignored
 //!     outer loop
 //!       vertex 0 0 0              three of them
 //!     endloop
@@ -13,13 +13,14 @@
 //! endsolid NAME
 //! ```
 //!
-//! A facet ends at `endfacet`, or where the next facet begins. At the end of
-//! the file an open one is dropped: its last number may have been cut.
-//! Rejected: facets of four vertices as quads, which the format does not have
-//! and nobody else reads so.
+//! A facet ends at `endfacet` or at the next `facet`. An open facet at the end of the
+//! file is dropped: its last number may be incomplete.
+//! Rejected: facets with four vertices as quads, which the format does not have and
+//! other programs do not read.
 
 use rustc_hash::FxHashMap;
 
+use super::super::byte_order_mark::without_mark;
 use super::super::error::{ReadError, ReadErrorKind};
 use super::super::source::Source;
 use super::super::words::{Words, quoted};
@@ -27,20 +28,20 @@ use crate::index::{NONE, to_u32};
 use crate::model::{Attributes, Corner, Model};
 use crate::report::{Place, Report, WarningCode};
 
-/// Words that the format knows.
+/// Keywords of the format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Keyword {
     Vertex,
     Facet,
     Normal,
-    /// `outer`, `loop` and `endloop`, which say nothing new.
+    /// `outer`, `loop` or `endloop`, which have no effect.
     Loop,
     EndFacet,
     Solid,
     EndSolid,
 }
 
-/// The words of each, the frequent ones first.
+/// The words, the frequent ones first.
 const KEYWORDS: [(&[u8], Keyword); 9] = [
     (b"vertex", Keyword::Vertex),
     (b"facet", Keyword::Facet),
@@ -56,9 +57,9 @@ const KEYWORDS: [(&[u8], Keyword); 9] = [
 /// Reads a text file.
 ///
 /// # Errors
-/// Number, where a vertex has not three numbers.
+/// Number: a vertex does not have three numbers.
 pub(super) fn read_text(source: &Source, report: &mut Report) -> Result<Model, ReadError> {
-    let start = if source.bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
+    let start = source.bytes.len() - without_mark(source.bytes).len();
     let mut reader = TextReader {
         source,
         report,
@@ -79,18 +80,18 @@ struct TextReader<'s, 'a> {
     report: &'s mut Report,
     words: Words<'a>,
     model: Model,
-    /// Index into the model's groups by name.
+    /// Indices of the model's groups, by name.
     groups: FxHashMap<&'a [u8], u32>,
-    /// The line of the solid that is open.
+    /// The line of the open solid.
     solid: Option<u32>,
-    /// The line of the facet that is open.
+    /// The line of the open facet.
     facet: Option<u32>,
-    /// The vertices of the facet so far.
+    /// The vertices of the open facet.
     corners: Vec<[f64; 3]>,
 }
 
 impl<'a> TextReader<'_, 'a> {
-    /// Reads a word and what belongs to it; false at the end of the file.
+    /// Reads a keyword and its values; returns false at the end of the file.
     fn statement(&mut self) -> Result<bool, ReadError> {
         self.words.skip_space();
         let Some(word) = self.words.word() else { return Ok(false) };
@@ -102,7 +103,7 @@ impl<'a> TextReader<'_, 'a> {
                 self.facet = Some(self.words.line());
             }
             Some(Keyword::Normal) => {
-                // Three numbers, or what stands in their place.
+                // Three words, which need not be numbers.
                 for _ in 0..3 {
                     self.words.word();
                 }
@@ -127,18 +128,18 @@ impl<'a> TextReader<'_, 'a> {
         for coordinate in &mut position {
             match self.words.number() {
                 Some(Ok(number)) => *coordinate = number,
-                // Cut off here: the facet will be dropped.
+                // Truncated: the facet will be dropped.
                 _ if self.words.left().is_empty() => return Ok(()),
-                word => return Err(self.no_number(word.and_then(Result::err))),
+                word => return Err(self.number_error(word.and_then(Result::err))),
             }
         }
         self.corners.push(position);
         Ok(())
     }
 
-    fn no_number(&self, word: Option<&[u8]>) -> ReadError {
+    fn number_error(&self, word: Option<&[u8]>) -> ReadError {
         let what = match word {
-            Some(word) => format!("{} is no number", quoted(word)),
+            Some(word) => format!("{} is not a number", quoted(word)),
             None => "a vertex has fewer than three numbers".into(),
         };
         self.source.error(ReadErrorKind::Number, Some(Place::Line(self.words.line())), what)
@@ -164,13 +165,13 @@ impl<'a> TextReader<'_, 'a> {
         let count = self.corners.len();
         self.corners.clear();
         self.report.warn(WarningCode::Syntax, Some(Place::Line(line)), || {
-            format!("a facet of {count} vertices was dropped: facets are triangles")
+            format!("a facet needs three vertices, this one has {count}; it was dropped")
         });
     }
 
     fn unknown(&mut self, word: &[u8]) {
         self.report.warn(WarningCode::Syntax, Some(Place::Line(self.words.line())), || {
-            format!("{} is no word of STL; the rest of its line was left out", quoted(word))
+            format!("{} is not an STL keyword; its line was left out", quoted(word))
         });
         self.words.end_line();
     }
@@ -178,7 +179,7 @@ impl<'a> TextReader<'_, 'a> {
     fn finish(&mut self) {
         match self.facet {
             Some(line) => self.report.warn(WarningCode::Truncated, Some(Place::Line(line)), || {
-                "the file ends in a facet, which was dropped".into()
+                "the file ends within a facet, which was dropped".into()
             }),
             None => self.warn_of_open_solid(),
         }
@@ -187,12 +188,12 @@ impl<'a> TextReader<'_, 'a> {
     fn warn_of_open_solid(&mut self) {
         if let Some(line) = self.solid {
             self.report.warn(WarningCode::Truncated, Some(Place::Line(line)), || {
-                "a solid has no end; the file may have been cut off".into()
+                "a solid has no end; the file may be truncated".into()
             });
         }
     }
 
-    /// The index of the group that is called `name`.
+    /// The index of the group `name`, which is added if it is new.
     fn group(&mut self, name: &'a [u8]) -> u32 {
         let groups = &mut self.model.groups;
         *self.groups.entry(name).or_insert_with(|| {
@@ -215,7 +216,7 @@ mod tests {
                          vertex 0 1.5e0 -2\n endloop\nendfacet\n";
 
     #[test]
-    fn facets_are_three_vertices_of_their_own() {
+    fn every_facet_has_its_own_three_vertices() {
         let mut report = Report::default();
         let model = read(&format!("solid\n{FACET}{FACET}endsolid"), &mut report).unwrap();
         let triangle = [[0., 0., 0.], [1., 0., 0.], [0., 1.5, -2.]];
@@ -253,10 +254,10 @@ mod tests {
     }
 
     #[test]
-    fn coordinates_that_are_no_numbers_are_errors_with_their_line() {
+    fn coordinates_that_are_not_numbers_are_errors_with_their_line() {
         for (vertex, what) in [
-            ("vertex 1 0 zero", "'zero' is no number"),
-            ("vertex 1 0,5 0", "'0,5' is no number"),
+            ("vertex 1 0 zero", "'zero' is not a number"),
+            ("vertex 1 0,5 0", "'0,5' is not a number"),
             ("vertex 1 0", "fewer than three numbers"),
         ] {
             let text = FACET.replace("vertex 1 0 0", vertex);
@@ -279,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_facet_is_dropped_with_its_line() {
+    fn incomplete_facets_are_dropped_with_their_line() {
         use WarningCode::{Syntax, Truncated};
         let quad = FACET.replace(" endloop", "vertex 0 0 0\n endloop");
         let two = FACET.replace("  vertex 1 0 0\n", "");
@@ -288,7 +289,7 @@ mod tests {
             (format!("{FACET}{quad}{quad}{FACET}"), (2, Some((Syntax, 2, 8)))),
             (format!("{two}{FACET}"), (1, Some((Syntax, 1, 1)))),
             (format!("facet\nendfacet\n{FACET}"), (1, Some((Syntax, 1, 1)))),
-            (format!("{FACET}colour 1 2 vertex\n{FACET}"), (2, Some((Syntax, 1, 8)))),
+            (format!("{FACET}color 1 2 vertex\n{FACET}"), (2, Some((Syntax, 1, 8)))),
             (format!("{open}{open}{FACET}"), (3, None)),
             (format!("{FACET}endfacet\n"), (1, None)),
             (format!("{FACET}{open}"), (1, Some((Truncated, 1, 8)))),

@@ -1,12 +1,13 @@
-//! Whole scenes: of both versions side by side, hostile ones, and those of the
-//! corpus.
+//! Whole scenes: of both versions, hostile ones, and those of the corpus.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use std::{env, fs};
 
+use super::parse::{Document, Origin, decode};
 use crate::build::{BuildOptions, build_edge_mesh};
 use crate::edge_mesh::record::EdgeFlags;
+use crate::format::read::source::Source;
 use crate::format::read::{Format, ReadError, ReadErrorKind, read_model, read_model_bytes};
 use crate::model::Model;
 use crate::report::{Place, RepairKind, Report, WarningCode};
@@ -17,26 +18,32 @@ pub(super) fn read(text: &str) -> Result<(Model, Report), ReadError> {
     read_model_bytes("test.wrl", format!("{header}{text}").as_bytes(), Format::Wrl)
 }
 
-/// Reads a scene that is sound, without any warning.
+/// The document of a scene without faults.
+pub(super) fn parsed(text: &str) -> Document {
+    let source = Source { name: "test.wrl", folder: None, bytes: text.as_bytes() };
+    decode(Origin::of_model(&source), source.bytes, &mut Report::default()).unwrap()
+}
+
+/// Reads a scene without warnings.
 pub(super) fn sound(text: &str) -> Model {
     let (model, report) = read(text).unwrap();
     assert!(report.warnings().is_empty(), "{report:?}");
     model
 }
 
-/// The index of each corner, face by face.
+/// The indices of the corners of each face.
 pub(super) fn faces_of(model: &Model) -> Vec<Vec<u32>> {
     let corners = |polygon| model.corner_positions[model.corner_range(polygon)].to_vec();
     (0..model.polygon_count()).map(corners).collect()
 }
 
-/// The place of each corner, face by face.
-fn placed_faces(model: &Model) -> Vec<Vec<[f64; 3]>> {
+/// The positions of the corners of each face.
+fn face_positions(model: &Model) -> Vec<Vec<[f64; 3]>> {
     let place = |index: u32| model.positions[index as usize];
     faces_of(model).into_iter().map(|face| face.into_iter().map(place).collect()).collect()
 }
 
-/// The diffuse colour of each face.
+/// The diffuse color of each face.
 pub(super) fn diffuse_of_faces(model: &Model) -> Vec<Option<[f32; 3]>> {
     model.per_polygon(|run| model.materials.get(run.material as usize).and_then(|m| m.diffuse))
 }
@@ -79,7 +86,7 @@ fn both_versions_make_the_same_cubes() {
     let [one, two] = [CUBE_V1, CUBE_V2].map(sound);
     assert_eq!((one.positions.len(), one.polygon_count()), (20, 13));
     assert_eq!(one.positions, two.positions);
-    assert_eq!(placed_faces(&one), placed_faces(&two));
+    assert_eq!(face_positions(&one), face_positions(&two));
     assert_eq!(diffuse_of_faces(&one), diffuse_of_faces(&two));
     assert_eq!(diffuse_of_faces(&one)[12], None, "the last cube has no material");
     let smoothing = |model: &Model| model.per_polygon(|run| run.smoothing);
@@ -95,7 +102,7 @@ fn the_column_is_the_same_in_both_versions() {
         model
     });
     assert_eq!((two.positions.len(), two.polygon_count()), (2 * (8 + 48) + 72, 2 * (6 + 26) + 38));
-    assert_eq!(placed_faces(&two), placed_faces(&one));
+    assert_eq!(face_positions(&two), face_positions(&one));
     assert_eq!(two.groups, one.groups);
     let names = |model: &Model| -> Vec<Option<String>> {
         model.per_polygon(|run| Some(model.materials.get(run.material as usize)?.name.clone()))
@@ -117,7 +124,7 @@ fn the_column_is_made_of_solids() {
 }
 
 #[test]
-fn headers_are_told_apart() {
+fn headers_are_checked() {
     let kind = |text: &str| read_model_bytes("a", text.as_bytes(), Format::Wrl).unwrap_err().kind;
     assert_eq!(kind("Shape { geometry Box { } }"), ReadErrorKind::Format);
     assert_eq!(kind("#VRML V3.0 utf8\n"), ReadErrorKind::Format);
@@ -128,7 +135,7 @@ fn headers_are_told_apart() {
     assert_eq!(model.polygon_lines, [3; 6]);
 }
 
-/// A hundred thousand of anything is done at once and without a deep stack.
+/// A hundred thousand nodes are read quickly, and without a deep stack.
 #[test]
 fn large_scenes_take_linear_time() {
     const COUNT: usize = 100_000;
@@ -156,7 +163,7 @@ fn large_scenes_take_linear_time() {
 }
 
 #[test]
-fn what_multiplies_itself_is_stopped() {
+fn scenes_that_generate_too_much_are_refused() {
     let doubling = |first: &str| {
         let levels = (1..40).map(|level| {
             let below = level - 1;
@@ -180,7 +187,7 @@ fn corpus() -> Option<PathBuf> {
     if corpus.is_dir() {
         return Some(corpus);
     }
-    #[expect(clippy::print_stderr, reason = "a test says what it leaves out")]
+    #[expect(clippy::print_stderr, reason = "reports what was left out")]
     {
         eprintln!("left out the VRML corpus: set EDGEMESH_SHARED to the shared files");
     }
@@ -201,7 +208,7 @@ fn scenes(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// Files with nothing in them that is drawn, and what stands there instead.
+/// Files that draw nothing, and what they have instead.
 const NOTHING_DRAWN: [(&str, &str); 7] = [
     ("prototypes/proto_nested.wrl", "all shapes are in prototypes"),
     ("prototypes/proto_nodes.wrl", "all shapes but texts are in prototypes"),
@@ -212,9 +219,8 @@ const NOTHING_DRAWN: [(&str, &str); 7] = [
     ("castle_extensions/inline_load_control_test_1.wrl", "only a text and sensors"),
 ];
 
-/// How many vertices, polygons and segments there are in the others. Those of
-/// plain face sets were counted in the text; a sphere is 266 and 288, a cone 25
-/// and 25, a cylinder 48 and 26.
+/// The numbers of vertices, polygons and segments of the others. Those of face sets were
+/// counted in the text; a sphere has 266 and 288, a cone 25 and 25, a cylinder 48 and 26.
 const DRAWN: [(&str, [usize; 3]); 19] = [
     ("assimp/HelloWorld.wrl", [266, 288, 0]),
     ("assimp/MotionCaptureROM.WRL", [1042, 2000, 0]),
@@ -261,7 +267,7 @@ fn every_file_of_the_corpus_is_read() {
 }
 
 #[test]
-fn malformed_files_give_what_is_expected() {
+fn malformed_files_give_the_expected_errors() {
     let Some(corpus) = corpus() else { return };
     let folder = corpus.join("malformed/gen/wrl");
     let failure = |name: &str| read_model(&folder.join(name)).unwrap_err();
@@ -294,7 +300,7 @@ fn files_cut_short_or_changed_never_panic() {
 }
 
 #[test]
-fn what_is_skipped_is_said() {
+fn unsupported_nodes_give_warnings() {
     let text = "Shape { geometry Box { } } Shape { geometry Text { string \"x\" } }
         Shape { geometry PointSet { } } Unknown { } PROTO P [ ] { } P { } Viewpoint { }
         DEF T TimeSensor { } DEF I PositionInterpolator { } ROUTE T.a TO I.b Fog { }";

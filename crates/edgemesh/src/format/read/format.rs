@@ -1,0 +1,69 @@
+//! The model formats that are read.
+
+use std::ffi::OsStr;
+use std::path::Path;
+
+/// A model format that is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Wavefront OBJ, with materials from MTL files beside it.
+    Obj,
+    /// PLY, text or binary.
+    Ply,
+    /// STL, text or binary.
+    Stl,
+    /// glTF 2.0 as JSON.
+    Gltf,
+    /// glTF 2.0 in one binary file.
+    Glb,
+    /// VRML 1.0 and VRML 97.
+    Wrl,
+}
+
+impl Format {
+    /// All formats.
+    pub const ALL: [Self; 6] = [Self::Obj, Self::Ply, Self::Stl, Self::Gltf, Self::Glb, Self::Wrl];
+
+    /// The usual file extension, in lower case; `--format` takes the same word.
+    #[must_use]
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Obj => "obj",
+            Self::Ply => "ply",
+            Self::Stl => "stl",
+            Self::Gltf => "gltf",
+            Self::Glb => "glb",
+            Self::Wrl => "wrl",
+        }
+    }
+
+    /// The format's name in messages, such as `binary glTF`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Obj => "OBJ",
+            Self::Ply => "PLY",
+            Self::Stl => "STL",
+            Self::Gltf => "glTF",
+            Self::Glb => "binary glTF",
+            Self::Wrl => "VRML",
+        }
+    }
+
+    /// The format that the file extension of `path` stands for; upper and lower
+    /// case are the same.
+    #[must_use]
+    pub fn of_name(path: &Path) -> Option<Self> {
+        let extension = path.extension().and_then(OsStr::to_str)?;
+        match extension.to_ascii_lowercase().as_str() {
+            "obj" => Some(Self::Obj),
+            "ply" => Some(Self::Ply),
+            "stl" => Some(Self::Stl),
+            "gltf" => Some(Self::Gltf),
+            "glb" => Some(Self::Glb),
+            "wrl" | "vrml" | "wrz" => Some(Self::Wrl),
+            "gz" => Self::of_name(Path::new(path.file_stem()?)).filter(|&f| f == Self::Wrl),
+            _ => None,
+        }
+    }
+}
