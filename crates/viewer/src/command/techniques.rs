@@ -10,7 +10,7 @@ use crate::picture::renderer::technique_failure;
 use crate::technique::library::Library;
 use crate::technique::mistake::Mistakes;
 use crate::technique::plan::Plan;
-use crate::technique::print::printed;
+use crate::technique::print::technique_text;
 use crate::technique::program::ShaderFiles;
 
 const EXAMPLES: &str = "Examples:\n  \
@@ -60,7 +60,7 @@ impl TechniquesCommand {
                 let shaders = ShaderFiles::new(&technique.folders, self.library.shaders.clone());
                 let plan = Plan::of(&technique, &shaders)
                     .map_err(|mistakes| technique_failure(&mistakes))?;
-                print_to_stdout(printed(&technique, &plan).as_bytes())
+                print_to_stdout(technique_text(&technique, &plan).as_bytes())
             }
         }
     }

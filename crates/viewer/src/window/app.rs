@@ -20,7 +20,7 @@ use super::session::{Request, Session, Work};
 use super::thumbnails::{self, Thumbnail};
 use super::watching::{Change, Watching};
 use super::{desktop, panels, style};
-use crate::technique::write::written;
+use crate::technique::write::file_text;
 
 /// The key under which the window remembers.
 const REMEMBERED: &str = "remembered";
@@ -362,7 +362,7 @@ impl Window {
     fn save_technique(&mut self, path: &std::path::Path) {
         let appearance = &self.session.recipe.appearance;
         let about = appearance.technique.about.clone();
-        let saved = written(&appearance.technique, &about)
+        let saved = file_text(&appearance.technique, &about)
             .and_then(|text| write_file(path, text.as_bytes()).map_err(|failure| failure.message));
         match saved {
             Err(what) => self.session.messages.error(what),
