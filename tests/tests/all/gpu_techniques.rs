@@ -155,6 +155,32 @@ fn passes_run_once_or_when_something_has_changed() {
     }
 }
 
+/// Two programs that are valid, and do not fit each other: found only on the device.
+#[test]
+fn a_technique_that_cannot_be_built_leaves_the_last_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "[[pass]]\ncomponent = \"simple_render\"\nfragment_program = \"own:own\"\n";
+    let shader =
+        "@fragment fn own(@location(9) more: vec4f) -> @location(0) vec4f { return more; }";
+    let broken = written(folder.path(), &[("own.toml", text), ("own.wgsl", shader)]);
+    let mesh = own_model("cube");
+    let (scene, camera) = (scene_of(&mesh), Camera::default_view(&mesh.bounds));
+    // With strokes and without, with a stencil and without.
+    for settings in [&[][..], &["silhouette.render=true"], &["strokes.render=false"]] {
+        let (ink, pen) = (technique("ink", settings), technique("pen", &[]));
+        let options = small([40, 30]);
+        let mut renderer = PictureRenderer::new(gpu(), &scene, &ink, &[], &options).unwrap();
+        let picture = renderer.render(&camera).unwrap().0;
+        let failure = renderer.reload(&scene, &broken, &[], &options).unwrap_err();
+        assert!(failure.message.contains("do not fit together"), "{}", failure.message);
+        assert!(renderer.render(&camera).unwrap().0 == picture, "{settings:?}");
+        renderer.reload(&scene, &ink, &[], &options).unwrap();
+        assert!(renderer.render(&camera).unwrap().0 == picture, "{settings:?}, built again");
+        renderer.reload(&scene, &pen, &[], &options).unwrap();
+        assert!(renderer.render(&camera).unwrap().0 != picture, "another technique");
+    }
+}
+
 #[test]
 fn targets_have_the_sizes_that_are_asked_for() {
     let folder = tempfile::tempdir().unwrap();

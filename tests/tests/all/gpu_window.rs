@@ -14,6 +14,7 @@ use viewer::scene::lighting::Light;
 use viewer::scene::models::Scene;
 use viewer::scene::scene_file::SceneObject;
 use viewer::technique::library::Library;
+use viewer::technique::texture_format::TextureFormat;
 use viewer::window::inspection::Inspection;
 use viewer::window::navigation::{Canvas, TurnMode, panned, turned, zoomed};
 use viewer::window::recipe::Recipe;
@@ -21,7 +22,6 @@ use viewer::window::remembered::Remembered;
 use viewer::window::saving::{Order, save, words_in};
 use viewer::window::session::Session;
 use viewer::window::viewpoint::UpAxis;
-use wgpu::TextureFormat;
 
 use crate::gpu_device::gpu;
 

@@ -12,7 +12,7 @@ use viewer::scene::lighting::Light;
 use viewer::scene::models::Scene;
 use viewer::scene::scene_file::SceneObject;
 use viewer::technique::library::Library;
-use viewer::technique::texture_format::PassTexture;
+use viewer::technique::texture_format::{PassTexture, TextureFormat};
 use viewer::window::hands::{CUT_KEY, Hands, KEYS, LIGHT_KEY};
 use viewer::window::panels;
 use viewer::window::recipe::Recipe;
@@ -49,7 +49,9 @@ fn side(tab: Tab, mut session: Session) -> Harness<'static, Session> {
 
 fn value(session: &Session, pass: &str, variable: &str) -> String {
     let technique = &session.recipe.appearance.technique;
-    technique.pass(pass).unwrap().value(variable).unwrap().to_string()
+    let pass = technique.pass(pass).unwrap();
+    let (index, _) = pass.component.variable(variable).unwrap();
+    pass.values()[index].to_string()
 }
 
 #[test]
@@ -264,8 +266,8 @@ fn textures_between_passes_are_listed_and_looked_at() {
     let mut session = session("--technique outline_combined");
     let texture = |name: &str, format| PassTexture { name: name.to_owned(), format };
     session.generated = vec![
-        texture("scene_normal", wgpu::TextureFormat::Rgba16Float),
-        texture("scene_depth", wgpu::TextureFormat::Depth32Float),
+        texture("scene_normal", TextureFormat::Rgba16Float),
+        texture("scene_depth", TextureFormat::Depth32Float),
     ];
     let mut harness = side(Tab::Inspect, session);
     harness.get_by_label("scene_normal").click();
@@ -370,7 +372,7 @@ fn notes_tell_mistakes_and_can_be_dismissed() {
     harness.run_ok();
     let has =
         |harness: &Harness<Session>, part: &str| harness.query_by_label_contains(part).is_some();
-    for part in ["there is no technique", "the file is gone", "saved as", "reading a.obj"] {
+    for part in ["unknown technique", "the file is gone", "saved as", "reading a.obj"] {
         assert!(has(&harness, part), "{part}");
     }
     harness.get_by_label("Cancel").click();

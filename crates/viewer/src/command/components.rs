@@ -53,7 +53,7 @@ impl ComponentsCommand {
 fn find<'l>(library: &'l Library, name: &str) -> Result<&'l ComponentDescriptor, Error> {
     let known = name.replace('-', "_");
     library.components().get(&known).map(AsRef::as_ref).ok_or_else(|| {
-        let mistake = Mistake::without_place(format!("there is no component '{name}'"));
+        let mistake = Mistake::without_place(format!("unknown component '{name}'"));
         let names = library.components().keys().map(String::as_str);
         Mistakes::of(mistake.names(name, names)).into()
     })

@@ -96,7 +96,6 @@ mod tests {
             ),
             (Error::AdapterLost { times: 4, seconds: 10 }, "--adapter", NO_ADAPTER),
             (Error::NoDisplay, "viewer render draws without one", ExitStatus::FAULT),
-            (TechniqueError::NotBuilt.into(), "nothing to draw", SHADER),
         ];
         for (error, hint, status) in cases {
             assert!(!error.to_string().contains("--"), "{error}");

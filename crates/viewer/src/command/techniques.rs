@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::technique::library::Library;
 use crate::technique::mistake::Mistakes;
 use crate::technique::plan::Plan;
-use crate::technique::print::printed;
+use crate::technique::print::technique_text;
 use crate::technique::program::ShaderFiles;
 
 const EXAMPLES: &str = "Examples:\n  \
@@ -62,7 +62,7 @@ impl TechniquesCommand {
                 print_mistakes(&warnings, is_quiet);
                 let shaders = ShaderFiles::new(&technique.folders, self.library.shaders.clone());
                 let plan = Plan::of(&technique, &shaders).map_err(Error::from)?;
-                print_to_stdout(printed(&technique, &plan).as_bytes())
+                print_to_stdout(technique_text(&technique, &plan).as_bytes())
             }
         }
     }

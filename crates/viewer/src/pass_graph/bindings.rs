@@ -1,5 +1,4 @@
-//! Bind groups of passes: parameters, textures and samplers, by the names that
-//! reflection found.
+//! Bind groups of passes: parameters, textures and samplers, found by reflection.
 
 use strokes::gpu::device::Gpu;
 use wgpu::util::DeviceExt as _;
@@ -8,27 +7,50 @@ use super::params::{Iteration, bytes_of};
 use super::textures::{GeneratedTexture, Images};
 use crate::error::Error;
 use crate::technique::pass::Pass;
-use crate::technique::plan::{Read, ReadSource};
+use crate::technique::plan::{ReadSource, TextureRead};
 use crate::technique::program::{Interface, Params, Program, TextureKind};
 
 /// The group of a pass's parameters and textures.
 pub(crate) const PASS_GROUP: u32 = 1;
-/// The group of a vertex program's own ones.
+/// The group of parameters and textures of a vertex program in its own file.
 pub(crate) const VERTEX_GROUP: u32 = 3;
 
-/// What is bound to one group.
+/// The bindings of one group.
 #[derive(Debug, Clone)]
 pub(crate) struct GroupPlan {
     group: u32,
     params: Vec<Params>,
-    /// Binding, and the read in the pass's plan.
-    textures: Vec<(u32, TextureKind, Option<Read>)>,
-    samplers: Vec<(u32, Option<Read>)>,
+    textures: Vec<TextureBinding>,
+    samplers: Vec<SamplerBinding>,
+}
+
+/// A texture of a group.
+#[derive(Debug, Clone)]
+struct TextureBinding {
+    binding: u32,
+    kind: TextureKind,
+    /// The read in the plan of the pass.
+    read: Option<TextureRead>,
+}
+
+/// A sampler of a group.
+#[derive(Debug, Clone)]
+struct SamplerBinding {
+    binding: u32,
+    /// The read of its texture in the plan of the pass.
+    read: Option<TextureRead>,
+}
+
+/// A texture that is bound in place of that of a variable.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Replacement<'a> {
+    pub(crate) variable: &'a str,
+    pub(crate) view: &'a wgpu::TextureView,
 }
 
 impl GroupPlan {
-    /// What `programs` want in `group`, of what the pass reads.
-    pub(crate) fn new(group: u32, programs: &[&Program], reads: &[Read]) -> Self {
+    /// The bindings of `programs` in `group`, with the textures that the pass reads.
+    pub(crate) fn new(group: u32, programs: &[&Program], reads: &[TextureRead]) -> Self {
         let mut plan =
             Self { group, params: Vec::new(), textures: Vec::new(), samplers: Vec::new() };
         for program in programs {
@@ -37,7 +59,7 @@ impl GroupPlan {
         plan
     }
 
-    fn add(&mut self, interface: &Interface, reads: &[Read]) {
+    fn add(&mut self, interface: &Interface, reads: &[TextureRead]) {
         let read = |name: &str| reads.iter().find(|read| read.variable == name).cloned();
         if let Some(params) = interface.params.iter().find(|params| params.group == self.group)
             && self.params.iter().all(|known| known.binding != params.binding)
@@ -45,13 +67,15 @@ impl GroupPlan {
             self.params.push(params.clone());
         }
         for slot in interface.textures.iter().filter(|slot| slot.group == self.group) {
-            if self.textures.iter().all(|known| known.0 != slot.binding) {
-                self.textures.push((slot.binding, slot.kind, read(&slot.name)));
+            if self.textures.iter().all(|known| known.binding != slot.binding) {
+                let read = read(&slot.name);
+                self.textures.push(TextureBinding { binding: slot.binding, kind: slot.kind, read });
             }
         }
         for slot in interface.samplers.iter().filter(|slot| slot.group == self.group) {
-            if self.samplers.iter().all(|known| known.0 != slot.binding) {
-                self.samplers.push((slot.binding, read(&slot.texture)));
+            if self.samplers.iter().all(|known| known.binding != slot.binding) {
+                let read = read(&slot.texture);
+                self.samplers.push(SamplerBinding { binding: slot.binding, read });
             }
         }
     }
@@ -67,7 +91,8 @@ impl GroupPlan {
             ty,
             count: None,
         };
-        let is_filtered = |read: &Option<Read>| read.as_ref().is_some_and(|read| read.is_filtered);
+        let is_filtered =
+            |read: &Option<TextureRead>| read.as_ref().is_some_and(|read| read.is_filtered);
         let mut entries: Vec<wgpu::BindGroupLayoutEntry> = Vec::new();
         for params in &self.params {
             let ty = wgpu::BufferBindingType::Uniform;
@@ -75,7 +100,7 @@ impl GroupPlan {
                 wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
             entries.push(entry(params.binding, ty));
         }
-        for (binding, kind, read) in &self.textures {
+        for TextureBinding { binding, kind, read } in &self.textures {
             let sample_type = match kind {
                 TextureKind::Float => {
                     wgpu::TextureSampleType::Float { filterable: is_filtered(read) }
@@ -88,7 +113,7 @@ impl GroupPlan {
                 wgpu::BindingType::Texture { sample_type, view_dimension, multisampled: false };
             entries.push(entry(*binding, ty));
         }
-        for (binding, read) in &self.samplers {
+        for SamplerBinding { binding, read } in &self.samplers {
             let ty = match is_filtered(read) {
                 true => wgpu::SamplerBindingType::Filtering,
                 false => wgpu::SamplerBindingType::NonFiltering,
@@ -101,7 +126,7 @@ impl GroupPlan {
         })
     }
 
-    /// Uniform buffers with the values of `pass`, one for each uniform.
+    /// Uniform buffers with the values of `pass`, one per uniform.
     pub(crate) fn buffers(
         &self,
         device: &wgpu::Device,
@@ -118,22 +143,22 @@ impl GroupPlan {
         self.params.iter().map(buffer).collect()
     }
 
-    /// Binds `buffers` and the textures as they are now; `replaced` stands for the
-    /// texture variable of that name.
+    /// Binds `buffers` and the current textures.
     pub(crate) fn group(
         &self,
         gpu: &Gpu,
         layout: &wgpu::BindGroupLayout,
         buffers: &[wgpu::Buffer],
         sources: &mut Sources,
-        replaced: Option<(&str, &wgpu::TextureView)>,
+        replacement: Option<Replacement>,
     ) -> Result<wgpu::BindGroup, Error> {
         let mut views = Vec::new();
-        for (binding, _, read) in &self.textures {
-            let own = replaced
-                .filter(|(name, _)| read.as_ref().is_some_and(|read| read.variable == *name));
-            let view = match own {
-                Some((_, view)) => view.clone(),
+        for TextureBinding { binding, read, .. } in &self.textures {
+            let is_replaced = |replacement: &Replacement| {
+                read.as_ref().is_some_and(|read| read.variable == replacement.variable)
+            };
+            let view = match replacement.filter(is_replaced) {
+                Some(replacement) => replacement.view.clone(),
                 None => sources.view(gpu, read.as_ref())?,
             };
             views.push((*binding, view));
@@ -141,7 +166,7 @@ impl GroupPlan {
         let samplers: Vec<(u32, wgpu::Sampler)> = self
             .samplers
             .iter()
-            .map(|(binding, read)| (*binding, sources.samplers.of(read.as_ref()).clone()))
+            .map(|sampler| (sampler.binding, sources.samplers.of(sampler.read.as_ref()).clone()))
             .collect();
         let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
         let mut entries = Vec::new();
@@ -162,7 +187,7 @@ impl GroupPlan {
     }
 }
 
-/// Where passes read from.
+/// The textures that passes read, with their samplers.
 #[derive(Debug)]
 pub(crate) struct Sources {
     pub(crate) generated: Vec<GeneratedTexture>,
@@ -171,7 +196,7 @@ pub(crate) struct Sources {
 }
 
 impl Sources {
-    fn view(&mut self, gpu: &Gpu, read: Option<&Read>) -> Result<wgpu::TextureView, Error> {
+    fn view(&mut self, gpu: &Gpu, read: Option<&TextureRead>) -> Result<wgpu::TextureView, Error> {
         match read.map(|read| &read.source) {
             Some(ReadSource::Generated(texture)) => Ok(self.generated[*texture].read().clone()),
             Some(ReadSource::Image(file)) => self.images.view(gpu, file),
@@ -180,7 +205,7 @@ impl Sources {
     }
 }
 
-/// The samplers that textures are read with.
+/// The samplers of textures.
 #[derive(Debug)]
 pub(crate) struct Samplers {
     nearest: wgpu::Sampler,
@@ -213,8 +238,8 @@ impl Samplers {
         }
     }
 
-    /// Images repeat, generated textures end at their rims.
-    fn of(&self, read: Option<&Read>) -> &wgpu::Sampler {
+    /// The sampler of a texture: images repeat, generated textures are clamped.
+    fn of(&self, read: Option<&TextureRead>) -> &wgpu::Sampler {
         let Some(read) = read else { return &self.nearest };
         let is_image = matches!(read.source, ReadSource::Image(_));
         match (read.is_filtered, is_image) {

@@ -1,263 +1,280 @@
-//! From a plan to steps with their pipelines and textures; what a graph before has that
-//! is still good is taken over.
+//! From a plan to steps with their pipelines and textures.
+//!
+//! A change is built beside the graph and then applied at once, so that a graph goes on
+//! drawing as before if building fails. What the graph has is reused.
 
 use std::cell::RefCell;
 
 use strokes::draw::targets::Targets;
 use strokes::gpu::device::Gpu;
 use strokes::gpu::target_formats::TargetFormats;
-use strokes::mesh::MeshOptions;
+use strokes::mesh::{MeshInstance, MeshOptions};
 use strokes::view::frame::frame_layout;
 use strokes::view::view_state::ViewState;
 
 use super::bindings::{Samplers, Sources};
 use super::copy_pass::CopyPass;
 use super::ping_pong::PingPong;
-use super::pipeline::{Geometry, PassPipeline, PipelineTarget, Programs};
+use super::pipeline::{Geometry, GraphLayouts, PassPipeline, PipelineTarget, Programs};
 use super::pipeline_cache::PipelineCache;
 use super::scene_buffers::SceneBuffers;
 use super::scene_pass::ScenePass;
 use super::screen_pass::ScreenPass;
-use super::stroke_pass::{self, StrokeGroup, StrokePasses, StrokeStore};
+use super::stroke_pass::{self, StrokeGroup, StrokeRenderers};
 use super::surface::{SurfaceInput, Surfaces};
-use super::textures::{GeneratedTexture, Images};
-use super::{GraphOptions, PassGraph, Run, Step, StepKind, blend};
+use super::textures::{GeneratedTexture, Images, wgpu_format};
+use super::{GraphInput, PassGraph, Schedule, Step, StepKind, blend};
 use crate::error::Error;
-use crate::scene::models::Scene;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
+use crate::technique::core_view::CoreView;
 use crate::technique::pass::Pass;
 use crate::technique::plan::{PassPlan, Plan, Target, TexturePlan};
 
+/// The difference between a graph and the one for another input.
+#[derive(Debug)]
+pub struct GraphChange {
+    /// None to keep the framebuffer.
+    framebuffer: Option<Targets>,
+    textures: Vec<TextureChange>,
+    instances: Vec<MeshInstance>,
+    surfaces: SurfacesChange,
+    steps: Vec<Step>,
+}
+
+/// A texture of the changed graph.
+#[derive(Debug)]
+enum TextureChange {
+    /// That of an index, with its content.
+    Kept(usize),
+    New(GeneratedTexture),
+}
+
+/// The surfaces of the changed graph.
+#[derive(Debug)]
+enum SurfacesChange {
+    Kept,
+    New(Surfaces),
+    /// No pass draws surfaces.
+    Dropped,
+}
+
 impl PassGraph {
-    /// Builds the graph of `technique`, whose plan is `plan`. Objects of the scene whose
-    /// look has a number in `looks` take the values of their passes from there.
-    ///
-    /// # Errors
-    /// Where a mesh or texture is too large for the adapter, an image cannot be read, or
-    /// programs do not fit together.
-    pub fn new(
-        gpu: &Gpu,
-        scene: &Scene,
-        technique: &Technique,
-        plan: &Plan,
-        looks: &[Technique],
-        options: &GraphOptions,
-    ) -> Result<Self, Error> {
-        Self::build(gpu, (scene, options), (technique, plan, looks), None)
-    }
-
-    /// As [`Self::new`], taking from `before`, a graph of the same scene, options and
-    /// looks, what is still good: surfaces, meshes, pipelines, images, and textures with what
-    /// is in them.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn rebuilt(
-        self,
-        gpu: &Gpu,
-        scene: &Scene,
-        technique: &Technique,
-        plan: &Plan,
-        looks: &[Technique],
-        options: &GraphOptions,
-    ) -> Result<Self, Error> {
-        Self::build(gpu, (scene, options), (technique, plan, looks), Some(self))
-    }
-
-    fn build(
-        gpu: &Gpu,
-        (scene, options): (&Scene, &GraphOptions),
-        (technique, plan, looks): (&Technique, &Plan, &[Technique]),
-        before: Option<Self>,
-    ) -> Result<Self, Error> {
+    /// A graph without passes, whose picture is one transparent pixel.
+    #[must_use]
+    pub fn empty(gpu: &Gpu) -> Self {
         let device = &gpu.device;
-        let groups = groups_of(technique, looks);
-        let formats = match stroke_pass::needs_stencil(technique, looks) {
+        Self {
+            framebuffer: Targets::new(device, [1; 2], TargetFormats::new(1)),
+            view: ViewState::new(device),
+            instances: Vec::new(),
+            scene: SceneBuffers::default(),
+            sources: Sources {
+                generated: Vec::new(),
+                images: Images::default(),
+                samplers: Samplers::new(device),
+            },
+            surfaces: None,
+            strokes: StrokeRenderers::default(),
+            steps: Vec::new(),
+            pipelines: PipelineCache::default(),
+        }
+    }
+
+    /// Builds the graph for an input.
+    ///
+    /// # Errors
+    /// As [`Self::change`].
+    pub fn new(gpu: &Gpu, input: &GraphInput) -> Result<Self, Error> {
+        let mut graph = Self::empty(gpu);
+        let change = graph.change(gpu, input)?;
+        graph.apply(change);
+        Ok(graph)
+    }
+
+    /// Builds what differs for another input with the same scene, layout, detection stage
+    /// and overrides. The graph still draws as before; only its caches grow.
+    ///
+    /// # Errors
+    /// If a mesh or texture is too large for the adapter, an image cannot be read, or the
+    /// programs of a pass do not fit together.
+    pub fn change(&mut self, gpu: &Gpu, input: &GraphInput) -> Result<GraphChange, Error> {
+        let GraphInput { technique, plan, overrides, options, .. } = *input;
+        let device = &gpu.device;
+        let formats = match stroke_pass::needs_stencil(technique, overrides) {
             true => TargetFormats::with_stencil(device, options.samples),
             false => TargetFormats::new(options.samples),
         };
-        let mut before = before.map_or_else(Before::default, Before::of);
-        let framebuffer = before.framebuffer(device, options.size, formats);
-        let mut sources = Sources {
-            generated: before.generated(device, plan, options.size),
-            images: std::mem::take(&mut before.images),
-            samplers: before.samplers.take().unwrap_or_else(|| Samplers::new(device)),
-        };
-        let has =
-            |core| groups.iter().any(|group| technique.passes[group[0]].component.core == core);
-        let mut strokes = None;
-        if has(CoreComponent::Strokes) {
-            let (folders, store) = (&technique.folders, &mut before.stroke_store);
-            strokes = Some(StrokePasses::new(gpu, options, formats, folders, store)?);
-        } else {
-            before.stroke_store.forget_drawings();
-        }
-        let pipelines = RefCell::new(std::mem::take(&mut before.pipelines));
-        let builder = Builder { gpu, scene, technique, plan, looks, options, formats, pipelines };
-        let mut stroke_groups = Vec::new();
-        for group in &groups {
-            stroke_groups.push(builder.stroke_group(group, strokes.as_mut())?);
-        }
+        self.sources.images.forget_changed();
+        let groups = groups_of(technique, overrides);
+        let strokes = self.stroke_groups_of(gpu, input, &groups, formats)?;
         let needs = MeshOptions {
             layout: options.layout,
-            links: stroke_groups.iter().flatten().any(StrokeGroup::is_linked),
-            surface: has(CoreComponent::SimpleRender),
+            links: strokes.iter().flatten().any(StrokeGroup::is_linked),
+            surface: has(&groups, technique, CoreComponent::SimpleRender),
         };
-        let instances = before.scene.instances(gpu, scene, needs)?;
-        let mut view = before.view.take().unwrap_or_else(|| ViewState::new(device));
-        view.resize(device, instances.len());
-        let surfaces = match (needs.surface, before.surfaces.take()) {
-            (false, _) => None,
-            (true, Some(surfaces)) => Some(surfaces),
-            (true, None) => {
-                let sampler = &sources.samplers.linear_image.clone();
-                let input =
-                    SurfaceInput { gpu, scene, instances: &instances, view: &view, sampler };
-                Some(Surfaces::new(&input, &mut sources.images))
-            }
+        let instances = self.scene.instances(gpu, input.scene, needs)?;
+        self.view.resize(device, instances.len());
+        let surfaces = self.surfaces_change(gpu, input, &instances, needs.surface);
+        let is_same =
+            self.framebuffer.size == options.size && *self.framebuffer.formats() == formats;
+        let framebuffer = (!is_same).then(|| Targets::new(device, options.size, formats));
+        let textures = self.texture_changes(device, plan, options.size);
+        let pipelines = RefCell::new(std::mem::take(&mut self.pipelines));
+        let frame = &frame_layout(device);
+        let builder = Builder { gpu, input, formats, frame, pipelines };
+        let built = match &surfaces {
+            SurfacesChange::New(surfaces) => Some(surfaces),
+            SurfacesChange::Kept => self.surfaces.as_ref(),
+            SurfacesChange::Dropped => None,
         };
-        let layout = frame_layout(device);
-        let mut steps = Vec::new();
-        for (group, stroke_group) in groups.iter().zip(stroke_groups) {
-            let mut step = builder.step(group, &layout, surfaces.as_ref(), stroke_group)?;
-            before.go_on(&mut step, &sources.generated);
-            steps.push(step);
-        }
-        Ok(Self {
-            framebuffer,
-            view,
-            instances,
-            scene: before.scene,
-            sources,
-            surfaces,
-            strokes,
-            stroke_store: before.stroke_store,
-            steps,
-            pipelines: builder.pipelines.into_inner(),
-        })
-    }
-}
-
-/// What a graph leaves to the one that comes after it.
-#[derive(Default)]
-struct Before {
-    framebuffer: Option<Targets>,
-    view: Option<ViewState>,
-    scene: SceneBuffers,
-    surfaces: Option<Surfaces>,
-    stroke_store: StrokeStore,
-    images: Images,
-    samplers: Option<Samplers>,
-    pipelines: PipelineCache,
-    textures: Vec<GeneratedTexture>,
-    runs: Vec<(String, Run)>,
-}
-
-impl Before {
-    fn of(graph: PassGraph) -> Self {
-        let mut images = graph.sources.images;
-        images.forget_changed();
-        let mut stroke_store = graph.stroke_store;
-        let (mut drawings, mut runs) = (Vec::new(), Vec::new());
-        for step in graph.steps {
-            runs.push((step.name, step.run));
-            if let StepKind::Strokes(group) = step.kind {
-                drawings.push(group.drawing);
-            }
-        }
-        if let Some(strokes) = graph.strokes {
-            strokes.put_back(drawings, &mut stroke_store);
-        }
-        Self {
-            framebuffer: Some(graph.framebuffer),
-            view: Some(graph.view),
-            scene: graph.scene,
-            surfaces: graph.surfaces,
-            stroke_store,
-            images,
-            samplers: Some(graph.sources.samplers),
-            pipelines: graph.pipelines,
-            textures: graph.sources.generated,
-            runs,
-        }
+        let steps = groups.iter().zip(strokes);
+        let steps = steps.map(|(group, strokes)| builder.step(group, built, strokes));
+        let steps: Result<Vec<Step>, Error> = steps.collect();
+        self.pipelines = builder.pipelines.into_inner();
+        Ok(GraphChange { framebuffer, textures, instances, surfaces, steps: steps? })
     }
 
-    /// The framebuffer, where it is of that size and format.
-    fn framebuffer(
+    /// Applies a change that was built from this graph.
+    pub fn apply(&mut self, change: GraphChange) {
+        let GraphChange { framebuffer, textures, instances, surfaces, steps } = change;
+        if let Some(framebuffer) = framebuffer {
+            self.framebuffer = framebuffer;
+        }
+        self.instances = instances;
+        match surfaces {
+            SurfacesChange::Kept => {}
+            SurfacesChange::New(surfaces) => self.surfaces = Some(surfaces),
+            SurfacesChange::Dropped => self.surfaces = None,
+        }
+        let mut known: Vec<Option<GeneratedTexture>> =
+            self.sources.generated.drain(..).map(Some).collect();
+        let texture = |change| match change {
+            TextureChange::New(texture) => Some(texture),
+            TextureChange::Kept(at) => {
+                let mut texture: GeneratedTexture = known[at].take()?;
+                texture.is_kept = true;
+                Some(texture)
+            }
+        };
+        self.sources.generated = textures.into_iter().filter_map(texture).collect();
+        let before = std::mem::replace(&mut self.steps, steps);
+        self.continue_from(before);
+        self.strokes.trim();
+    }
+
+    /// Takes over what the steps before have made, as far as it is still good.
+    fn continue_from(&mut self, before: Vec<Step>) {
+        for step in &mut self.steps {
+            // A step whose textures are kept need not run again.
+            let mut written = step.plan.target.textures().into_iter();
+            if written.all(|at| self.sources.generated[at].is_kept)
+                && let Some(same) = before.iter().find(|known| known.name == step.name)
+            {
+                step.schedule.continue_from(&same.schedule);
+            }
+        }
+        let groups = self.steps.iter_mut().filter_map(|step| match &mut step.kind {
+            StepKind::Strokes(group) => Some(group),
+            _ => None,
+        });
+        let before = before.into_iter().filter_map(|step| match step.kind {
+            StepKind::Strokes(group) => Some(group),
+            _ => None,
+        });
+        groups.zip(before).for_each(|(group, before)| group.continue_from(before));
+    }
+
+    /// The strokes of each group of passes; none for groups of other components.
+    fn stroke_groups_of(
         &mut self,
-        device: &wgpu::Device,
-        size: [u32; 2],
+        gpu: &Gpu,
+        input: &GraphInput,
+        groups: &[Vec<usize>],
         formats: TargetFormats,
-    ) -> Targets {
-        let known = self.framebuffer.take();
-        known
-            .filter(|known| known.size == size && *known.formats() == formats)
-            .unwrap_or_else(|| Targets::new(device, size, formats))
+    ) -> Result<Vec<Option<StrokeGroup>>, Error> {
+        let strokes = |group: &Vec<usize>| {
+            let passes = group.iter().map(|&at| &input.technique.passes[at]);
+            let passes: Vec<&Pass> = passes.filter(|pass| pass.is_rendered()).collect();
+            let core = input.technique.passes[group[0]].component.core;
+            (core == CoreComponent::Strokes)
+                .then(|| self.strokes.group(gpu, input, &passes, formats))
+                .transpose()
+        };
+        groups.iter().map(strokes).collect()
     }
 
-    /// The textures that passes write, each that of before where it is the same.
-    fn generated(
+    /// The surfaces of a technique that draws them, or not.
+    fn surfaces_change(
         &mut self,
+        gpu: &Gpu,
+        input: &GraphInput,
+        instances: &[MeshInstance],
+        are_drawn: bool,
+    ) -> SurfacesChange {
+        match (are_drawn, &self.surfaces) {
+            (false, _) => SurfacesChange::Dropped,
+            (true, Some(_)) => SurfacesChange::Kept,
+            (true, None) => {
+                let Sources { images, samplers, .. } = &mut self.sources;
+                let (scene, view, sampler) = (input.scene, &self.view, &samplers.linear_image);
+                let input = SurfaceInput { gpu, scene, instances, view, sampler };
+                SurfacesChange::New(Surfaces::new(&input, images))
+            }
+        }
+    }
+
+    /// The textures that passes of `plan` write: those of the graph with the same name, size
+    /// and format, and new ones.
+    fn texture_changes(
+        &self,
         device: &wgpu::Device,
         plan: &Plan,
         picture: [u32; 2],
-    ) -> Vec<GeneratedTexture> {
+    ) -> Vec<TextureChange> {
         let is_in_place = |texture: usize| {
             let writes = |pass: &PassPlan| pass.target.textures().contains(&texture);
             plan.passes.iter().any(|pass| pass.is_in_place && writes(pass))
         };
-        let texture = |(at, texture): (usize, &TexturePlan)| {
+        let change = |(at, texture): (usize, &TexturePlan)| {
             let is_double = is_in_place(at);
-            self.texture(texture, picture, is_double)
-                .unwrap_or_else(|| GeneratedTexture::new(device, texture, picture, is_double))
+            let is_same = |known: &GeneratedTexture| known.is_for(texture, picture, is_double);
+            match self.sources.generated.iter().position(is_same) {
+                Some(known) => TextureChange::Kept(known),
+                None => {
+                    TextureChange::New(GeneratedTexture::new(device, texture, picture, is_double))
+                }
+            }
         };
-        plan.textures.iter().enumerate().map(texture).collect()
-    }
-
-    /// A step whose textures are those of before need not be done again.
-    fn go_on(&self, step: &mut Step, textures: &[GeneratedTexture]) {
-        let mut written = step.plan.target.textures().into_iter();
-        let same = self.runs.iter().find(|(name, _)| *name == step.name);
-        if let Some((_, run)) = same.filter(|_| written.all(|at| textures[at].is_kept)) {
-            step.run.go_on_from(run);
-        }
-    }
-
-    /// A texture of the same name, size and format, with what is in it.
-    fn texture(
-        &mut self,
-        plan: &TexturePlan,
-        picture: [u32; 2],
-        is_double: bool,
-    ) -> Option<GeneratedTexture> {
-        let is_same = |known: &GeneratedTexture| known.is_for(plan, picture, is_double);
-        let at = self.textures.iter().position(is_same)?;
-        let mut texture = self.textures.swap_remove(at);
-        texture.is_kept = true;
-        Some(texture)
+        plan.textures.iter().enumerate().map(change).collect()
     }
 }
 
-/// The passes that are done, for the scene or for an object with a look of its own;
-/// those of strokes that follow each other together.
-fn groups_of(technique: &Technique, looks: &[Technique]) -> Vec<Vec<usize>> {
+/// Whether any group is of a core component.
+fn has(groups: &[Vec<usize>], technique: &Technique, core: CoreComponent) -> bool {
+    groups.iter().any(|group| technique.passes[group[0]].component.core == core)
+}
+
+/// The indices of the passes that are drawn for the scene or for an object with an
+/// override; consecutive passes of strokes are one group.
+fn groups_of(technique: &Technique, overrides: &[Technique]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     let is_stroke = |at: usize| technique.passes[at].component.core == CoreComponent::Strokes;
-    let own_strokes = looks
+    let own_strokes = overrides
         .iter()
-        .flat_map(|look| &look.passes)
+        .flat_map(|technique| &technique.passes)
         .any(|pass| pass.is_rendered() && pass.component.core == CoreComponent::Strokes);
     for (at, pass) in technique.passes.iter().enumerate() {
-        let of_look = |look: &Technique| look.pass(&pass.name).is_some_and(Pass::is_rendered);
-        let is_done = pass.is_rendered()
+        let is_rendered =
+            |technique: &Technique| technique.pass(&pass.name).is_some_and(Pass::is_rendered);
+        let is_drawn = pass.is_rendered()
             || match pass.component.core {
                 CoreComponent::Strokes => own_strokes,
-                CoreComponent::SimpleRender => looks.iter().any(of_look),
+                CoreComponent::SimpleRender => overrides.iter().any(is_rendered),
                 _ => false,
             };
         match groups.last_mut() {
-            _ if !is_done => {}
+            _ if !is_drawn => {}
             Some(last) if is_stroke(at) && is_stroke(last[0]) => last.push(at),
             _ => groups.push(vec![at]),
         }
@@ -268,20 +285,18 @@ fn groups_of(technique: &Technique, looks: &[Technique]) -> Vec<Vec<usize>> {
 /// Builds steps.
 pub(super) struct Builder<'a> {
     pub(super) gpu: &'a Gpu,
-    pub(super) scene: &'a Scene,
-    technique: &'a Technique,
-    plan: &'a Plan,
-    pub(super) looks: &'a [Technique],
-    pub(super) options: &'a GraphOptions,
+    pub(super) input: &'a GraphInput<'a>,
     pub(super) formats: TargetFormats,
+    /// The layout of `@group(0)`.
+    pub(super) frame: &'a wgpu::BindGroupLayout,
     pipelines: RefCell<PipelineCache>,
 }
 
 impl Builder<'_> {
-    /// A pipeline, built where it was not built before.
+    /// A pipeline, built if it is not in the cache.
     pub(super) fn pipeline(
         &self,
-        layouts: (&wgpu::BindGroupLayout, &wgpu::BindGroupLayout),
+        layouts: GraphLayouts,
         programs: Programs,
         geometry: Geometry,
         target: &PipelineTarget,
@@ -290,60 +305,46 @@ impl Builder<'_> {
         pipelines.pipeline(self.gpu, layouts, programs, geometry, target)
     }
 
-    /// The stroke group of some passes; `None` for passes of another component.
-    fn stroke_group(
-        &self,
-        group: &[usize],
-        strokes: Option<&mut StrokePasses>,
-    ) -> Result<Option<StrokeGroup>, Error> {
-        let core = self.technique.passes[group[0]].component.core;
-        let strokes = strokes.filter(|_| core == CoreComponent::Strokes);
-        let passes = group.iter().map(|&at| &self.technique.passes[at]);
-        let passes: Vec<&Pass> = passes.filter(|pass| pass.is_rendered()).collect();
-        strokes.map(|strokes| strokes.group(self.gpu, self.scene, &passes, self.looks)).transpose()
-    }
-
     fn step(
         &self,
         group: &[usize],
-        frame: &wgpu::BindGroupLayout,
         surfaces: Option<&Surfaces>,
         strokes: Option<StrokeGroup>,
     ) -> Result<Step, Error> {
-        let pass = &self.technique.passes[group[0]];
-        let plan = &self.plan.passes[group[0]];
-        let kind = match (pass.component.core, surfaces, strokes) {
+        let pass = &self.input.technique.passes[group[0]];
+        let plan = &self.input.plan.passes[group[0]];
+        let kind = match (&plan.core, surfaces, strokes) {
             (_, _, Some(strokes)) => StepKind::Strokes(strokes),
-            (CoreComponent::SimpleRender, Some(surfaces), _) => {
-                StepKind::Scene(ScenePass::new(self, pass, plan, frame, surfaces)?)
+            (CoreView::SimpleRender(view), Some(surfaces), _) => {
+                StepKind::Scene(ScenePass::new(self, pass, plan, view, surfaces)?)
             }
-            (CoreComponent::CopyToTexture, ..) => {
-                StepKind::Copy(CopyPass::new(self.gpu, pass, &self.formats)?)
+            (CoreView::CopyToTexture(view), ..) => {
+                StepKind::Copy(CopyPass::new(self.gpu, view, &self.formats)?)
             }
-            (CoreComponent::PingPong, ..) => {
-                StepKind::PingPong(PingPong::new(self, pass, plan, frame)?)
+            (CoreView::PingPong(view), ..) => {
+                StepKind::PingPong(PingPong::new(self, pass, plan, view)?)
             }
-            _ => StepKind::Screen(ScreenPass::new(self, pass, plan, frame)?),
+            _ => StepKind::Screen(ScreenPass::new(self, pass, plan)?),
         };
-        let run = Run::of(pass, plan);
-        Ok(Step { name: pass.name.clone(), kind, plan: plan.clone(), run })
+        let schedule = Schedule::new(pass, plan);
+        Ok(Step { name: pass.name.clone(), kind, plan: plan.clone(), schedule })
     }
 
-    /// Formats and blending of what a pass draws into.
-    pub(super) fn target(&self, pass: &Pass, plan: &PassPlan) -> PipelineTarget {
-        let blend = blend::blend_state(pass.string("blend"));
+    /// Formats and blending of the target of a pass.
+    pub(super) fn target(&self, plan: &PassPlan) -> PipelineTarget {
+        let blend = blend::blend_state(plan.core.blend());
+        let clips = self.input.options.clips;
+        let format = |&at: &usize| wgpu_format(self.input.plan.textures[at].format);
         match &plan.target {
-            Target::Framebuffer => {
-                PipelineTarget::framebuffer(&self.formats, blend, self.options.clips)
-            }
+            Target::Framebuffer => PipelineTarget::framebuffer(&self.formats, blend, clips),
             Target::Textures { colors, depth } => PipelineTarget {
-                colors: colors.iter().map(|&at| self.plan.textures[at].format).collect(),
-                depth: depth.map(|at| self.plan.textures[at].format),
+                colors: colors.iter().map(format).collect(),
+                depth: depth.as_ref().map(format),
                 samples: 1,
                 blend,
                 is_pushed: false,
                 writes_depth: false,
-                clips: self.options.clips,
+                clips,
             },
         }
     }

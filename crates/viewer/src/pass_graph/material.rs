@@ -1,4 +1,4 @@
-//! Materials as shaders see them, and what a model leaves open.
+//! Materials for shaders, with defaults for values that a model does not have.
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh::model::Material;
@@ -8,22 +8,22 @@ use edgemesh::model::Material;
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct MaterialUniform {
-    /// Ambient colour; w is 0.
+    /// Ambient color; w is 0.
     pub ambient: [f32; 4],
-    /// Diffuse colour and opacity.
+    /// Diffuse color and opacity.
     pub diffuse: [f32; 4],
-    /// Specular colour and shininess.
+    /// Specular color and shininess.
     pub specular: [f32; 4],
 }
 
-/// The part of the diffuse colour that is ambient where a material says nothing.
+/// The default ambient color, as a factor of the diffuse color.
 const AMBIENT_SHARE: f32 = 0.2;
 
-/// The specular exponent where a material has a specular colour and no exponent.
+/// The default specular exponent.
 const DEFAULT_SHININESS: f32 = 32.0;
 
 impl Default for MaterialUniform {
-    /// Of surfaces without a material: light grey, with a soft highlight.
+    /// The material of surfaces without one: light gray with a soft highlight.
     fn default() -> Self {
         Self {
             ambient: [0.15, 0.15, 0.15, 0.0],
@@ -34,11 +34,11 @@ impl Default for MaterialUniform {
 }
 
 impl MaterialUniform {
-    /// A material with defaults for what it leaves open: light grey (white under a
-    /// texture), a fifth of the diffuse colour as ambient, no highlight.
+    /// A material with defaults: a light gray diffuse color, or white under a texture; a
+    /// fifth of the diffuse color as ambient color; no highlight.
     ///
-    /// An ambient colour of pure white is what exporters write that know none, so it
-    /// counts as left open.
+    /// Many exporters write an ambient color of pure white by default, so it counts as
+    /// missing.
     #[must_use]
     pub fn of(material: &Material) -> Self {
         let default = Self::default();
@@ -47,9 +47,9 @@ impl MaterialUniform {
             None => default.diffuse,
         };
         let diffuse = material.diffuse.unwrap_or([r, g, b]);
-        let is_said = |ambient: &[f32; 3]| *ambient != [1.0; 3];
+        let is_given = |ambient: &[f32; 3]| *ambient != [1.0; 3];
         let ambient =
-            material.ambient.filter(is_said).unwrap_or(diffuse.map(|value| value * AMBIENT_SHARE));
+            material.ambient.filter(is_given).unwrap_or(diffuse.map(|value| value * AMBIENT_SHARE));
         let specular = material.specular.unwrap_or([0.0; 3]);
         let shininess = material.shininess.unwrap_or(DEFAULT_SHININESS);
         let with = |[r, g, b]: [f32; 3], w| [r, g, b, w];
@@ -66,13 +66,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_material_leaves_open_has_a_default() {
+    fn a_material_without_a_value_has_its_default() {
         let red = Material { diffuse: Some([1.0, 0.0, 0.0]), ..Material::default() };
         let uniform = MaterialUniform::of(&red);
         assert_eq!(uniform.ambient, [0.2, 0.0, 0.0, 0.0]);
         assert_eq!(uniform.specular, [0.0, 0.0, 0.0, DEFAULT_SHININESS]);
         let white = Material { ambient: Some([1.0; 3]), ..red.clone() };
-        assert_eq!(MaterialUniform::of(&white), uniform, "white says nothing");
+        assert_eq!(MaterialUniform::of(&white), uniform, "white counts as missing");
         let dark = Material { ambient: Some([0.0; 3]), ..red };
         assert_eq!(MaterialUniform::of(&dark).ambient, [0.0; 4]);
     }

@@ -1,5 +1,5 @@
-//! Techniques on the GPU: each pass of the plan as pipelines and textures, done in
-//! order, one command buffer a frame.
+//! Techniques on the GPU: the pipelines and textures of the passes of a plan, encoded in
+//! order to one command buffer per frame.
 //!
 //! ```text
 //!   Plan, Technique --build--> steps --encode--> framebuffer --> picture
@@ -7,14 +7,15 @@
 //!            surfaces, meshes ---+   +--> generated textures, kept from frame to frame
 //! ```
 //!
-//! Only this module knows wgpu; what can be wrong with a technique was found before.
+//! Mistakes in a technique were found in its plan; only programs that do not fit together
+//! are found here.
 //!
 //! - `scene_pass`, `screen_pass`, `ping_pong`, `copy_pass`, `stroke_pass`: the core
-//!   components. Who adds one: a variant of `CoreComponent`, its descriptor in
-//!   `techniques/components/core.toml`, a file here, a step below (thesis, section 2.3).
+//!   components (thesis, section 2.3); `docs/techniques.md` lists the steps to add one.
 //! - `surface`, `material`, `textures`: what they draw and read.
-//! - `bindings`, `params`, `pipeline`, `blend`: how programs are given what they want;
-//!   `pipeline_cache`: what was built before.
+//! - `bindings`, `params`, `pipeline`, `blend`: parameters, textures and targets of
+//!   programs; `pipeline_cache`: pipelines that were built before.
+//! - `build`: a graph for a plan, with all that an earlier graph had.
 
 mod bindings;
 mod blend;
@@ -49,39 +50,59 @@ use strokes::view::tile::Tile;
 use strokes::view::view_state::ViewState;
 
 use self::bindings::Sources;
+pub use self::build::GraphChange;
 use self::copy_pass::CopyPass;
 use self::ping_pong::PingPong;
 use self::pipeline_cache::PipelineCache;
 use self::scene_buffers::SceneBuffers;
 use self::scene_pass::ScenePass;
 use self::screen_pass::ScreenPass;
-use self::stroke_pass::{StrokeGroup, StrokePasses, StrokeStore};
+use self::stroke_pass::{StrokeGroup, StrokeRenderers};
 use self::surface::Surfaces;
 use crate::error::Error;
+use crate::scene::models::Scene;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
+use crate::technique::core_view::RunMode;
 use crate::technique::pass::Pass;
 use crate::technique::plan::{PassPlan, Plan};
 use crate::technique::value::Value;
 
-/// How a technique is drawn, whatever it is.
+/// The scene and the technique of a graph.
+#[derive(Debug, Clone, Copy)]
+pub struct GraphInput<'a> {
+    /// The objects.
+    pub scene: &'a Scene,
+    /// The technique.
+    pub technique: &'a Technique,
+    /// The plan of the technique.
+    pub plan: &'a Plan,
+    /// Techniques of objects, by the index in `PlacedObject::look`: the values of their
+    /// passes replace those of passes with the same name and component, and their passes
+    /// of strokes replace all passes of strokes.
+    pub overrides: &'a [Technique],
+    /// Size, samples and so on.
+    pub options: &'a GraphOptions,
+}
+
+/// How any technique is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct GraphOptions {
     /// Width and height of the picture in pixels.
     pub size: [u32; 2],
-    /// Samples a pixel, 1 or 4.
+    /// Samples per pixel, 1 or 4.
     pub samples: u32,
     /// How the edges lie in memory.
     pub layout: Layout,
-    /// Where features are detected.
+    /// The detection stage.
     pub stage: DetectionStage,
-    /// Whether there is no paper behind the scene.
+    /// Whether the background is transparent.
     pub is_transparent: bool,
-    /// Whether there can be clip planes; without them surfaces are drawn faster.
+    /// Whether there are clip planes; without them surfaces are drawn faster.
     pub clips: bool,
 }
 
-/// A technique and a scene, ready to be drawn.
+/// A technique and a scene on the GPU.
 #[derive(Debug)]
 pub struct PassGraph {
     framebuffer: Targets,
@@ -92,20 +113,19 @@ pub struct PassGraph {
     scene: SceneBuffers,
     sources: Sources,
     surfaces: Option<Surfaces>,
-    strokes: Option<StrokePasses>,
-    stroke_store: StrokeStore,
+    strokes: StrokeRenderers,
     steps: Vec<Step>,
     pipelines: PipelineCache,
 }
 
-/// One or several passes, done at once.
+/// A pass, or consecutive passes of strokes.
 #[derive(Debug)]
 struct Step {
-    /// Its name among the times.
+    /// The name of the first pass, for timings.
     name: String,
     kind: StepKind,
     plan: PassPlan,
-    run: Run,
+    schedule: Schedule,
 }
 
 #[derive(Debug)]
@@ -117,45 +137,45 @@ enum StepKind {
     Strokes(StrokeGroup),
 }
 
-/// When a step is done.
+/// In which frames a step runs.
 #[derive(Debug)]
-struct Run {
-    when: When,
-    /// The values of the pass and the text of its program.
-    key: (Vec<Value>, String),
-    /// Whether what it makes is there.
+struct Schedule {
+    mode: RunMode,
+    key: ScheduleKey,
+    /// Whether its textures are up to date.
     is_done: bool,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum When {
-    Always,
-    Once,
-    /// Where a variable or the program has changed.
-    Changed,
+/// What the output of a step with [`RunMode::Changed`] depends on.
+#[derive(Debug, PartialEq)]
+struct ScheduleKey {
+    values: Vec<Value>,
+    /// The text of the fragment program; empty if there is none.
+    program: String,
 }
 
-/// What a frame sees.
+/// The input of a frame.
 #[derive(Debug, Clone, Copy)]
-pub struct Seen<'a> {
-    /// Who sees the whole picture.
+pub struct FrameInput<'a> {
+    /// The view of the whole picture.
     pub view: &'a View,
-    /// Light and what cuts the scene.
+    /// Light and clip planes.
     pub around: &'a Surroundings,
-    /// Which part of the picture is drawn, where it is not the whole.
-    pub part: Option<PartOf<'a>>,
+    /// The tile that is drawn; none for the whole picture.
+    pub tile: Option<TileInput<'a>>,
 }
 
-/// A part of a picture that is too large to be drawn at once.
+/// A tile of a picture that is too large for a texture.
 #[derive(Debug, Clone, Copy)]
-pub struct PartOf<'a> {
-    /// The part.
-    pub part: Tile,
-    /// The whole picture, smaller, whose depth tells where linked strokes are seen.
+pub struct TileInput<'a> {
+    /// The tile.
+    pub tile: Tile,
+    /// The whole picture in a smaller size, whose depth decides where linked strokes are
+    /// hidden.
     pub overview: Option<&'a Targets>,
 }
 
-/// What steps share while a frame is encoded.
+/// State that steps share while a frame is encoded.
 struct Encoding<'a> {
     gpu: &'a Gpu,
     framebuffer: &'a Targets,
@@ -164,27 +184,27 @@ struct Encoding<'a> {
     instances: &'a [MeshInstance],
     surfaces: Option<&'a Surfaces>,
     overview: Option<&'a Targets>,
-    /// Whether nothing was drawn to the framebuffer yet.
+    /// Whether nothing was drawn to the framebuffer in this frame yet.
     is_fresh: bool,
     /// Whether the framebuffer's depth is that of the scene.
     has_depth: bool,
 }
 
 impl PassGraph {
-    /// The picture, once a frame was encoded and submitted.
+    /// The picture of the last submitted frame.
     #[must_use]
     pub const fn picture(&self) -> &wgpu::Texture {
         self.framebuffer.picture()
     }
 
-    /// The texture that passes call `<generated>:name`.
+    /// The texture `<generated>:name`.
     #[must_use]
     pub fn generated(&self, plan: &Plan, name: &str) -> Option<&wgpu::Texture> {
         let at = plan.textures.iter().position(|texture| texture.name == name)?;
         Some(self.sources.generated.get(at)?.read_texture())
     }
 
-    /// The names of everything that is timed, in order.
+    /// The names of all timings, in order.
     #[must_use]
     pub fn time_names(&self) -> Vec<String> {
         let mut names = Vec::new();
@@ -199,7 +219,7 @@ impl PassGraph {
         names
     }
 
-    /// The groups of strokes and their objects.
+    /// The groups of strokes.
     pub(crate) fn stroke_groups(&self) -> impl Iterator<Item = &StrokeGroup> {
         self.steps.iter().filter_map(|step| match &step.kind {
             StepKind::Strokes(group) => Some(group),
@@ -207,11 +227,10 @@ impl PassGraph {
         })
     }
 
-    /// The counts of the last frame; none where vertex shaders detect, or no strokes are
-    /// drawn.
+    /// The counts of the last frame; none if vertex shaders detect, or no strokes are drawn.
     ///
     /// # Errors
-    /// Where the device is lost.
+    /// If the device is lost.
     pub fn tally(&self, gpu: &Gpu) -> Result<Option<Tally>, strokes::gpu::readback::ReadbackError> {
         let objects = self.counted_objects();
         if objects.is_empty() {
@@ -223,30 +242,29 @@ impl PassGraph {
 
     /// The objects whose strokes are counted.
     pub(crate) fn counted_objects(&self) -> &[DrawnObject] {
-        let counts_nothing = self.strokes.as_ref().is_some_and(StrokePasses::counts_nothing);
-        let group = self.stroke_groups().next().filter(|_| !counts_nothing);
+        let group = self.stroke_groups().next().filter(|group| !group.counts_nothing());
         group.map_or(&[], |group| group.drawing.objects())
     }
 
-    /// What was drawn to last, with its depth.
+    /// The picture with its depth.
     #[must_use]
     pub const fn framebuffer(&self) -> &Targets {
         &self.framebuffer
     }
 
-    /// Forgets what earlier frames have left in the textures of `plan`, the plan of this
-    /// graph: the next frame is the first one again.
+    /// Clears the textures of `plan`, the plan of this graph, so that the next frame is
+    /// drawn as the first one.
     pub fn forget_frames(&mut self, device: &wgpu::Device, plan: &Plan) {
         for (texture, plan) in self.sources.generated.iter_mut().zip(&plan.textures) {
             texture.renew(device, plan, self.framebuffer.size);
         }
         for step in &mut self.steps {
-            step.run.is_done = false;
+            step.schedule.is_done = false;
         }
     }
 
-    /// Goes on in a picture of another size. Pipelines and meshes stay, and so do textures
-    /// of `plan`, the plan of this graph, whose size is not that of the picture.
+    /// Changes the size of the picture. Only textures whose size depends on it are made
+    /// again; `plan` is the plan of this graph.
     pub fn resize(&mut self, device: &wgpu::Device, plan: &Plan, size: [u32; 2]) {
         let formats = *self.framebuffer.formats();
         self.framebuffer = Targets::new(device, size, formats);
@@ -259,7 +277,7 @@ impl PassGraph {
         }
         for step in &mut self.steps {
             let mut written = step.plan.target.textures().into_iter();
-            step.run.is_done &= !written.any(|at| is_new[at]);
+            step.schedule.is_done &= !written.any(|at| is_new[at]);
             if let StepKind::PingPong(pass) = &mut step.kind {
                 pass.resize(device, size);
             }
@@ -269,17 +287,17 @@ impl PassGraph {
     /// Encodes a frame, to be submitted before the next one is encoded.
     ///
     /// # Errors
-    /// Where an image cannot be read.
+    /// If an image cannot be read.
     pub fn encode(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
-        seen: &Seen,
+        input: &FrameInput,
         timer: Option<TimedPasses>,
     ) -> Result<(), Error> {
-        let Seen { view, around, part } = *seen;
+        let FrameInput { view, around, tile } = *input;
         let whole = || Tile::whole(self.framebuffer.viewport_px());
-        let uniform = FrameUniform::new(view, &part.map_or_else(whole, |of| of.part), around);
+        let uniform = FrameUniform::new(view, &tile.map_or_else(whole, |of| of.tile), around);
         self.view.set(gpu, view, &uniform, &self.instances);
         let mut encoding = Encoding {
             gpu,
@@ -287,7 +305,7 @@ impl PassGraph {
             view: &self.view,
             instances: &self.instances,
             surfaces: self.surfaces.as_ref(),
-            overview: part.and_then(|of| of.overview),
+            overview: tile.and_then(|input| input.overview),
             is_fresh: true,
             has_depth: false,
         };
@@ -298,8 +316,8 @@ impl PassGraph {
                 StepKind::Strokes(_) => edgemesh::index::to_u32(PASS_NAMES.len()),
                 _ => 1,
             };
-            if step.run.is_due() {
-                let strokes = self.strokes.as_mut();
+            if step.schedule.is_due() {
+                let strokes = &mut self.strokes;
                 step.encode(encoder, &mut encoding, &mut self.sources, strokes, timer)?;
             } else {
                 screen_pass::skip(encoder, timer);
@@ -310,7 +328,7 @@ impl PassGraph {
     }
 }
 
-/// The samples of the framebuffer, averaged to the picture.
+/// Averages the samples of the framebuffer to the picture.
 fn resolve(encoder: &mut wgpu::CommandEncoder, framebuffer: &Targets, is_fresh: bool) {
     let load = match is_fresh {
         true => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
@@ -323,11 +341,11 @@ fn resolve(encoder: &mut wgpu::CommandEncoder, framebuffer: &Targets, is_fresh: 
     });
 }
 
-/// The look of all passes of strokes of a technique, for a mesh in `frame` whose crease
-/// thresholds are `built`, in radians.
+/// The drawing style of all passes of strokes of a technique, for a mesh in `frame` with
+/// the crease thresholds `built`, in radians, for ridges and valleys.
 ///
 /// # Errors
-/// Where a brush cannot be read or a curve is wrong.
+/// If a brush or a variable cannot be read.
 pub fn strokes_of(
     technique: &Technique,
     frame: &edgemesh::edge_mesh::MeshFrame,
@@ -339,26 +357,22 @@ pub fn strokes_of(
     stroke_style::style_of_passes(&passes, &technique.folders, frame, built)
 }
 
-impl Run {
-    fn of(pass: &Pass, plan: &PassPlan) -> Self {
-        let when = match pass.string("run") {
-            "once" => When::Once,
-            "changed" => When::Changed,
-            _ => When::Always,
-        };
-        let program = plan.fragment.as_ref().map(|program| program.source.text.clone());
-        let key = (pass.values().to_vec(), program.unwrap_or_default());
-        Self { when, key, is_done: false }
+impl Schedule {
+    fn new(pass: &Pass, plan: &PassPlan) -> Self {
+        let program = plan.programs.fragment.as_ref().map(|program| program.source.text.clone());
+        let key =
+            ScheduleKey { values: pass.values().to_vec(), program: program.unwrap_or_default() };
+        Self { mode: plan.run, key, is_done: false }
     }
 
-    /// Whether the step is to be done now.
+    /// Whether the step runs in the next frame.
     fn is_due(&self) -> bool {
-        self.when == When::Always || !self.is_done
+        self.mode == RunMode::Always || !self.is_done
     }
 
-    /// Takes over that it was done before, as far as that still counts.
-    fn go_on_from(&mut self, before: &Self) {
-        let is_same = self.when == When::Once || self.key == before.key;
+    /// Continues the schedule of the same step in the graph before.
+    fn continue_from(&mut self, before: &Self) {
+        let is_same = self.mode == RunMode::Once || self.key == before.key;
         self.is_done = before.is_done && is_same;
     }
 }
@@ -369,7 +383,7 @@ impl Step {
         encoder: &mut wgpu::CommandEncoder,
         encoding: &mut Encoding,
         sources: &mut Sources,
-        strokes: Option<&mut StrokePasses>,
+        strokes: &mut StrokeRenderers,
         timer: Option<TimedPasses>,
     ) -> Result<(), Error> {
         match &mut self.kind {
@@ -380,9 +394,7 @@ impl Step {
             }
             StepKind::Copy(pass) => pass.encode(encoder, encoding, &self.plan, sources, timer),
             StepKind::Strokes(group) => {
-                if let Some(strokes) = strokes {
-                    strokes.encode(encoder, encoding, group, timer)?;
-                }
+                strokes.encode(encoder, encoding, group, timer)?;
             }
         }
         if self.plan.is_in_place {
@@ -390,13 +402,13 @@ impl Step {
                 sources.generated[texture].swap();
             }
         }
-        self.run.is_done = true;
+        self.schedule.is_done = true;
         Ok(())
     }
 }
 
 impl Encoding<'_> {
-    /// How the framebuffer's colour is loaded: cleared where nothing was drawn yet.
+    /// How the framebuffer's color is loaded: cleared if nothing was drawn yet.
     const fn load(&self) -> wgpu::LoadOp<wgpu::Color> {
         match self.is_fresh {
             true => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),

@@ -4,15 +4,15 @@ use crate::technique::pass::Pass;
 use crate::technique::program::{Field, FieldKind, Params};
 use crate::technique::value::Value;
 
-/// What the runner fills in by itself: the number of a run and how many there are.
+/// The index of a run of `ping_pong`, and the number of its runs.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Iteration {
     pub(crate) index: i32,
     pub(crate) count: i32,
 }
 
-/// The bytes of `params` with the values of `pass`; a multiple of 16, as uniform
-/// buffers want it.
+/// The bytes of `params` with the values of `pass`, padded to a multiple of 16 for a
+/// uniform buffer.
 pub(crate) fn bytes_of(params: &Params, pass: &Pass, iteration: Iteration) -> Vec<u8> {
     let mut bytes = vec![0; (params.size as usize).next_multiple_of(16)];
     for field in &params.fields {

@@ -1,4 +1,4 @@
-//! `ping_pong`: a program over a texture, then over its own output, again and again
+//! `ping_pong`: runs a program over a texture, then several times over its own output
 //! (Card and Mitchell, *Thickening Outlines with Morphology*).
 //!
 //! ```text
@@ -8,32 +8,32 @@
 use strokes::gpu::timer::TimedPasses;
 
 use super::Encoding;
-use super::bindings::Sources;
+use super::bindings::{Replacement, Sources};
 use super::build::Builder;
 use super::params::Iteration;
 use super::pipeline::{GroupBuffers, PassPipeline, PipelineTarget};
 use super::screen_pass::{color_attachment, draw, own_program, screen_pipeline};
 use super::textures::target_texture;
 use crate::error::Error;
+use crate::technique::core_view;
 use crate::technique::pass::Pass;
 use crate::technique::plan::PassPlan;
 use crate::technique::program::ProgramKind;
 use crate::technique::texture_format::TextureSize;
 
-/// The variable that every run but the first reads as the output of the one before.
-const INPUT: &str = "texture";
-
-/// A program that is run again and again.
+/// Runs a program several times.
 #[derive(Debug)]
 pub(crate) struct PingPong {
-    /// Into the temporary textures.
+    /// Draws to the temporary textures.
     between: PassPipeline,
-    /// Into the target.
+    /// Draws to the target.
     last: PassPipeline,
     temporary: [wgpu::TextureView; 2],
-    /// The size and the format of those.
-    kind: (TextureSize, wgpu::TextureFormat),
-    /// Of each run.
+    /// The size of the temporary textures.
+    size: TextureSize,
+    /// The format of the temporary textures.
+    format: wgpu::TextureFormat,
+    /// The parameters of each run.
     buffers: Vec<GroupBuffers>,
     count: usize,
 }
@@ -43,14 +43,12 @@ impl PingPong {
         builder: &Builder,
         pass: &Pass,
         plan: &PassPlan,
-        frame: &wgpu::BindGroupLayout,
+        view: &core_view::PingPong,
     ) -> Result<Self, Error> {
-        let target = builder.target(pass, plan);
-        let size = [pass.int("render_target_width"), pass.int("render_target_height")];
-        let size = TextureSize { sides: size, scale: pass.number("render_target_scale") };
-        let format = target.colors[0];
-        let kind = (size, format);
-        let temporary = temporary(&builder.gpu.device, kind, builder.options.size);
+        let target = builder.target(plan);
+        let options = builder.input.options;
+        let (size, format) = (view.target.size, target.colors[0]);
+        let temporary = temporary(&builder.gpu.device, size.pixels(options.size), format);
         let offscreen = PipelineTarget {
             colors: vec![format],
             depth: None,
@@ -58,16 +56,19 @@ impl PingPong {
             blend: None,
             is_pushed: false,
             writes_depth: false,
-            clips: builder.options.clips,
+            clips: options.clips,
         };
-        let count = usize::try_from(pass.int("pass_count")).unwrap_or(0);
-        let mut copied = plan.clone();
-        if count == 0 {
-            // Nothing is run: the input goes to the target as it is.
-            copied.fragment = Some(own_program("copy:copy", ProgramKind::Fragment)?);
-        }
-        let between = screen_pipeline(builder, pass, plan, frame, &offscreen)?;
-        let last = screen_pipeline(builder, pass, &copied, frame, &target)?;
+        let count = view.run_count;
+        let fragment = plan.programs.fragment.as_ref();
+        let between = screen_pipeline(builder, pass, plan, fragment, &offscreen)?;
+        let last = match count {
+            // Without a run the input is copied to the target.
+            0 => {
+                let copy = own_program("copy:copy", ProgramKind::Fragment)?;
+                screen_pipeline(builder, pass, plan, Some(&copy), &target)?
+            }
+            _ => screen_pipeline(builder, pass, plan, fragment, &target)?,
+        };
         let device = &builder.gpu.device;
         let buffers = (0..count.max(1)).map(|index| {
             let number = |number: usize| i32::try_from(number).unwrap_or(i32::MAX);
@@ -75,12 +76,13 @@ impl PingPong {
             let pipeline = if index + 1 >= count { &last } else { &between };
             pipeline.buffers(device, pass, iteration)
         });
-        Ok(Self { buffers: buffers.collect(), between, last, temporary, kind, count })
+        let buffers = buffers.collect();
+        Ok(Self { between, last, temporary, size, format, buffers, count })
     }
 
-    /// Goes on in a picture of another size.
+    /// Makes the temporary textures for another size of the picture.
     pub(crate) fn resize(&mut self, device: &wgpu::Device, picture: [u32; 2]) {
-        self.temporary = temporary(device, self.kind, picture);
+        self.temporary = temporary(device, self.size.pixels(picture), self.format);
     }
 
     pub(crate) fn encode(
@@ -98,7 +100,8 @@ impl PingPong {
             let is_last = index + 1 == runs;
             let pipeline = if is_last { &self.last } else { &self.between };
             let before = index.checked_sub(1).map(|before| &self.temporary[before % 2]);
-            let input = before.map(|view| (INPUT, view));
+            let variable = core_view::PingPong::INPUT;
+            let input = before.map(|view| Replacement { variable, view });
             let groups = pipeline.bind(encoding.gpu, &self.buffers[index], sources, input)?;
             if is_last {
                 let timestamps = match runs {
@@ -129,11 +132,11 @@ impl PingPong {
 
 fn temporary(
     device: &wgpu::Device,
-    (size, format): (TextureSize, wgpu::TextureFormat),
-    picture: [u32; 2],
+    size: [u32; 2],
+    format: wgpu::TextureFormat,
 ) -> [wgpu::TextureView; 2] {
     [0, 1].map(|_| {
-        let texture = target_texture(device, "ping pong", size.pixels(picture), format);
+        let texture = target_texture(device, "ping pong", size, format);
         texture.create_view(&Default::default())
     })
 }

@@ -1,4 +1,4 @@
-//! The pipeline of a pass: its programs, what they are given, and what is drawn into.
+//! The pipeline of a pass: its programs, parameters and target.
 
 use std::borrow::Cow;
 
@@ -7,24 +7,24 @@ use strokes::gpu::device::Gpu;
 use strokes::gpu::shader::shader_module;
 use strokes::gpu::target_formats::TargetFormats;
 
-use super::bindings::{GroupPlan, PASS_GROUP, Sources, VERTEX_GROUP};
+use super::bindings::{GroupPlan, PASS_GROUP, Replacement, Sources, VERTEX_GROUP};
 use super::params::Iteration;
 use super::surface::VERTEX_BUFFERS;
 use crate::error::Error;
 use crate::technique::error::TechniqueError;
 use crate::technique::loop_bound::bound_loops;
 use crate::technique::pass::Pass;
-use crate::technique::plan::Read;
+use crate::technique::plan::TextureRead;
 use crate::technique::program::Program;
 
-/// A pipeline with the layouts of its own groups.
+/// A pipeline with the groups of its parameters and textures.
 #[derive(Debug, Clone)]
 pub(crate) struct PassPipeline {
     pub(crate) pipeline: wgpu::RenderPipeline,
     pub(crate) groups: Vec<PassGroup>,
 }
 
-/// One of the groups that the pass fills.
+/// A group of parameters and textures.
 #[derive(Debug, Clone)]
 pub(crate) struct PassGroup {
     pub(crate) index: u32,
@@ -32,10 +32,10 @@ pub(crate) struct PassGroup {
     pub(crate) layout: wgpu::BindGroupLayout,
 }
 
-/// Uniform buffers, by group of a pipeline.
+/// The uniform buffers of each group of a pipeline.
 pub(crate) type GroupBuffers = Vec<Vec<wgpu::Buffer>>;
 
-/// Bind groups with their numbers.
+/// Bind groups with their indices.
 pub(crate) type BoundGroups = Vec<(u32, wgpu::BindGroup)>;
 
 /// What a pipeline draws.
@@ -43,18 +43,18 @@ pub(crate) type BoundGroups = Vec<(u32, wgpu::BindGroup)>;
 pub(crate) enum Geometry {
     /// The surfaces of the scene.
     Surfaces,
-    /// One triangle over the whole target, behind everything.
+    /// One triangle over the whole target, behind all surfaces.
     Screen,
 }
 
-/// What a pipeline draws into.
+/// The target of a pipeline.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PipelineTarget {
     pub(crate) colors: Vec<wgpu::TextureFormat>,
     pub(crate) depth: Option<wgpu::TextureFormat>,
     pub(crate) samples: u32,
     pub(crate) blend: Option<wgpu::BlendState>,
-    /// Whether the surface is pushed back, so that strokes lie over it.
+    /// Whether surfaces are pushed back, so that strokes lie in front of them.
     pub(crate) is_pushed: bool,
     /// Whether the program writes the depth itself.
     pub(crate) writes_depth: bool,
@@ -81,21 +81,29 @@ impl PipelineTarget {
     }
 }
 
+/// The layouts of the groups that passes of a graph share.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct GraphLayouts<'a> {
+    /// Of the view, `@group(0)`.
+    pub(crate) frame: &'a wgpu::BindGroupLayout,
+    /// Of a surface, `@group(2)`.
+    pub(crate) surface: &'a wgpu::BindGroupLayout,
+}
+
 /// The programs of a pipeline and what they read.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Programs<'a> {
     pub(crate) label: &'a str,
     pub(crate) vertex: &'a Program,
     pub(crate) fragment: &'a Program,
-    pub(crate) reads: &'a [Read],
+    pub(crate) reads: &'a [TextureRead],
 }
 
 impl PassPipeline {
     /// Builds the pipeline.
     pub(crate) fn new(
         gpu: &Gpu,
-        frame: &wgpu::BindGroupLayout,
-        surface: &wgpu::BindGroupLayout,
+        shared: GraphLayouts,
         programs: Programs,
         geometry: Geometry,
         target: &PipelineTarget,
@@ -112,9 +120,9 @@ impl PassPipeline {
         };
         let [pass, vertex] = [own(PASS_GROUP), own(VERTEX_GROUP)];
         let layouts = [
-            Some(frame),
+            Some(shared.frame),
             pass.as_ref().map(|group| &group.layout),
-            (geometry == Geometry::Surfaces).then_some(surface),
+            (geometry == Geometry::Surfaces).then_some(shared.surface),
             vertex.as_ref().map(|group| &group.layout),
         ];
         let used = layouts.iter().rposition(Option::is_some).map_or(0, |last| last + 1);
@@ -127,7 +135,7 @@ impl PassPipeline {
         Ok(Self { pipeline, groups: [pass, vertex].into_iter().flatten().collect() })
     }
 
-    /// Uniform buffers with the values of `pass`, by group.
+    /// Uniform buffers with the values of `pass` for each group.
     pub(crate) fn buffers(
         &self,
         device: &wgpu::Device,
@@ -137,17 +145,16 @@ impl PassPipeline {
         self.groups.iter().map(|group| group.plan.buffers(device, pass, iteration)).collect()
     }
 
-    /// Binds `buffers` and the textures as they are now; `replaced` stands for the
-    /// texture variable of that name.
+    /// Binds `buffers` and the current textures.
     pub(crate) fn bind(
         &self,
         gpu: &Gpu,
         buffers: &GroupBuffers,
         sources: &mut Sources,
-        replaced: Option<(&str, &wgpu::TextureView)>,
+        replacement: Option<Replacement>,
     ) -> Result<BoundGroups, Error> {
         let bind = |(group, buffers): (&PassGroup, &Vec<wgpu::Buffer>)| {
-            let bound = group.plan.group(gpu, &group.layout, buffers, sources, replaced)?;
+            let bound = group.plan.group(gpu, &group.layout, buffers, sources, replacement)?;
             Ok((group.index, bound))
         };
         self.groups.iter().zip(buffers).map(bind).collect()
@@ -162,7 +169,7 @@ fn render_pipeline(
     target: &PipelineTarget,
 ) -> Result<wgpu::RenderPipeline, Error> {
     let device = &gpu.device;
-    // Two programs that do not fit each other are found only here.
+    // Only the device finds out whether two programs fit together.
     let faults = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let modules = [vertex, fragment].map(|program| program_module(program, device, label));
     let targets: Vec<Option<wgpu::ColorTargetState>> = target
@@ -241,8 +248,7 @@ fn depth_state(
     }
 }
 
-/// Makes the module of a program on a device; loops of a program that does not ship are
-/// bounded.
+/// The shader module of a program; loops are limited unless the program is built in.
 fn program_module(program: &Program, device: &wgpu::Device, label: &str) -> wgpu::ShaderModule {
     let parsed = if program.is_bounded { program.source.reflect().ok() } else { None };
     let Some((mut module, _)) = parsed else {

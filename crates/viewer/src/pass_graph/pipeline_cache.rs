@@ -1,5 +1,5 @@
-//! Pipelines that were built before: when a value or the order of passes changes, or a
-//! technique comes back, none is built again.
+//! Pipelines that were built before, so that a change of a value or of the order of
+//! passes, or a technique that was used before, builds none again.
 
 use std::sync::Arc;
 
@@ -7,13 +7,13 @@ use edgemesh_shaders::ShaderSource;
 use strokes::gpu::device::Gpu;
 use strokes::gpu::recent::Recent;
 
-use super::pipeline::{Geometry, PassPipeline, PipelineTarget, Programs};
+use super::pipeline::{Geometry, GraphLayouts, PassPipeline, PipelineTarget, Programs};
 use crate::error::Error;
-use crate::technique::plan::Read;
+use crate::technique::plan::TextureRead;
 use crate::technique::program::Program;
 
-/// So many pipelines are kept: more than all techniques that ship have together.
-const MOST_KEPT: usize = 256;
+/// The number of pipelines in the cache: more than all built-in techniques have together.
+const CAPACITY: usize = 256;
 
 /// The pipelines of passes.
 #[derive(Debug)]
@@ -21,17 +21,17 @@ pub(crate) struct PipelineCache {
     known: Recent<Key, PassPipeline>,
 }
 
-/// Everything that a pipeline depends on.
+/// What a pipeline depends on.
 #[derive(Debug)]
 struct Key {
     vertex: ProgramKey,
     fragment: ProgramKey,
-    reads: Vec<Read>,
+    reads: Vec<TextureRead>,
     geometry: Geometry,
     target: PipelineTarget,
 }
 
-/// A program's text and its function.
+/// The text of a program and its function.
 #[derive(Debug)]
 struct ProgramKey {
     source: Arc<ShaderSource>,
@@ -50,17 +50,16 @@ impl ProgramKey {
 
 impl Default for PipelineCache {
     fn default() -> Self {
-        Self { known: Recent::new(MOST_KEPT) }
+        Self { known: Recent::new(CAPACITY) }
     }
 }
 
 impl PipelineCache {
-    /// The pipeline of `programs`, built where it is not known; layouts as in
-    /// [`PassPipeline::new`].
+    /// The pipeline of `programs`, built if it is not known.
     pub(crate) fn pipeline(
         &mut self,
         gpu: &Gpu,
-        (frame, surface): (&wgpu::BindGroupLayout, &wgpu::BindGroupLayout),
+        layouts: GraphLayouts,
         programs: Programs,
         geometry: Geometry,
         target: &PipelineTarget,
@@ -72,7 +71,7 @@ impl PipelineCache {
                 && key.fragment.is_of(programs.fragment)
         };
         self.known.get(is_it, || {
-            let pipeline = PassPipeline::new(gpu, frame, surface, programs, geometry, target)?;
+            let pipeline = PassPipeline::new(gpu, layouts, programs, geometry, target)?;
             let key = Key {
                 vertex: ProgramKey::of(programs.vertex),
                 fragment: ProgramKey::of(programs.fragment),

@@ -7,27 +7,32 @@ use super::Encoding;
 use super::bindings::Sources;
 use super::build::Builder;
 use super::params::Iteration;
-use super::pipeline::{Geometry, GroupBuffers, PassPipeline, Programs};
+use super::pipeline::{Geometry, GraphLayouts, GroupBuffers, PassPipeline, Programs};
 use super::screen_pass::{color_attachment, screen_vertex};
 use super::surface::Surfaces;
 use crate::error::Error;
+use crate::technique::core_view::SimpleRender;
 use crate::technique::pass::Pass;
 use crate::technique::plan::{PassPlan, Target};
 
-/// The surfaces of the scene, drawn.
+/// Draws the surfaces of the scene.
 #[derive(Debug)]
 pub(crate) struct ScenePass {
     surfaces: PassPipeline,
-    /// What is behind them, where a program draws it.
-    background: Option<(PassPipeline, GroupBuffers)>,
-    /// Parameters by look: the first ones are those of objects without a look of their
-    /// own.
+    background: Option<Background>,
+    /// Parameters: first those of objects without an override, then those of overrides.
     buffers: Vec<GroupBuffers>,
-    /// The look of each object, as a number among `buffers`; none for objects that are
-    /// not drawn.
-    looks: Vec<Option<usize>>,
+    /// For each object an index in `buffers`; none for objects that are not drawn.
+    buffer_indices: Vec<Option<usize>>,
     clears: bool,
     clear_color: wgpu::Color,
+}
+
+/// A program that draws the background.
+#[derive(Debug)]
+struct Background {
+    pipeline: PassPipeline,
+    buffers: GroupBuffers,
 }
 
 impl ScenePass {
@@ -35,51 +40,57 @@ impl ScenePass {
         builder: &Builder,
         pass: &Pass,
         plan: &PassPlan,
-        frame: &wgpu::BindGroupLayout,
+        view: &SimpleRender,
         surfaces: &Surfaces,
     ) -> Result<Self, Error> {
+        let (input, options) = (builder.input, builder.input.options);
         let buffers_of = |pipeline: &PassPipeline, pass: &Pass| {
             pipeline.buffers(&builder.gpu.device, pass, Iteration::default())
         };
         let missing = || Error::Internal(format!("the pass '{}' has no program", pass.name));
-        let target = builder.target(pass, plan);
-        let vertex = plan.vertex.as_ref().ok_or_else(missing)?;
-        let fragment = plan.fragment.as_ref().ok_or_else(missing)?;
+        let target = builder.target(plan);
+        let vertex = plan.programs.vertex.as_ref().ok_or_else(missing)?;
+        let fragment = plan.programs.fragment.as_ref().ok_or_else(missing)?;
         let programs = Programs { label: &pass.name, vertex, fragment, reads: &plan.reads };
-        let group = &surfaces.layout;
-        let layouts = (frame, group);
+        let layouts = GraphLayouts { frame: builder.frame, surface: &surfaces.layout };
         let pipeline = builder.pipeline(layouts, programs, Geometry::Surfaces, &target)?;
         let is_paper = plan.target == Target::Framebuffer;
-        let background = match &plan.background {
-            Some(fragment) if !(is_paper && builder.options.is_transparent) => {
+        let background = match &plan.programs.background {
+            Some(fragment) if !(is_paper && options.is_transparent) => {
                 let vertex = screen_vertex()?;
                 let programs = Programs { vertex: &vertex, fragment, ..programs };
                 let pipeline = builder.pipeline(layouts, programs, Geometry::Screen, &target)?;
                 let buffers = buffers_of(&pipeline, pass);
-                Some((pipeline, buffers))
+                Some(Background { pipeline, buffers })
             }
             _ => None,
         };
         let mut buffers = vec![buffers_of(&pipeline, pass)];
         let of_scene = pass.is_rendered().then_some(0);
-        let mut of_look = vec![of_scene; builder.looks.len()];
-        for (at, look) in builder.looks.iter().enumerate() {
-            let own = look.pass(&pass.name).filter(|own| own.component == pass.component);
+        let mut of_override = vec![of_scene; input.overrides.len()];
+        for (at, technique) in input.overrides.iter().enumerate() {
+            let own = technique.pass(&pass.name).filter(|own| own.component == pass.component);
             if let Some(own) = own {
-                of_look[at] = own.is_rendered().then_some(buffers.len());
+                of_override[at] = own.is_rendered().then_some(buffers.len());
                 buffers.push(buffers_of(&pipeline, own));
             }
         }
-        let objects = builder.scene.objects.iter();
-        let looks = objects.map(|object| of_look.get(object.look).copied().unwrap_or(of_scene));
-        let looks = looks.collect();
-        let [r, g, b, a] = match is_paper && builder.options.is_transparent {
+        let objects = input.scene.objects.iter();
+        let buffer_indices =
+            objects.map(|object| of_override.get(object.look).copied().unwrap_or(of_scene));
+        let [r, g, b, a] = match is_paper && options.is_transparent {
             true => [0.0; 4],
-            false => pass.numbers::<4>("clear_color").map(f64::from),
+            false => view.clear_color.map(f64::from),
         };
         let clear_color = wgpu::Color { r: r * a, g: g * a, b: b * a, a };
-        let clears = pass.bool("clear");
-        Ok(Self { surfaces: pipeline, background, buffers, looks, clears, clear_color })
+        Ok(Self {
+            surfaces: pipeline,
+            background,
+            buffers,
+            buffer_indices: buffer_indices.collect(),
+            clears: view.is_cleared,
+            clear_color,
+        })
     }
 
     pub(crate) fn encode(
@@ -95,10 +106,13 @@ impl ScenePass {
             pipeline.bind(gpu, buffers, sources, None)
         };
         let background = self.background.as_ref();
-        let background =
-            background.map(|(pipeline, buffers)| bind(pipeline, buffers)).transpose()?;
-        let of_looks = self.buffers.iter().map(|buffers| bind(&self.surfaces, buffers));
-        let of_looks = of_looks.collect::<Result<Vec<_>, Error>>()?;
+        let background = background
+            .map(|Background { pipeline, buffers }| {
+                bind(pipeline, buffers).map(|groups| (pipeline, groups))
+            })
+            .transpose()?;
+        let groups = self.buffers.iter().map(|buffers| bind(&self.surfaces, buffers));
+        let groups = groups.collect::<Result<Vec<_>, Error>>()?;
         let (colors, depth) =
             self.attachments(encoding.framebuffer, encoding.is_fresh, plan, sources);
         if plan.target == Target::Framebuffer {
@@ -112,7 +126,7 @@ impl ScenePass {
             ..Default::default()
         });
         pass.set_bind_group(0, encoding.view.frame().bind_group(), &[]);
-        if let Some(((pipeline, _), groups)) = self.background.as_ref().zip(background) {
+        if let Some((pipeline, groups)) = background {
             pass.set_pipeline(&pipeline.pipeline);
             for (index, group) in &groups {
                 pass.set_bind_group(*index, group, &[]);
@@ -121,9 +135,10 @@ impl ScenePass {
         }
         pass.set_pipeline(&self.surfaces.pipeline);
         let Some(surfaces) = encoding.surfaces else { return Ok(()) };
-        for (at, (state, look)) in encoding.view.objects().iter().zip(&self.looks).enumerate() {
-            let Some(look) = look.filter(|_| state.is_placed()) else { continue };
-            for (index, group) in &of_looks[look] {
+        let states = encoding.view.objects().iter().zip(&self.buffer_indices);
+        for (at, (state, buffers)) in states.enumerate() {
+            let Some(buffers) = buffers.filter(|_| state.is_placed()) else { continue };
+            for (index, group) in &groups[buffers] {
                 pass.set_bind_group(*index, group, &[]);
             }
             surfaces.draw(&mut pass, encoding.instances, at);
@@ -131,7 +146,7 @@ impl ScenePass {
         Ok(())
     }
 
-    /// What is drawn into; the framebuffer is fresh where nothing was drawn there yet.
+    /// The attachments; `is_fresh` if nothing was drawn to the framebuffer yet.
     fn attachments<'a>(
         &self,
         targets: &'a Targets,
@@ -157,7 +172,7 @@ impl ScenePass {
                 let load = if self.clears { clear } else { wgpu::LoadOp::Load };
                 let view = |at: usize| sources.generated[at].write(plan.is_in_place);
                 let colors = colors.iter().enumerate().map(|(location, &color)| {
-                    // Only the first output is a colour; nothing is 0 in the others.
+                    // Only the first output is a color; the others are cleared to 0.
                     let load = match (self.clears, location) {
                         (true, 1..) => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
                         _ => load,

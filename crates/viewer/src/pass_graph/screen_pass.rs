@@ -7,11 +7,11 @@ use super::Encoding;
 use super::bindings::Sources;
 use super::build::Builder;
 use super::params::Iteration;
-use super::pipeline::{Geometry, GroupBuffers, PassPipeline, Programs};
+use super::pipeline::{Geometry, GraphLayouts, GroupBuffers, PassPipeline, Programs};
 use crate::error::Error;
 use crate::technique::mistake::{Place, SourceText};
 use crate::technique::pass::Pass;
-use crate::technique::plan::{PassPlan, Read, ReadSource, Target};
+use crate::technique::plan::{PassPlan, ReadSource, Target, TextureRead};
 use crate::technique::program::{Program, ProgramKind, ShaderFiles};
 
 /// A program over a whole target.
@@ -19,16 +19,16 @@ use crate::technique::program::{Program, ProgramKind, ShaderFiles};
 pub(crate) struct ScreenPass {
     pub(crate) pipeline: PassPipeline,
     buffers: GroupBuffers,
-    /// Whether it would be paper behind the scene where none is wanted.
+    /// Whether it only draws a background, in a picture with a transparent one.
     is_unwanted_paper: bool,
 }
 
-/// The program that places the triangle over the target.
+/// The vertex program of a triangle over the whole target.
 pub(crate) fn screen_vertex() -> Result<Program, Error> {
     own_program("screen:screen", ProgramKind::Vertex)
 }
 
-/// A program of the project's own, whatever the user has beside it.
+/// A built-in program, even if the user has one with the same name.
 pub(crate) fn own_program(name: &str, kind: ProgramKind) -> Result<Program, Error> {
     let place = Place { source: SourceText::new("", ""), span: 0..0 };
     ShaderFiles::default()
@@ -37,16 +37,12 @@ pub(crate) fn own_program(name: &str, kind: ProgramKind) -> Result<Program, Erro
 }
 
 impl ScreenPass {
-    pub(crate) fn new(
-        builder: &Builder,
-        pass: &Pass,
-        plan: &PassPlan,
-        frame: &wgpu::BindGroupLayout,
-    ) -> Result<Self, Error> {
-        let pipeline = screen_pipeline(builder, pass, plan, frame, &builder.target(pass, plan))?;
+    pub(crate) fn new(builder: &Builder, pass: &Pass, plan: &PassPlan) -> Result<Self, Error> {
+        let fragment = plan.programs.fragment.as_ref();
+        let pipeline = screen_pipeline(builder, pass, plan, fragment, &builder.target(plan))?;
         let buffers = pipeline.buffers(&builder.gpu.device, pass, Iteration::default());
-        let is_generated = |read: &Read| matches!(read.source, ReadSource::Generated(_));
-        let is_unwanted_paper = builder.options.is_transparent
+        let is_generated = |read: &TextureRead| matches!(read.source, ReadSource::Generated(_));
+        let is_unwanted_paper = builder.input.options.is_transparent
             && plan.target == Target::Framebuffer
             && !plan.reads.iter().any(is_generated);
         Ok(Self { pipeline, buffers, is_unwanted_paper })
@@ -60,7 +56,7 @@ impl ScreenPass {
         sources: &mut Sources,
         timer: Option<TimedPasses>,
     ) -> Result<(), Error> {
-        // What is drawn before all else, of nothing that was drawn, is paper.
+        // A first pass that reads no generated texture draws a background.
         if self.is_unwanted_paper && encoding.is_fresh {
             skip(encoder, timer);
             return Ok(());
@@ -72,7 +68,7 @@ impl ScreenPass {
     }
 }
 
-/// A pass that is not done; a timer expects it all the same.
+/// Writes the timestamps of a pass that does not run.
 pub(crate) fn skip(encoder: &mut wgpu::CommandEncoder, timer: Option<TimedPasses>) {
     if let Some(timer) = timer {
         encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
@@ -82,22 +78,22 @@ pub(crate) fn skip(encoder: &mut wgpu::CommandEncoder, timer: Option<TimedPasses
     }
 }
 
-/// The pipeline of a pass that draws over a whole target.
+/// The pipeline of a pass that draws over a whole target with the program `fragment`.
 pub(crate) fn screen_pipeline(
     builder: &Builder,
     pass: &Pass,
     plan: &PassPlan,
-    frame: &wgpu::BindGroupLayout,
+    fragment: Option<&Program>,
     target: &super::pipeline::PipelineTarget,
 ) -> Result<PassPipeline, Error> {
     let vertex = screen_vertex()?;
-    let Some(fragment) = &plan.fragment else {
+    let Some(fragment) = fragment else {
         return Err(Error::Internal(format!("the pass '{}' has no program", pass.name)));
     };
     let programs = Programs { label: &pass.name, vertex: &vertex, fragment, reads: &plan.reads };
-    // Where only the framebuffer has a surface's group, there is none to bind.
-    let surface = empty_layout(builder.gpu);
-    builder.pipeline((frame, &surface), programs, Geometry::Screen, target)
+    // The geometry of the screen does not use the group of a surface.
+    let layouts = GraphLayouts { frame: builder.frame, surface: &empty_layout(builder.gpu) };
+    builder.pipeline(layouts, programs, Geometry::Screen, target)
 }
 
 fn empty_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
@@ -107,7 +103,7 @@ fn empty_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     })
 }
 
-/// Draws the triangle over the target of `plan`.
+/// Draws a triangle over the target of `plan`.
 pub(crate) fn draw(
     encoder: &mut wgpu::CommandEncoder,
     encoding: &mut Encoding,
@@ -151,7 +147,7 @@ pub(crate) fn draw(
     pass.draw(0..3, 0..1);
 }
 
-/// A texture of one sample to draw into.
+/// An attachment of one sample per pixel.
 pub(crate) fn color_attachment(
     view: &wgpu::TextureView,
     load: wgpu::LoadOp<wgpu::Color>,

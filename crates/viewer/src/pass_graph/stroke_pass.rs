@@ -17,36 +17,19 @@ use strokes::render::prepared_style::PreparedStyle;
 use strokes::render::renderer::Renderer;
 
 use super::stroke_style::style_of_passes;
-use super::{Encoding, GraphOptions};
+use super::{Encoding, GraphInput, GraphOptions};
 use crate::error::Error;
-use crate::scene::models::Scene;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
+use crate::technique::core_view::{LineSelection, Visibility};
 use crate::technique::pass::Pass;
 
-/// The stroke renderer that all groups of strokes share.
-#[derive(Debug)]
-pub(crate) struct StrokePasses {
-    renderer: Renderer,
-    /// What views made of the groups of the technique before, in order.
-    drawings: std::vec::IntoIter<Drawing>,
-    folders: Vec<std::path::PathBuf>,
-}
-
-/// What stays while techniques come and go: renderers with the pipelines that they have
-/// built, one per kind of target, and what views made of the last technique's groups.
+/// The stroke renderers, one per kind of target: with a stencil and without. They stay while
+/// techniques come and go, with the pipelines that they have built.
 #[derive(Debug, Default)]
-pub(crate) struct StrokeStore {
-    renderers: Vec<Renderer>,
-    /// Of the last renderer in `renderers`.
-    drawings: Vec<Drawing>,
-}
-
-impl StrokeStore {
-    /// Drops what views made of the last technique.
-    pub(crate) fn forget_drawings(&mut self) {
-        self.drawings.clear();
-    }
+pub(crate) struct StrokeRenderers {
+    /// The one that was used last is the last.
+    known: Vec<Renderer>,
 }
 
 /// Targets with a stencil and without.
@@ -55,6 +38,8 @@ const MOST_RENDERERS: usize = 2;
 /// Passes that are drawn together.
 #[derive(Debug)]
 pub(crate) struct StrokeGroup {
+    /// The options of its renderer.
+    options: RendererOptions,
     /// The style of each object.
     styles: Vec<Arc<PreparedStyle>>,
     pub(crate) drawing: Drawing,
@@ -64,63 +49,49 @@ pub(crate) struct StrokeGroup {
 pub(crate) fn needs_stencil(technique: &Technique, overrides: &[Technique]) -> bool {
     let is_silhouette = |pass: &Pass| {
         pass.is_rendered()
-            && pass.component.core == CoreComponent::Strokes
-            && pass.string("visibility") == "silhouette"
+            && LineSelection::of(pass)
+                .is_some_and(|lines| lines.visibility == Visibility::Silhouette)
     };
     let mut all = std::iter::once(technique).chain(overrides).flat_map(|own| &own.passes);
     all.any(is_silhouette)
 }
 
-impl StrokePasses {
-    /// For strokes in targets of `formats`; takes what still fits out of `store`.
-    pub(crate) fn new(
-        gpu: &Gpu,
-        options: &GraphOptions,
-        formats: TargetFormats,
-        folders: &[std::path::PathBuf],
-        store: &mut StrokeStore,
-    ) -> Result<Self, Error> {
-        let GraphOptions { layout, stage, .. } = *options;
-        let options = RendererOptions { layout, stage, formats }.supported();
-        let known = store.renderers.iter().position(|known| *known.options() == options);
-        // Drawings belong to the renderer that was used last.
-        let is_last = known.is_some_and(|at| at + 1 == store.renderers.len());
-        let drawings = std::mem::take(&mut store.drawings);
+impl StrokeRenderers {
+    /// The renderer with these options, built if it is not known.
+    fn renderer(&mut self, gpu: &Gpu, options: RendererOptions) -> Result<&mut Renderer, Error> {
+        let known = self.known.iter().position(|known| *known.options() == options);
         let renderer = match known {
-            Some(at) => store.renderers.remove(at),
+            Some(at) => self.known.remove(at),
             None => Renderer::new(gpu, options)?,
         };
-        let drawings = if is_last { drawings } else { Vec::new() };
-        Ok(Self { renderer, drawings: drawings.into_iter(), folders: folders.to_vec() })
+        self.known.push(renderer);
+        let last = self.known.len() - 1;
+        Ok(&mut self.known[last])
     }
 
-    /// Leaves the renderer, and the drawings of its groups, for the next technique.
-    pub(crate) fn put_back(self, drawings: Vec<Drawing>, store: &mut StrokeStore) {
-        store.drawings = drawings;
-        store.renderers.push(self.renderer);
-        if store.renderers.len() > MOST_RENDERERS {
-            store.renderers.remove(0);
-        }
+    /// Drops all but the renderers that were used last.
+    pub(crate) fn trim(&mut self) {
+        let surplus = self.known.len().saturating_sub(MOST_RENDERERS);
+        self.known.drain(..surplus);
     }
 
-    /// Whether vertex shaders detect, which count nothing.
-    pub(crate) fn counts_nothing(&self) -> bool {
-        self.renderer.options().stage == DetectionStage::Vertex
-    }
-
-    /// Prepares the styles of `passes` for the objects of `scene`; objects with overrides take
-    /// all passes of strokes from there.
+    /// Prepares the styles of `passes` for the objects of the scene, in targets of `formats`;
+    /// objects with overrides take all passes of strokes from there.
     pub(crate) fn group(
         &mut self,
         gpu: &Gpu,
-        scene: &Scene,
+        input: &GraphInput,
         passes: &[&Pass],
-        overrides: &[Technique],
+        formats: TargetFormats,
     ) -> Result<StrokeGroup, Error> {
+        let GraphInput { scene, technique, overrides, options, .. } = *input;
+        let GraphOptions { layout, stage, .. } = *options;
+        let options = RendererOptions { layout, stage, formats }.supported();
+        let renderer = self.renderer(gpu, options)?;
         let style = |passes: &[&Pass], folders: &[std::path::PathBuf]| {
             style_of_passes(passes, folders, &scene.frame, scene.thresholds)
         };
-        let mut all = vec![style(passes, &self.folders)?];
+        let mut all = vec![style(passes, &technique.folders)?];
         for own in overrides {
             let is_drawn =
                 |pass: &&Pass| pass.is_rendered() && pass.component.core == CoreComponent::Strokes;
@@ -133,13 +104,14 @@ impl StrokePasses {
             let same = all[..at].iter().position(|known| known == style);
             prepared.push(match same {
                 Some(same) => prepared[same].clone(),
-                None => self.renderer.prepare(gpu, style)?,
+                None => renderer.prepare(gpu, style)?,
             });
         }
         let of_object = |look: usize| prepared.get(look + 1).unwrap_or(&prepared[0]).clone();
         Ok(StrokeGroup {
+            options,
             styles: scene.objects.iter().map(|object| of_object(object.look)).collect(),
-            drawing: self.drawings.next().unwrap_or_default(),
+            drawing: Drawing::new(),
         })
     }
 
@@ -165,13 +137,30 @@ impl StrokePasses {
             resolves: false,
             timer,
         };
-        self.renderer.encode(encoding.gpu, encoder, &mut group.drawing, &request)?;
+        self.renderer(encoding.gpu, group.options)?.encode(
+            encoding.gpu,
+            encoder,
+            &mut group.drawing,
+            &request,
+        )?;
         (encoding.is_fresh, encoding.has_depth) = (false, true);
         Ok(())
     }
 }
 
 impl StrokeGroup {
+    /// Takes over what views made of a group before, if it has the same renderer.
+    pub(crate) fn continue_from(&mut self, before: Self) {
+        if self.options == before.options {
+            self.drawing = before.drawing;
+        }
+    }
+
+    /// Whether vertex shaders detect, which count nothing.
+    pub(crate) fn counts_nothing(&self) -> bool {
+        self.options.stage == DetectionStage::Vertex
+    }
+
     /// Whether any strokes are linked.
     pub(crate) fn is_linked(&self) -> bool {
         self.styles.iter().any(|style| style.is_linked())

@@ -1,57 +1,60 @@
-//! From the variables of a pass of strokes to a style, and from several passes to a
-//! look.
+//! Passes of strokes as a drawing style.
 
 use std::path::PathBuf;
 
 use edgemesh::edge_mesh::MeshFrame;
 use edgemesh::line::class::LineClass;
 use edgemesh::line::kind::LineKind;
-use edgemesh::line::placement::{Parameterization, Placement};
 use strokes::style::brush::Brush;
 use strokes::style::drawing_style::{DrawingStyle, Layer, StrokeStyle, Width};
-use strokes::style::link_style::{BrushFit, CURVE_LENGTH, End, Join, LinkStyle};
+use strokes::style::link_style::{End, LinkStyle};
 
 use crate::error::{Error, ImageError};
 use crate::technique::brush_file::brush_from_png;
-use crate::technique::class_pass::classes_of;
-use crate::technique::curve::parse_curve;
-use crate::technique::error::TechniqueError;
+use crate::technique::core_view::{
+    LinkVariables, StrokeEnds, StrokeKind, StrokeWidth, Strokes, Visibility,
+};
 use crate::technique::image_file;
 use crate::technique::pass::Pass;
 use crate::technique::texture_name::TextureSource;
 
-/// The least width in pixels.
-const MIN_WIDTH_PX: f32 = 0.1;
+/// A pass of strokes with its style.
+struct StyledPass {
+    view: Strokes,
+    style: StrokeStyle,
+}
 
-/// The look of passes of strokes that are drawn together.
+/// The drawing style of passes of strokes that are drawn together.
 ///
-/// A class that several passes of the same visibility name is drawn by the first of
-/// them. Classes that look alike are one layer.
+/// A class of several passes of the same visibility is drawn by the first of them. Classes
+/// with the same styles are one layer.
 ///
-/// `built` are the thresholds in radians that meshes were built with: those of passes
-/// that set none.
+/// `built` are the crease thresholds in radians that the mesh was built with, for ridges
+/// and valleys, which apply if no pass sets others.
 pub(crate) fn style_of_passes(
     passes: &[&Pass],
     folders: &[PathBuf],
     frame: &MeshFrame,
     built: [f64; 2],
 ) -> Result<DrawingStyle, Error> {
-    let styles = passes
+    let passes = passes
         .iter()
-        .map(|pass| Ok((*pass, style_of(pass, folders, frame)?)))
-        .collect::<Result<Vec<(&Pass, StrokeStyle)>, Error>>()?;
-    let style = |visibility: &str, class: LineClass| {
-        let draws = |(pass, _): &&(&Pass, StrokeStyle)| {
-            let classes = classes_of(pass.string("classes")).unwrap_or_default();
-            pass.string("visibility") == visibility && classes.contains(&class)
-        };
-        styles.iter().find(draws).map(|(_, style)| style.clone())
+        .map(|pass| {
+            let view = Strokes::of(pass)?;
+            let style = style_of(pass, &view, folders, frame)?;
+            Ok(StyledPass { view, style })
+        })
+        .collect::<Result<Vec<StyledPass>, Error>>()?;
+    let style = |visibility: Visibility, class: LineClass| {
+        let draws = |pass: &&StyledPass| pass.view.lines.draws(class, visibility);
+        passes.iter().find(draws).map(|pass| pass.style.clone())
     };
-    let silhouette = style("silhouette", LineClass::Contour);
+    let silhouette = style(Visibility::Silhouette, LineClass::Contour);
     let mut layers: Vec<Layer> = Vec::new();
     for class in LineClass::ALL {
-        let (visible, hidden) = (style("visible", class), style("hidden", class));
-        // Contours that are not drawn themselves are still needed for a silhouette.
+        let visible = style(Visibility::Visible, class);
+        let hidden = style(Visibility::Hidden, class);
+        // A silhouette needs contours, also if they are not drawn themselves.
         let is_needed = class == LineClass::Contour && silhouette.is_some();
         if visible.is_none() && hidden.is_none() && !is_needed {
             continue;
@@ -63,114 +66,87 @@ pub(crate) fn style_of_passes(
             None => layers.push(Layer { classes: vec![class], visible, hidden }),
         }
     }
-    Ok(DrawingStyle {
-        fill_color: None,
-        layers,
-        silhouette,
-        thresholds: thresholds_of(passes, built),
-    })
+    let thresholds = thresholds_of(&passes, built);
+    Ok(DrawingStyle { fill_color: None, layers, silhouette, thresholds })
 }
 
-/// The crease thresholds in radians: those that the first pass sets that sets any.
-fn thresholds_of(passes: &[&Pass], built: [f64; 2]) -> Option<[f64; 2]> {
-    let angle = |variable: &str| {
-        let angles = passes.iter().map(|pass| pass.number(variable));
-        angles.into_iter().find(|angle| *angle >= 0.0).map(|angle| f64::from(angle).to_radians())
+/// The crease thresholds in radians: those of the first pass that sets one.
+fn thresholds_of(passes: &[StyledPass], built: [f64; 2]) -> Option<[f64; 2]> {
+    let angle = |of: fn(&Strokes) -> Option<f32>| {
+        let angle = passes.iter().find_map(|pass| of(&pass.view));
+        angle.map(|angle| f64::from(angle).to_radians())
     };
-    match (angle("ridge_angle"), angle("valley_angle")) {
+    match (angle(|view| view.ridge_angle_deg), angle(|view| view.valley_angle_deg)) {
         (None, None) => None,
         (ridge, valley) => Some([ridge.unwrap_or(built[0]), valley.unwrap_or(built[1])]),
     }
 }
 
-fn style_of(pass: &Pass, folders: &[PathBuf], frame: &MeshFrame) -> Result<StrokeStyle, Error> {
+fn style_of(
+    pass: &Pass,
+    view: &Strokes,
+    folders: &[PathBuf],
+    frame: &MeshFrame,
+) -> Result<StrokeStyle, Error> {
     #[expect(clippy::cast_possible_truncation, reason = "a width or a distance")]
     let scaled = |value: f32| (f64::from(value) * frame.scale) as f32;
-    let [r, g, b, a] = pass.numbers("color");
-    let alpha = a * pass.number("opacity");
-    let width = match pass.string("width_unit") {
-        "model" => Width::World(scaled(pass.number("width"))),
-        _ => Width::Pixels(pass.number("width").max(MIN_WIDTH_PX)),
-    };
-    let fade: [f32; 2] = pass.numbers("fade");
-    let ends = pass.string("ends");
-    let kind = match (pass.string("kind"), ends) {
-        ("thin", _) => LineKind::Thin,
-        ("fin", _) => LineKind::Fin,
-        (_, "none") => LineKind::Quad,
-        (_, "disks") => LineKind::QuadAndDisks,
-        _ => LineKind::QuadAndCaps,
-    };
+    let [r, g, b, a] = view.color;
+    let alpha = a * view.opacity;
     Ok(StrokeStyle {
         color: [r * alpha, g * alpha, b * alpha, alpha],
-        width,
-        kind,
-        placement: match pass.string("placement") {
-            "centred" => Placement::Centred,
-            "outside" => Placement::Outside,
-            "inside" => Placement::Inside,
-            _ => Placement::Automatic,
+        width: match view.width {
+            StrokeWidth::Pixels(width) => Width::Pixels(width),
+            StrokeWidth::Model(width) => Width::World(scaled(width)),
         },
-        parameterization: match pass.string("parameterization") {
-            "screen" => Parameterization::ScreenSpace,
-            _ => Parameterization::ObjectSpace,
+        kind: match (view.kind, view.ends) {
+            (StrokeKind::Thin, _) => LineKind::Thin,
+            (StrokeKind::Fin, _) => LineKind::Fin,
+            (StrokeKind::Quad, StrokeEnds::None) => LineKind::Quad,
+            (StrokeKind::Quad, StrokeEnds::Disks) => LineKind::QuadAndDisks,
+            (StrokeKind::Quad, _) => LineKind::QuadAndCaps,
         },
-        brush: brush_of(pass, folders)?,
-        fade: (fade[1] > fade[0]).then(|| fade.map(scaled)),
-        link: pass.bool("linked").then(|| link_of(pass)).transpose()?,
+        placement: view.placement,
+        parameterization: view.parameterization,
+        brush: brush_of(pass, view, folders)?,
+        fade: view.fade.map(|distances| distances.map(scaled)),
+        link: view.is_linked.then(|| link_of(&view.link, view.ends)),
     })
 }
 
-fn link_of(pass: &Pass) -> Result<LinkStyle, Error> {
-    let min_length = pass.number("min_length");
-    let dash: [f32; 2] = pass.numbers("dash");
-    Ok(LinkStyle {
-        join: match pass.string("join") {
-            "mitred" => Join::Mitred,
-            _ => Join::Round,
-        },
-        end: match pass.string("ends") {
-            "flat" => End::Flat,
-            "pointed" => End::Pointed,
+fn link_of(link: &LinkVariables, ends: StrokeEnds) -> LinkStyle {
+    LinkStyle {
+        join: link.join,
+        end: match ends {
+            StrokeEnds::Flat => End::Flat,
+            StrokeEnds::Pointed => End::Pointed,
             _ => End::Round,
         },
-        corner_rad: pass.number("corner").to_radians(),
-        is_cut_where_hidden: pass.bool("cut_hidden"),
-        min_length_px: (min_length >= 0.0).then_some(min_length),
-        max_length_px: pass.number("max_length"),
-        brush_fit: match pass.string("fit") {
-            "stretched" => BrushFit::Stretched,
-            _ => BrushFit::Tiled,
-        },
-        taper_px: pass.numbers("taper"),
-        overshoot_px: pass.number("overshoot"),
-        width_curve: curve_of(pass, "width_curve", 10.0)?,
-        opacity_curve: curve_of(pass, "opacity_curve", 1.0)?,
-        wobble_px: pass.number("wobble"),
-        wobble_length_px: pass.number("wobble_length"),
-        jitter_px: pass.number("jitter"),
-        seed: u16::try_from(pass.int("seed")).unwrap_or_default(),
-        dash_px: (dash[0] >= 0.1 && dash[1] >= 0.1).then_some(dash),
-    })
+        corner_rad: link.corner_deg.to_radians(),
+        is_cut_where_hidden: link.is_cut_hidden,
+        min_length_px: link.min_length_px,
+        max_length_px: link.max_length_px,
+        brush_fit: link.fit,
+        taper_px: link.taper_px,
+        overshoot_px: link.overshoot_px,
+        width_curve: link.width_curve,
+        opacity_curve: link.opacity_curve,
+        wobble_px: link.wobble_px,
+        wobble_length_px: link.wobble_length_px,
+        jitter_px: link.jitter_px,
+        seed: link.seed,
+        dash_px: link.dash_px,
+    }
 }
 
-fn brush_of(pass: &Pass, folders: &[PathBuf]) -> Result<Option<Brush>, Error> {
-    let name = pass.texture("brush");
-    if name.source == TextureSource::None {
+fn brush_of(pass: &Pass, view: &Strokes, folders: &[PathBuf]) -> Result<Option<Brush>, Error> {
+    if view.brush.source == TextureSource::None {
         return Ok(None);
     }
-    let file = image_file::find(name, folders, pass.place_of("brush"))
+    let file = image_file::find(&view.brush, folders, &pass.place)
         .map_err(|mistake| Error::BrushNotFound { what: mistake.message })?;
     let unreadable = |error| Error::Image { file: file.name(), reason: ImageError::Io(error) };
     let bytes = file.bytes().map_err(unreadable)?;
     Ok(Some(brush_from_png(&file.name(), &bytes)?))
-}
-
-fn curve_of(pass: &Pass, variable: &str, most: f32) -> Result<[f32; CURVE_LENGTH], Error> {
-    parse_curve(pass.string(variable), most).map_err(|what| {
-        let (pass, variable) = (pass.name.clone(), variable.to_owned());
-        TechniqueError::Curve { pass, variable, what }.into()
-    })
 }
 
 #[cfg(test)]

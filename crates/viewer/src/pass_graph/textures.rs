@@ -1,4 +1,4 @@
-//! The textures of a pass graph: what passes draw, and images.
+//! The textures of a pass graph: those that passes write, and images.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -10,17 +10,35 @@ use strokes::gpu::device::Gpu;
 use crate::error::{Error, ImageError};
 use crate::technique::image_file::ImageFile;
 use crate::technique::plan::TexturePlan;
+use crate::technique::texture_format::TextureFormat;
+
+/// The format in wgpu: the only place that converts it.
+pub(crate) const fn wgpu_format(format: TextureFormat) -> wgpu::TextureFormat {
+    match format {
+        TextureFormat::R8 => wgpu::TextureFormat::R8Unorm,
+        TextureFormat::Rg8 => wgpu::TextureFormat::Rg8Unorm,
+        TextureFormat::Rgba8 => wgpu::TextureFormat::Rgba8Unorm,
+        TextureFormat::R16Float => wgpu::TextureFormat::R16Float,
+        TextureFormat::Rg16Float => wgpu::TextureFormat::Rg16Float,
+        TextureFormat::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
+        TextureFormat::R32Float => wgpu::TextureFormat::R32Float,
+        TextureFormat::Rg32Float => wgpu::TextureFormat::Rg32Float,
+        TextureFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
+        TextureFormat::R32Uint => wgpu::TextureFormat::R32Uint,
+        TextureFormat::Depth32Float => wgpu::TextureFormat::Depth32Float,
+    }
+}
 
 /// A texture that passes write.
 #[derive(Debug)]
 pub(crate) struct GeneratedTexture {
-    /// Two where a pass reads and writes it at once.
+    /// Two if a pass both reads and writes it, else one.
     textures: Vec<wgpu::Texture>,
     views: Vec<wgpu::TextureView>,
-    /// Which one is read.
+    /// The index of the one that is read.
     current: usize,
     name: String,
-    /// Whether it was there in the graph before.
+    /// Whether it has the content of an earlier graph.
     pub(crate) is_kept: bool,
 }
 
@@ -33,40 +51,40 @@ impl GeneratedTexture {
     ) -> Self {
         let size = plan.size.pixels(picture);
         let count = if is_double { 2 } else { 1 };
+        let format = wgpu_format(plan.format);
         let textures: Vec<wgpu::Texture> =
-            (0..count).map(|_| target_texture(device, &plan.name, size, plan.format)).collect();
+            (0..count).map(|_| target_texture(device, &plan.name, size, format)).collect();
         let views = textures.iter().map(|texture| texture.create_view(&Default::default()));
         let name = plan.name.clone();
         Self { views: views.collect(), textures, current: 0, name, is_kept: false }
     }
 
-    /// Forgets what is in it; `plan` is what it was made for, and `picture` the size of the
-    /// picture from now on.
+    /// Makes it empty, for a picture of the size `picture`; `plan` is that of [`Self::new`].
     pub(crate) fn renew(&mut self, device: &wgpu::Device, plan: &TexturePlan, picture: [u32; 2]) {
         let size = plan.size.pixels(picture);
         for (texture, view) in self.textures.iter_mut().zip(&mut self.views) {
-            // A new texture is empty.
-            *texture = target_texture(device, &plan.name, size, plan.format);
+            // A new texture is cleared to 0.
+            *texture = target_texture(device, &plan.name, size, wgpu_format(plan.format));
             *view = texture.create_view(&Default::default());
         }
         (self.current, self.is_kept) = (0, false);
     }
 
-    /// Whether it is what `plan` asks for.
+    /// Whether it has the name, size and format of `plan`, and is double or not.
     pub(crate) fn is_for(&self, plan: &TexturePlan, picture: [u32; 2], is_double: bool) -> bool {
         let texture = &self.textures[0];
         self.name == plan.name
-            && texture.format() == plan.format
+            && texture.format() == wgpu_format(plan.format)
             && [texture.width(), texture.height()] == plan.size.pixels(picture)
             && self.textures.len() == if is_double { 2 } else { 1 }
     }
 
-    /// Whether a pass reads and writes it at once.
+    /// Whether a pass both reads and writes it.
     pub(crate) const fn is_double(&self) -> bool {
         self.textures.len() > 1
     }
 
-    /// What is read.
+    /// The texture that passes read.
     pub(crate) fn read(&self) -> &wgpu::TextureView {
         &self.views[self.current]
     }
@@ -75,7 +93,7 @@ impl GeneratedTexture {
         &self.textures[self.current]
     }
 
-    /// What a pass writes: the other one where it works in place.
+    /// The texture that a pass writes: the other one if it works in place.
     pub(crate) fn write(&self, is_in_place: bool) -> &wgpu::TextureView {
         &self.views[self.written(is_in_place)]
     }
@@ -88,7 +106,7 @@ impl GeneratedTexture {
         if is_in_place { (self.current + 1) % self.textures.len() } else { self.current }
     }
 
-    /// What was written in place is what is read from now on.
+    /// Lets passes read what was written in place.
     pub(crate) fn swap(&mut self) {
         self.current = (self.current + 1) % self.textures.len();
     }
@@ -116,10 +134,10 @@ pub(crate) fn target_texture(
     })
 }
 
-/// Images on the GPU, each once.
+/// Images on the GPU.
 #[derive(Debug, Default)]
 pub(crate) struct Images {
-    /// With when the file was changed.
+    /// Each with the time of the last change of its file.
     views: HashMap<ImageFile, (Option<SystemTime>, wgpu::TextureView)>,
     white: Option<wgpu::TextureView>,
 }
@@ -142,26 +160,26 @@ impl Images {
         })
     }
 
-    /// Forgets images whose files have changed.
+    /// Drops images whose files have changed.
     pub(crate) fn forget_changed(&mut self) {
         self.views.retain(|file, (changed, _)| *changed == file.changed());
     }
 
-    /// One white texel: what is read where there is no texture.
+    /// One white texel, in place of no texture.
     pub(crate) fn white(&mut self, gpu: &Gpu) -> wgpu::TextureView {
         let one = RgbaImage::from_pixel(1, 1, image::Rgba([255; 4]));
         self.white.get_or_insert_with(|| upload(gpu, "white", &[one])).clone()
     }
 }
 
-/// The directory whose images hold their own mip levels, the smaller ones in a column
-/// beside the largest: strokes keep their width there, which averages would not.
+/// The directory of images with mip levels of their own, the smaller ones in a column
+/// beside the largest. Strokes in them keep their width, which averaging would change.
 const MIP_ATLASES: &str = "tonal_art_maps";
 
-/// The longest side of an image.
+/// The longest side of an image in pixels.
 pub(crate) const MAX_SIDE: u32 = 8192;
 
-/// Decodes a PNG or JPEG of at most [`MAX_SIDE`] a side.
+/// Decodes a PNG or JPEG with sides of at most [`MAX_SIDE`] pixels.
 pub(crate) fn decode_image(bytes: &[u8]) -> Result<RgbaImage, ImageError> {
     let mut reader = image::ImageReader::new(std::io::Cursor::new(bytes)).with_guessed_format()?;
     let mut limits = image::Limits::default();
@@ -172,8 +190,8 @@ pub(crate) fn decode_image(bytes: &[u8]) -> Result<RgbaImage, ImageError> {
     Ok(reader.decode()?.to_rgba8())
 }
 
-/// The levels of a mip atlas: the largest at the left, the others below each other at
-/// its right.
+/// The levels of a mip atlas: the largest on the left, the others below each other to its
+/// right.
 fn atlas_levels(atlas: &RgbaImage) -> Vec<RgbaImage> {
     let side = atlas.height();
     if atlas.width() < side + side / 2 {
@@ -190,7 +208,7 @@ fn atlas_levels(atlas: &RgbaImage) -> Vec<RgbaImage> {
     levels
 }
 
-/// A picture and its mip levels, each the average of the one before.
+/// A picture and its mip levels, each averaged from the one before.
 pub(crate) fn averaged_levels(picture: RgbaImage) -> Vec<RgbaImage> {
     let mut levels = vec![picture];
     while let Some(last) = levels.last()
@@ -212,7 +230,7 @@ pub(crate) fn averaged_levels(picture: RgbaImage) -> Vec<RgbaImage> {
     levels
 }
 
-/// Uploads all levels of an image, the largest first.
+/// Uploads the levels of an image, the largest first.
 pub(crate) fn upload(gpu: &Gpu, label: &str, levels: &[RgbaImage]) -> wgpu::TextureView {
     let extent = |level: &RgbaImage| wgpu::Extent3d {
         width: level.width(),
@@ -252,8 +270,40 @@ pub(crate) fn upload(gpu: &Gpu, label: &str, levels: &[RgbaImage]) -> wgpu::Text
 #[cfg(test)]
 mod tests {
     use image::Rgba;
+    use wgpu::{Features, TextureFormatFeatureFlags as Flags};
 
     use super::*;
+    use crate::technique::program::FieldKind;
+    use crate::technique::texture_format::MAX_OUTPUT_BYTES_PER_PIXEL;
+
+    #[test]
+    fn formats_are_what_wgpu_says_of_them() {
+        for format in TextureFormat::OUTPUTS.into_iter().chain([TextureFormat::DEPTH]) {
+            let theirs = wgpu_format(format);
+            let word = format.word();
+            let flags = theirs.guaranteed_format_features(Features::empty()).flags;
+            assert_eq!(format.is_filterable(), flags.contains(Flags::FILTERABLE), "{word}");
+            assert_eq!(format.is_blendable(), flags.contains(Flags::BLENDABLE), "{word}");
+            assert_eq!(format.channel_count(), u32::from(theirs.components()), "{word}");
+            let bytes = Some(format.bytes_per_texel());
+            assert_eq!(bytes, theirs.block_copy_size(Some(wgpu::TextureAspect::All)), "{word}");
+            if format != TextureFormat::DEPTH {
+                let cost = Some(format.output_bytes_per_pixel());
+                assert_eq!(cost, theirs.target_pixel_byte_cost(), "{word}");
+            }
+            let is_uint = theirs.sample_type(None, None) == Some(wgpu::TextureSampleType::Uint);
+            assert_eq!(format.number_kind() == FieldKind::Uint, is_uint, "{word}");
+        }
+    }
+
+    #[test]
+    fn limits_and_formats_of_pictures_are_those_of_the_renderer() {
+        let limit = wgpu::Limits::default().max_color_attachment_bytes_per_sample;
+        assert_eq!(MAX_OUTPUT_BYTES_PER_PIXEL, limit);
+        let picture = strokes::gpu::target_formats::TargetFormats::new(1);
+        assert_eq!(wgpu_format(TextureFormat::PICTURE), picture.color);
+        assert_eq!(wgpu_format(TextureFormat::DEPTH), picture.depth);
+    }
 
     #[test]
     fn levels_are_averages_down_to_one_texel() {

@@ -17,11 +17,10 @@ use strokes::view::live_lists::Tally;
 use strokes::view::tile::Tile;
 
 use crate::error::Error;
-use crate::pass_graph::{GraphOptions, PartOf, PassGraph, Seen};
+use crate::pass_graph::{FrameInput, GraphInput, GraphOptions, PassGraph, TileInput};
 use crate::scene::lighting::Lighting;
 use crate::scene::models::Scene;
 use crate::technique::Technique;
-use crate::technique::error::TechniqueError;
 use crate::technique::plan::{Plan, TexturePlan};
 use crate::technique::program::ShaderFiles;
 use crate::technique::texture_format::PassTexture;
@@ -77,8 +76,8 @@ impl PictureOptions {
 #[derive(Debug)]
 pub struct PictureRenderer {
     gpu: Gpu,
-    /// None only where a technique could be checked and not be built.
-    graph: Option<PassGraph>,
+    /// Empty after memory ran out, until a technique is built again.
+    graph: PassGraph,
     options: PictureOptions,
     plan: Plan,
     bounds: Bounds,
@@ -134,16 +133,21 @@ impl PictureRenderer {
         options: &PictureOptions,
     ) -> Result<Self, Error> {
         check_size(gpu, options.size)?;
-        let shaders = ShaderFiles::new(&technique.folders, options.shaders.clone());
-        let plan = Plan::of(technique, &shaders)?;
-        let graph_options = options.of_graph();
-        let made = gpu.make(|| PassGraph::new(gpu, scene, technique, &plan, looks, &graph_options));
+        let plan = plan_of(technique, options)?;
+        let input = GraphInput {
+            scene,
+            technique,
+            plan: &plan,
+            overrides: looks,
+            options: &options.of_graph(),
+        };
+        let made = gpu.make(|| PassGraph::new(gpu, &input));
         let graph =
             made.map_err(|error| resource_error(error, options.size, options.samples))??;
         Ok(Self {
             gpu: gpu.clone(),
             timer: timer_for(gpu, &graph),
-            graph: Some(graph),
+            graph,
             options: options.clone(),
             plan,
             bounds: scene.bounds,
@@ -155,8 +159,8 @@ impl PictureRenderer {
     /// stays on the GPU, and textures keep what is in them.
     ///
     /// # Errors
-    /// As [`Self::new`]. Mistakes in the technique or its shaders leave everything as it
-    /// was.
+    /// As [`Self::new`]. Then the renderer goes on drawing as before, or one transparent
+    /// pixel if memory ran out.
     pub fn reload(
         &mut self,
         scene: &Scene,
@@ -164,22 +168,25 @@ impl PictureRenderer {
         looks: &[Technique],
         options: &PictureOptions,
     ) -> Result<(), Error> {
+        if (options.layout, options.stage) != (self.options.layout, self.options.stage) {
+            *self = Self::new(&self.gpu, scene, technique, looks, options)?;
+            return Ok(());
+        }
         check_size(&self.gpu, options.size)?;
-        let shaders = ShaderFiles::new(&technique.folders, options.shaders.clone());
-        let plan = Plan::of(technique, &shaders)?;
-        let graph_options = options.of_graph();
-        let (gpu, options_before) = (&self.gpu, self.options.of_graph());
-        let is_alike = (graph_options.layout, graph_options.stage)
-            == (options_before.layout, options_before.stage);
-        let before = self.graph.take().filter(|_| is_alike);
-        let made = gpu.make(|| match before {
-            Some(before) => before.rebuilt(gpu, scene, technique, &plan, looks, &graph_options),
-            None => PassGraph::new(gpu, scene, technique, &plan, looks, &graph_options),
-        });
-        let graph =
-            made.map_err(|error| resource_error(error, options.size, options.samples))??;
-        self.timer = timer_for(gpu, &graph);
-        self.graph = Some(graph);
+        let plan = plan_of(technique, options)?;
+        let input = GraphInput {
+            scene,
+            technique,
+            plan: &plan,
+            overrides: looks,
+            options: &options.of_graph(),
+        };
+        let (gpu, graph) = (&self.gpu, &mut self.graph);
+        let change = gpu
+            .make(|| graph.change(gpu, &input))
+            .map_err(|error| self.lose_graph(error, options.size, options.samples))??;
+        self.graph.apply(change);
+        self.timer = timer_for(&self.gpu, &self.graph);
         self.plan = plan;
         self.options = options.clone();
         (self.bounds, self.frame) = (scene.bounds, scene.frame);
@@ -189,16 +196,23 @@ impl PictureRenderer {
     /// Goes on in another size; pipelines and meshes stay.
     ///
     /// # Errors
-    /// Where it is too large for the adapter; then a [`Self::reload`] must come first.
+    /// If it is too large for the adapter, or memory runs out; then the renderer draws one
+    /// transparent pixel until a [`Self::reload`].
     pub fn resize(&mut self, size: [u32; 2]) -> Result<(), Error> {
         check_size(&self.gpu, size)?;
         let (gpu, plan, samples) = (&self.gpu, &self.plan, self.options.samples);
-        let mut graph = self.graph.take().ok_or_else(no_graph)?;
-        gpu.make(|| graph.resize(&gpu.device, plan, size))
-            .map_err(|error| resource_error(error, size, samples))?;
-        self.graph = Some(graph);
+        gpu.make(|| self.graph.resize(&gpu.device, plan, size))
+            .map_err(|error| self.lose_graph(error, size, samples))?;
         self.options.size = size;
         Ok(())
+    }
+
+    /// Drops everything that was built, which cannot be used after memory ran out.
+    fn lose_graph(&mut self, error: ResourceError, size: [u32; 2], samples: u32) -> Error {
+        self.graph = PassGraph::empty(&self.gpu);
+        self.plan = Plan::default();
+        self.timer = None;
+        resource_error(error, size, samples)
     }
 
     /// How it draws.
@@ -216,10 +230,6 @@ impl PictureRenderer {
             self.options.lighting = lighting.clone();
         }
         can
-    }
-
-    fn graph(&self) -> Result<&PassGraph, Error> {
-        self.graph.as_ref().ok_or_else(no_graph)
     }
 
     /// Draws one picture, with premultiplied alpha.
@@ -245,8 +255,8 @@ impl PictureRenderer {
         overview: Option<&Self>,
     ) -> Result<(RgbaImage, FrameStatistics), Error> {
         let started = Instant::now();
-        let overview = overview.map(Self::graph).transpose()?.map(PassGraph::framebuffer);
-        self.draw_first(view, Some(PartOf { part, overview }))?;
+        let overview = overview.map(|overview| overview.graph.framebuffer());
+        self.draw_first(view, Some(TileInput { tile: part, overview }))?;
         self.read(started)
     }
 
@@ -258,12 +268,12 @@ impl PictureRenderer {
         self.draw_first(view, None)
     }
 
-    fn draw_first(&mut self, view: &View, part: Option<PartOf>) -> Result<(), Error> {
-        let graph = self.graph.as_mut().ok_or_else(no_graph)?;
+    fn draw_first(&mut self, view: &View, tile: Option<TileInput>) -> Result<(), Error> {
         let (gpu, plan) = (&self.gpu, &self.plan);
-        gpu.make(|| graph.forget_frames(&gpu.device, plan))
-            .map_err(|error| resource_error(error, self.options.size, self.options.samples))?;
-        self.submit(view, part)
+        let PictureOptions { size, samples, .. } = self.options;
+        gpu.make(|| self.graph.forget_frames(&gpu.device, plan))
+            .map_err(|error| self.lose_graph(error, size, samples))?;
+        self.submit(view, tile)
     }
 
     /// Waits for the picture that was submitted, and reads it.
@@ -273,8 +283,8 @@ impl PictureRenderer {
             .poll(wgpu::PollType::wait_indefinitely())
             .map_err(|reason| Error::DeviceLost { reason })?;
         let frame_ms = started.elapsed().as_secs_f64() * 1e3;
-        let picture = read_picture(&self.gpu, self.graph()?.picture())?;
-        let tally = self.graph()?.tally(&self.gpu)?;
+        let picture = read_picture(&self.gpu, self.graph.picture())?;
+        let tally = self.graph.tally(&self.gpu)?;
         let statistics = FrameStatistics { tally, passes: self.read_passes()?, frame_ms };
         Ok((picture, statistics))
     }
@@ -285,7 +295,7 @@ impl PictureRenderer {
     /// # Errors
     /// Where the device is lost.
     pub fn read_graph(&self, object: usize) -> Result<Option<GraphReadback>, Error> {
-        let group = self.graph()?.stroke_groups().next();
+        let group = self.graph.stroke_groups().next();
         let Some(object) = group.and_then(|group| group.drawing.objects().get(object)) else {
             return Ok(None);
         };
@@ -295,7 +305,7 @@ impl PictureRenderer {
     /// The texture that passes call `<generated>:name`, as it is after the last picture.
     #[must_use]
     pub fn generated(&self, name: &str) -> Option<&wgpu::Texture> {
-        self.graph.as_ref()?.generated(&self.plan, name)
+        self.graph.generated(&self.plan, name)
     }
 
     /// The textures that passes draw for each other.
@@ -311,8 +321,8 @@ impl PictureRenderer {
 
     /// The picture that was drawn last, or is being drawn.
     #[must_use]
-    pub fn picture(&self) -> Option<&wgpu::Texture> {
-        self.graph.as_ref().map(PassGraph::picture)
+    pub const fn picture(&self) -> &wgpu::Texture {
+        self.graph.picture()
     }
 
     /// Submits a picture and does not wait for it.
@@ -330,13 +340,12 @@ impl PictureRenderer {
         camera.view(&self.bounds, f64::from(width) / f64::from(height))
     }
 
-    fn submit(&mut self, view: &View, part: Option<PartOf>) -> Result<(), Error> {
+    fn submit(&mut self, view: &View, tile: Option<TileInput>) -> Result<(), Error> {
         let around = self.options.lighting.surroundings(view, &self.bounds, &self.frame);
-        let seen = Seen { view, around: &around, part };
+        let input = FrameInput { view, around: &around, tile };
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let timer = self.timer.as_ref().map(|timer| timer.passes_from(0));
-        let graph = self.graph.as_mut().ok_or_else(no_graph)?;
-        graph.encode(&self.gpu, &mut encoder, &seen, timer)?;
+        self.graph.encode(&self.gpu, &mut encoder, &input, timer)?;
         if let Some(timer) = &self.timer {
             timer.resolve(&mut encoder);
         }
@@ -349,8 +358,7 @@ impl PictureRenderer {
     /// # Errors
     /// Where the device is lost.
     pub fn begin_statistics(&self) -> Result<PendingStatistics, Error> {
-        let graph = self.graph()?;
-        let objects = graph.counted_objects().iter();
+        let objects = self.graph.counted_objects().iter();
         let tallies = objects.map(|object| object.begin_read_tallies(&self.gpu));
         let tallies = tallies.collect::<Result<Vec<_>, _>>()?;
         let ticks = self.timer.as_ref().map(|timer| timer.begin_read(&self.gpu));
@@ -379,17 +387,17 @@ impl PictureRenderer {
             passes_ms = timer.times(&self.gpu, &ticks).passes_ms;
         }
         let frame_ms = pending.started.elapsed().as_secs_f64() * 1e3;
-        Ok(Some(FrameStatistics { tally: sum, passes: self.named(passes_ms)?, frame_ms }))
+        Ok(Some(FrameStatistics { tally: sum, passes: self.named(passes_ms), frame_ms }))
     }
 
     fn read_passes(&self) -> Result<Vec<(String, Option<f64>)>, Error> {
         let times = self.timer.as_ref().map(|timer| timer.read(&self.gpu)).transpose();
-        self.named(times?.map_or_else(Vec::new, |times| times.passes_ms))
+        Ok(self.named(times?.map_or_else(Vec::new, |times| times.passes_ms)))
     }
 
-    fn named(&self, passes_ms: Vec<f64>) -> Result<Vec<(String, Option<f64>)>, Error> {
+    fn named(&self, passes_ms: Vec<f64>) -> Vec<(String, Option<f64>)> {
         let times = passes_ms.into_iter().map(Some).chain(std::iter::repeat(None));
-        Ok(self.graph()?.time_names().into_iter().zip(times).collect())
+        self.graph.time_names().into_iter().zip(times).collect()
     }
 }
 
@@ -398,8 +406,14 @@ fn timer_for(gpu: &Gpu, graph: &PassGraph) -> Option<GpuTimer> {
     GpuTimer::new(gpu, count)
 }
 
-fn no_graph() -> Error {
-    TechniqueError::NotBuilt.into()
+/// The plan of a technique; its warnings are logged.
+fn plan_of(technique: &Technique, options: &PictureOptions) -> Result<Plan, Error> {
+    let shaders = ShaderFiles::new(&technique.folders, options.shaders.clone());
+    let plan = Plan::of(technique, &shaders)?;
+    for warning in &plan.warnings.list {
+        log::warn!("{}: {}", technique.name, warning.message);
+    }
+    Ok(plan)
 }
 
 fn resource_error(error: ResourceError, size: [u32; 2], samples: u32) -> Error {

@@ -26,6 +26,7 @@ use crate::picture::renderer::{FrameStatistics, PictureOptions, PictureRenderer}
 use crate::scene::models::Scene;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
+use crate::technique::core_view::Strokes;
 use crate::technique::pass::Pass;
 
 /// The most pixels that a part has a side, with its margins.
@@ -194,7 +195,9 @@ impl AnySizeRenderer {
 fn links_strokes(technique: &Technique, looks: &[Technique]) -> bool {
     let passes = std::iter::once(technique).chain(looks).flat_map(|look| &look.passes);
     let is_linked = |pass: &Pass| {
-        pass.component.core == CoreComponent::Strokes && pass.is_rendered() && pass.bool("linked")
+        pass.component.core == CoreComponent::Strokes
+            && pass.is_rendered()
+            && Strokes::of(pass).is_ok_and(|view| view.is_linked)
     };
     passes.into_iter().any(is_linked)
 }

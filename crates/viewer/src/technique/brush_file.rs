@@ -5,46 +5,46 @@ use std::io::Cursor;
 use strokes::style::brush::{Brush, BrushError, MAX_SIDE};
 use thiserror::Error;
 
-/// A file is not a brush.
+/// An image cannot be a brush.
 #[derive(Debug, Error)]
 pub enum BrushFileError {
-    /// It is no PNG.
-    #[error("{name}: is no PNG that can be read: {reason}")]
+    /// It is not a PNG.
+    #[error("{name}: not a readable PNG: {reason}")]
     Picture {
-        /// The file, or the brush.
+        /// The name of the file or the brush.
         name: String,
-        /// Why.
+        /// The decoder's error.
         reason: image::ImageError,
     },
     /// It is too large.
     #[error("{name}: {reason}")]
     Size {
-        /// The file, or the brush.
+        /// The name of the file or the brush.
         name: String,
-        /// How large.
+        /// The size and the limit.
         reason: BrushError,
     },
 }
 
-/// One of the brushes that ship ([`edgemesh_brushes::BRUSH_NAMES`]).
+/// A built-in brush, by a name of [`edgemesh_brushes::BRUSH_NAMES`]; none for other names.
 ///
 /// # Errors
-/// Where the embedded picture cannot be read; a test reads all of them.
+/// If the embedded image cannot be read, which a test excludes.
 #[must_use]
 pub fn shipped_brush(name: &str) -> Option<Result<Brush, BrushFileError>> {
     let image = edgemesh_brushes::image("brushes", name)?;
     Some(brush_from_png(name, image.png))
 }
 
-/// A brush from a PNG called `name`: its alpha is the coverage, or in an opaque picture how
-/// dark it is.
+/// Reads a brush from a PNG. The coverage is the alpha channel, or the darkness of an opaque
+/// image; `name` is for messages.
 ///
 /// # Errors
-/// Where the picture cannot be read or is too large.
+/// If the image cannot be read, or a side is longer than [`MAX_SIDE`].
 pub fn brush_from_png(name: &str, png: &[u8]) -> Result<Brush, BrushFileError> {
     let wrong = |reason| BrushFileError::Picture { name: name.to_owned(), reason };
     let mut reader = image::ImageReader::with_format(Cursor::new(png), image::ImageFormat::Png);
-    // Room for the largest brush at 16 bits a channel, and no more.
+    // Enough for the largest brush with 16 bits per channel.
     let mut limits = image::Limits::default();
     limits.max_alloc = Some(u64::from(MAX_SIDE) * u64::from(MAX_SIDE) * 8);
     reader.limits(limits);
@@ -100,7 +100,7 @@ mod tests {
     #[test]
     fn what_is_no_brush_says_why() {
         let error = brush_from_png("a.png", b"not a picture").unwrap_err().to_string();
-        assert!(error.starts_with("a.png: is no PNG"), "{error}");
+        assert!(error.starts_with("a.png: not a readable PNG"), "{error}");
         let long = GrayImage::new(MAX_SIDE + 1, 1);
         let error = brush_from_png("long.png", &png(&long.into())).unwrap_err().to_string();
         assert!(error.contains("8193x1"), "{error}");

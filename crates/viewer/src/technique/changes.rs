@@ -1,25 +1,25 @@
-//! What was changed in a technique, as command lines have it.
+//! The difference of two techniques as settings of a command line.
 //!
-//! The window changes values in place; a copied command and a picture's own text must
-//! lead to the same values again. So changes are not kept as they were made: they are
-//! read off the technique as it is, beside the one that it was.
+//! The window changes values in place. A copied command, and the text in a saved picture,
+//! must lead to the same values; so settings are computed from the technique as it is and
+//! as it was read.
 
 use super::Technique;
 use super::pass::Pass;
 use super::value::{Value, VariableType, color_text};
 
-/// The settings, as `--set` takes them, that lead from `before` to `after`, which has
-/// the passes of `before`, and those that were split from them for classes of edges.
-/// `None` where no settings lead there.
+/// The settings for `--set` that lead from `before` to `after`, which has the passes of
+/// `before` and passes split from them for classes of edges; none if no settings lead
+/// there.
 ///
-/// [`Technique::set`] changes a pass and all that were split from it. So those that are
-/// split are made first, then the others are set, then what differs in the split ones.
+/// [`Technique::set`] changes a pass and all passes split from it. So splits come first,
+/// then values of the other passes, then values of the split ones.
 #[must_use]
 pub fn changes(before: &Technique, after: &Technique) -> Option<Vec<String>> {
     let mut settings = Vec::new();
     let mut reached = before.clone();
     let is_new = |pass: &&Pass| before.pass(&pass.name).is_none();
-    // A new pass goes right behind the one that it is split from: the last is made first.
+    // A new pass is inserted right after its origin: so the last one is made first.
     for pass in after.passes.iter().rev().filter(is_new) {
         let (index, _) = pass.component.variable("render")?;
         add(&mut settings, &mut reached, pass, index)?;
@@ -36,7 +36,7 @@ pub fn changes(before: &Technique, after: &Technique) -> Option<Vec<String>> {
     (reached.passes == after.passes).then_some(settings)
 }
 
-/// Sets a variable of a pass as `--set` does.
+/// Adds the setting of a variable, and sets it in `reached`.
 fn add(
     settings: &mut Vec<String>,
     reached: &mut Technique,
@@ -50,7 +50,7 @@ fn add(
     Some(())
 }
 
-/// A value as [`VariableType::parse`] reads it.
+/// The text of a value for [`VariableType::parse`].
 #[must_use]
 pub fn argument(kind: VariableType, value: &Value) -> String {
     match value {

@@ -2,7 +2,7 @@
 //!
 //! ```toml
 //! [component.edge_detect_normals]
-//! about = "lines where neighbouring normals differ"
+//! about = "lines where neighboring normals differ"
 //! inherits = "process_texture"
 //!
 //! [component.edge_detect_normals.variable]
@@ -12,8 +12,8 @@
 //! fragment_program = { default = "edge_normals:detect", internal = true }
 //! ```
 //!
-//! A file is first read to drafts, which say what stands there; drafts of all files
-//! together are then made descriptors, parents first.
+//! Each file is read to drafts; then the drafts of all files are resolved to descriptors,
+//! parents first.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -26,16 +26,22 @@ use super::mistake::{Mistake, Mistakes, Place};
 use super::toml_file::{Entry, Node};
 use super::value::VariableType;
 
-/// A component as its file has it.
+/// A component as it is written in its file.
 #[derive(Debug, Clone)]
 pub(crate) struct ComponentDraft {
     pub(crate) name: String,
     about: String,
-    /// The core component or the parent, with its place.
-    base: Option<(Base, Place)>,
+    base: Option<BaseEntry>,
     variables: Vec<Entry>,
-    /// Properties of inherited variables: they are read once the type is known.
+    /// Changed properties of inherited variables, to be read when their types are known.
     modified: Vec<Entry>,
+    place: Place,
+}
+
+/// What a component is based on, and where its file says so.
+#[derive(Debug, Clone)]
+struct BaseEntry {
+    base: Base,
     place: Place,
 }
 
@@ -43,8 +49,8 @@ pub(crate) struct ComponentDraft {
 enum Base {
     Core(CoreComponent),
     Inherits(String),
-    /// What is named is not there, as was told already.
-    Wrong,
+    /// An unknown one, for which there is a mistake already.
+    Unknown,
 }
 
 const PROPERTIES: [&str; 13] = [
@@ -63,7 +69,7 @@ const PROPERTIES: [&str; 13] = [
     "directory",
 ];
 
-/// The keys of a pass that are no variables.
+/// The keys of a pass that are not variables.
 pub(crate) const PASS_KEYS: [&str; 2] = ["name", "component"];
 
 /// The drafts of a file's `component` table.
@@ -90,27 +96,27 @@ fn draft(component: &Entry, entries: &[Entry], mistakes: &mut Mistakes) -> Compo
         match key.as_str() {
             "about" => draft.about = node.text(mistakes).unwrap_or_default(),
             "inherits" => {
-                let base = node.text(mistakes).map_or(Base::Wrong, Base::Inherits);
-                draft.base = Some((base, node.place.clone()));
+                let base = node.text(mistakes).map_or(Base::Unknown, Base::Inherits);
+                draft.base = Some(BaseEntry { base, place: node.place.clone() });
             }
             "core" => {
-                let base = node.text(mistakes).map_or(Base::Wrong, |name| {
+                let base = node.text(mistakes).map_or(Base::Unknown, |name| {
                     CoreComponent::of_name(&name).map_or_else(
                         || {
-                            let message = format!("there is no core component '{name}'");
+                            let message = format!("unknown core component '{name}'");
                             let names = CoreComponent::ALL.map(CoreComponent::name);
                             mistakes.add(Mistake::error(&node.place, message).names(&name, names));
-                            Base::Wrong
+                            Base::Unknown
                         },
                         Base::Core,
                     )
                 });
-                draft.base = Some((base, node.place.clone()));
+                draft.base = Some(BaseEntry { base, place: node.place.clone() });
             }
             "variable" => draft.variables = node.table(mistakes).unwrap_or_default().to_vec(),
             "modify" => draft.modified = node.table(mistakes).unwrap_or_default().to_vec(),
             other => {
-                let message = format!("a component has no '{other}'");
+                let message = format!("unknown key '{other}' in a component");
                 let names = ["about", "inherits", "core", "variable", "modify"];
                 mistakes.add(Mistake::error(place, message).names(other, names));
             }
@@ -119,8 +125,8 @@ fn draft(component: &Entry, entries: &[Entry], mistakes: &mut Mistakes) -> Compo
     draft
 }
 
-/// Makes descriptors of drafts, which may inherit from each other and from `known`; none
-/// for those whose mistakes were told.
+/// Makes descriptors of drafts, which can inherit from each other and from `known`; none
+/// for drafts with mistakes.
 pub(crate) fn resolve(
     drafts: &[ComponentDraft],
     known: &BTreeMap<String, SharedDescriptor>,
@@ -129,50 +135,52 @@ pub(crate) fn resolve(
     let mut by_name: BTreeMap<&str, &ComponentDraft> = BTreeMap::new();
     for draft in drafts {
         if let Some(first) = by_name.get(draft.name.as_str()) {
-            let message = format!("there is a component '{}' already", draft.name);
-            mistakes.add(Mistake::error(&draft.place, message).also(&first.place, "here"));
+            let message = format!("the component '{}' is already defined", draft.name);
+            let mistake = Mistake::error(&draft.place, message);
+            mistakes.add(mistake.also(&first.place, "first defined here"));
         } else {
             by_name.insert(&draft.name, draft);
         }
     }
     let mut resolver =
-        Resolver { drafts: by_name, known, made: BTreeMap::new(), under_way: Vec::new() };
+        Resolver { drafts: by_name, known, resolved: BTreeMap::new(), open: Vec::new() };
     for draft in drafts {
         resolver.descriptor(&draft.name, mistakes);
     }
-    resolver.made
+    resolver.resolved
 }
 
 struct Resolver<'a> {
     drafts: BTreeMap<&'a str, &'a ComponentDraft>,
     known: &'a BTreeMap<String, SharedDescriptor>,
-    /// None for those that cannot be made.
-    made: BTreeMap<String, Option<SharedDescriptor>>,
-    under_way: Vec<String>,
+    /// None for drafts with mistakes.
+    resolved: BTreeMap<String, Option<SharedDescriptor>>,
+    /// The drafts that are being resolved, each the child of the next.
+    open: Vec<String>,
 }
 
 impl Resolver<'_> {
     fn descriptor(&mut self, name: &str, mistakes: &mut Mistakes) -> Option<SharedDescriptor> {
-        if let Some(made) = self.made.get(name) {
-            return made.clone();
+        if let Some(resolved) = self.resolved.get(name) {
+            return resolved.clone();
         }
         let Some(draft) = self.drafts.get(name).copied() else {
             return self.known.get(name).cloned();
         };
-        self.under_way.push(name.to_owned());
-        let made = self.make(draft, mistakes).map(Arc::new);
-        self.under_way.pop();
-        self.made.insert(name.to_owned(), made.clone());
-        made
+        self.open.push(name.to_owned());
+        let resolved = self.resolve(draft, mistakes).map(Arc::new);
+        self.open.pop();
+        self.resolved.insert(name.to_owned(), resolved.clone());
+        resolved
     }
 
-    fn make(
+    fn resolve(
         &mut self,
         draft: &ComponentDraft,
         mistakes: &mut Mistakes,
     ) -> Option<ComponentDescriptor> {
-        let mut made = match &draft.base {
-            Some((Base::Core(core), _)) => ComponentDescriptor {
+        let mut component = match &draft.base {
+            Some(BaseEntry { base: Base::Core(core), .. }) => ComponentDescriptor {
                 name: draft.name.clone(),
                 about: String::new(),
                 core: *core,
@@ -180,7 +188,7 @@ impl Resolver<'_> {
                 variables: automatic_variables(&draft.place),
                 place: draft.place.clone(),
             },
-            Some((Base::Inherits(parent), place)) => {
+            Some(BaseEntry { base: Base::Inherits(parent), place }) => {
                 let parent = self.parent(draft, parent, place, mistakes)?;
                 ComponentDescriptor {
                     name: draft.name.clone(),
@@ -189,26 +197,26 @@ impl Resolver<'_> {
                     ..(*parent).clone()
                 }
             }
-            Some((Base::Wrong, _)) => return None,
+            Some(BaseEntry { base: Base::Unknown, .. }) => return None,
             None => {
-                let message = format!("the component '{}' inherits from nothing", draft.name);
-                let note = "say which component it modifies, as inherits = \"process_texture\"";
+                let message = format!("the component '{}' has no parent", draft.name);
+                let note = "name its parent, such as inherits = \"process_texture\"";
                 mistakes.add(Mistake::error(&draft.place, message).note(note));
                 return None;
             }
         };
         if !draft.about.is_empty() {
-            made.about.clone_from(&draft.about);
+            component.about.clone_from(&draft.about);
         }
         for entry in &draft.variables {
-            if let Some(variable) = new_variable(&made, entry, mistakes) {
-                made.variables.push(variable);
+            if let Some(variable) = new_variable(&component, entry, mistakes) {
+                component.variables.push(variable);
             }
         }
         for entry in &draft.modified {
-            modify(&mut made, entry, mistakes);
+            modify(&mut component, entry, mistakes);
         }
-        Some(made)
+        Some(component)
     }
 
     fn parent(
@@ -218,25 +226,25 @@ impl Resolver<'_> {
         place: &Place,
         mistakes: &mut Mistakes,
     ) -> Option<SharedDescriptor> {
-        // A component may modify the shipped one of its own name.
+        // A component can modify the built-in one with the same name.
         if parent == draft.name
             && let Some(known) = self.known.get(parent)
         {
             return Some(known.clone());
         }
-        if let Some(start) = self.under_way.iter().position(|open| open == parent) {
-            let mut chain = self.under_way[start..].to_vec();
+        if let Some(start) = self.open.iter().position(|open| open == parent) {
+            let mut chain = self.open[start..].to_vec();
             chain.push(parent.to_owned());
             let message = format!("'{parent}' inherits from itself: {}", chain.join(" > "));
             mistakes.add(Mistake::error(place, message));
             return None;
         }
         let found = self.descriptor(parent, mistakes);
-        let is_told = self.made.get(parent).is_some_and(Option::is_none);
-        if found.is_none() && !is_told {
+        let has_mistake = self.resolved.get(parent).is_some_and(Option::is_none);
+        if found.is_none() && !has_mistake {
             let names: Vec<&str> =
                 self.drafts.keys().copied().chain(self.known.keys().map(String::as_str)).collect();
-            let message = format!("there is no component '{parent}'");
+            let message = format!("unknown component '{parent}'");
             mistakes.add(Mistake::error(place, message).names(parent, names));
         }
         found
@@ -251,14 +259,14 @@ fn new_variable(
     let properties = entry.node.table(mistakes)?;
     let name = entry.key.as_str();
     if PASS_KEYS.contains(&name) || !is_name(name) {
-        let message = format!("'{name}' cannot be the name of a variable");
-        let note = "names are letters, digits and _; name and component are keys of a pass";
+        let message = format!("'{name}' is not a valid variable name");
+        let note = "names consist of letters, digits and _; name and component are reserved";
         mistakes.add(Mistake::error(&entry.place, message).note(note));
         return None;
     }
     if let Some((_, known)) = component.variable(name) {
-        let message = format!("there is a variable '{name}' already; change it under modify");
-        mistakes.add(Mistake::error(&entry.place, message).also(&known.place, "here"));
+        let message = format!("the variable '{name}' is already defined; change it under modify");
+        mistakes.add(Mistake::error(&entry.place, message).also(&known.place, "defined here"));
         return None;
     }
     let Some(kind) = properties.iter().find(|property| property.key == "type") else {
@@ -270,7 +278,7 @@ fn new_variable(
     let kind_name = kind.node.text(mistakes)?;
     let Some(of) = VariableType::ALL.into_iter().find(|kind| kind.name() == kind_name) else {
         let names: Vec<&str> = VariableType::ALL.iter().map(|kind| kind.name()).collect();
-        let message = format!("there is no type '{kind_name}'");
+        let message = format!("unknown type '{kind_name}'");
         mistakes.add(Mistake::error(&kind.node.place, message).names(&kind_name, names));
         return None;
     };
@@ -286,7 +294,7 @@ fn modify(component: &mut ComponentDescriptor, entry: &Entry, mistakes: &mut Mis
     let Some(properties) = entry.node.table(mistakes) else { return };
     let name = entry.key.as_str();
     let Some((index, _)) = component.variable(name) else {
-        let message = format!("'{}' has no variable '{name}' to modify", component.name);
+        let message = format!("{} has no variable '{name}' to modify", component.name);
         let names: Vec<&str> = component.variable_names().collect();
         mistakes.add(Mistake::error(&entry.place, message).names(name, names));
         return;
@@ -317,10 +325,10 @@ fn set_property(variable: &mut VariableDescriptor, property: &Entry, mistakes: &
         "vertex_parameter" => variable.vertex_parameter = flag(mistakes),
         "fragment_parameter" => variable.fragment_parameter = flag(mistakes),
         "minimum" | "maximum" | "ui_minimum" | "ui_maximum" if !kind.has_extremes() => {
-            let message = format!("a {} has no {key}", kind.name());
+            let message = format!("a {} cannot have a {key}", kind.name());
             mistakes.add(Mistake::error(&property.place, message));
         }
-        // A limit is that of the sliders too, unless theirs is stricter.
+        // A limit is also that of sliders, unless they have a stricter one.
         "minimum" => {
             variable.minimum = node.value(kind, mistakes);
             variable.ui_minimum.clone_from(&variable.minimum);
@@ -337,17 +345,17 @@ fn set_property(variable: &mut VariableDescriptor, property: &Entry, mistakes: &
         }
         "directory" if kind == VariableType::Texture => variable.directory = node.text(mistakes),
         "one_of" | "directory" => {
-            let message = format!("a {} has no {key}", kind.name());
+            let message = format!("a {} cannot have a {key}", kind.name());
             mistakes.add(Mistake::error(&property.place, message));
         }
         other => {
-            let message = format!("a variable has no property '{other}'");
+            let message = format!("unknown property '{other}' of a variable");
             mistakes.add(Mistake::error(&property.place, message).names(other, PROPERTIES));
         }
     }
 }
 
-/// A default must keep to the limits that stand beside it.
+/// A default must be within the limits and be one of the words.
 fn check_default(variable: &VariableDescriptor, properties: &[Entry], mistakes: &mut Mistakes) {
     let Some(default) = &variable.default else { return };
     let place = properties
@@ -356,20 +364,22 @@ fn check_default(variable: &VariableDescriptor, properties: &[Entry], mistakes: 
         .map_or(&variable.place, |property| &property.node.place);
     let clamped = default.clamped(variable.minimum.as_ref(), variable.maximum.as_ref());
     if clamped != *default {
-        let message = format!("the default of '{}' is out of its range", variable.name);
-        mistakes.add(Mistake::error(place, message).note(format!("the nearest is {clamped}")));
+        let message = format!("the default of '{}' is out of range", variable.name);
+        let note = format!("the nearest value in range is {clamped}");
+        mistakes.add(Mistake::error(place, message).note(note));
     }
     if let super::value::Value::String(word) = default
         && !variable.one_of.is_empty()
         && variable.word_index(word).is_none()
     {
-        let message = format!("'{word}' is none of the words of '{}'", variable.name);
+        let message = format!("'{word}' is not a value of '{}'", variable.name);
         let words = variable.one_of.iter().map(String::as_str);
         mistakes.add(Mistake::error(place, message).names(word, words));
     }
 }
 
-/// Letters, digits and underscores, no digit first: what a WGSL field can be.
+/// Whether a name consists of letters, digits and underscores and does not begin with a
+/// digit, as field names in WGSL.
 pub(crate) fn is_name(name: &str) -> bool {
     let is_letter = |letter: char| letter.is_ascii_alphabetic() || letter == '_';
     name.starts_with(is_letter) && name.chars().all(|c| is_letter(c) || c.is_ascii_digit())

@@ -1,6 +1,6 @@
-//! The core components: those that are implemented in Rust.
+//! The core components.
 
-/// A component that is implemented in Rust.
+/// A component that is implemented in Rust (NPRView thesis, section 2.3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum CoreComponent {
     /// Draws the scene with a vertex and a fragment program.
@@ -9,18 +9,18 @@ pub enum CoreComponent {
     Strokes,
     /// Runs a full-screen program over input textures.
     ProcessTexture,
-    /// Copies the framebuffer's colour or depth to a texture.
+    /// Copies the current picture, or its depth, to a texture.
     CopyToTexture,
-    /// Makes a texture by a program.
+    /// Computes a texture with a program.
     GenerateTexture,
-    /// Runs a program over its own output again and again.
+    /// Runs a full-screen program over a texture, then over its own output.
     PingPong,
-    /// Lays a texture over a target.
+    /// Draws a texture over a target.
     Composite,
 }
 
 impl CoreComponent {
-    /// All of them.
+    /// All core components.
     pub const ALL: [Self; 7] = [
         Self::SimpleRender,
         Self::Strokes,
@@ -31,7 +31,7 @@ impl CoreComponent {
         Self::Composite,
     ];
 
-    /// The name by which a descriptor says what implements it.
+    /// The name that descriptors give as `core`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {

@@ -1,58 +1,59 @@
-//! Component descriptors: the interface to a component (NPRView thesis, section
-//! 2.2.1).
+//! Component descriptors: the variables of a component (NPRView thesis, section 2.2.1).
 //!
 //! ```text
 //!   core component (in Rust) <-- descriptor: its variables, their types and limits
 //!                                    ^
 //!                                    | inherits, modifies
-//!                                descriptor of a component that has no Rust of its own
+//!                                descriptor of a component without Rust code
 //! ```
 
 use std::sync::Arc;
 
 use super::core::CoreComponent;
+use super::core_view::RunMode;
 use super::mistake::Place;
 use super::texture_name::{TextureName, TextureSource};
 use super::value::{Value, VariableType};
+use super::word::Word as _;
 
-/// What is known of a variable of a component.
+/// A variable of a component.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VariableDescriptor {
     /// Its name.
     pub name: String,
     /// Its type.
     pub kind: VariableType,
-    /// What it does.
+    /// What it does, in one line for users.
     pub about: String,
-    /// Its value where a pass sets none; without one every pass must set it.
+    /// Its value in passes that do not set it; without a default every pass must set it.
     pub default: Option<Value>,
-    /// The least value, component by component.
+    /// The smallest value, per component of a vector.
     pub minimum: Option<Value>,
-    /// The largest value.
+    /// The largest value, per component of a vector.
     pub maximum: Option<Value>,
-    /// Where sliders begin; the minimum, unless it is set.
+    /// The low end of sliders; the minimum if it is not set.
     pub ui_minimum: Option<Value>,
-    /// Where sliders end; the maximum, unless it is set.
+    /// The high end of sliders; the maximum if it is not set.
     pub ui_maximum: Option<Value>,
-    /// Shown and not to be changed.
+    /// Whether the window shows it without a way to change it.
     pub read_only: bool,
-    /// Not shown.
+    /// Whether the window hides it.
     pub internal: bool,
-    /// Bound to the field of this name in the parameters of the vertex program.
+    /// Whether its value goes to the field of this name in the vertex program's `Params`.
     pub vertex_parameter: bool,
-    /// Bound to the field of this name in the parameters of the fragment program.
+    /// Whether its value goes to the field of this name in the fragment program's
+    /// `Params`.
     pub fragment_parameter: bool,
-    /// The words that a string can be; empty where any will do. As a parameter, the
-    /// number of the word.
+    /// The allowed values of a string; empty if all are allowed. A shader gets the index.
     pub one_of: Vec<String>,
-    /// The directory of images that bare names are taken from.
+    /// The image directory that bare image names are searched in.
     pub directory: Option<String>,
-    /// Where it was described.
+    /// Where it is described.
     pub place: Place,
 }
 
 impl VariableDescriptor {
-    /// A variable without any properties.
+    /// A variable with a name and a type and no other properties.
     #[must_use]
     pub fn new(name: &str, kind: VariableType, place: Place) -> Self {
         Self {
@@ -74,14 +75,14 @@ impl VariableDescriptor {
         }
     }
 
-    /// Whether a shader is given its value.
+    /// Whether its value goes to a shader.
     #[must_use]
     pub const fn is_parameter(&self) -> bool {
         self.vertex_parameter || self.fragment_parameter
     }
 
-    /// A value with the variable's own directory, where it is an image without one;
-    /// `None` where the variable has none.
+    /// Adds the variable's directory to an image without one and returns all other values
+    /// unchanged. Returns none for such an image if the variable has no directory.
     #[must_use]
     pub fn in_directory(&self, value: Value) -> Option<Value> {
         let Value::Texture(TextureName {
@@ -95,68 +96,71 @@ impl VariableDescriptor {
         Some(Value::Texture(TextureName { source, is_filtered }))
     }
 
-    /// The number of a word among those that the string can be.
+    /// The index of a word in [`Self::one_of`].
     #[must_use]
     pub fn word_index(&self, word: &str) -> Option<usize> {
         self.one_of.iter().position(|known| known == word)
     }
 }
 
-/// The interface to a component.
+/// A component: its variables and the core component that implements it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComponentDescriptor {
     /// Its name.
     pub name: String,
-    /// What it does.
+    /// What it does, in one line for users.
     pub about: String,
-    /// What implements it.
+    /// The core component that implements it.
     pub core: CoreComponent,
-    /// The component that it modifies; `None` for the descriptors of core components.
+    /// The component that it modifies; none for core components.
     pub inherits: Option<String>,
-    /// Its variables: those it inherits, then its own.
+    /// Its variables: inherited ones first.
     pub variables: Vec<VariableDescriptor>,
-    /// Where it was described.
+    /// Where it is described.
     pub place: Place,
 }
 
 impl ComponentDescriptor {
-    /// A variable and its number.
+    /// A variable by its name, with its index.
     #[must_use]
     pub fn variable(&self, name: &str) -> Option<(usize, &VariableDescriptor)> {
         self.variables.iter().enumerate().find(|(_, variable)| variable.name == name)
     }
 
-    /// The names of the variables.
+    /// The names of all variables, in order.
     pub fn variable_names(&self) -> impl Iterator<Item = &str> {
         self.variables.iter().map(|variable| variable.name.as_str())
     }
 
-    /// The variables whose values shaders are given.
+    /// The variables whose values go to shaders, with their indices.
     pub fn parameters(&self) -> impl Iterator<Item = (usize, &VariableDescriptor)> {
         self.variables.iter().enumerate().filter(|(_, variable)| variable.is_parameter())
     }
 
-    /// The variables that are textures to read.
+    /// The texture variables, with their indices.
     pub fn textures(&self) -> impl Iterator<Item = (usize, &VariableDescriptor)> {
         let all = self.variables.iter().enumerate();
         all.filter(|(_, variable)| variable.kind == VariableType::Texture)
     }
 }
 
-/// The variables that every pass has, whatever its component: `render`, by which a pass
-/// is left out, and `run`, by which it is done once, or only when a variable changes.
+/// The variable of every pass that switches it on.
+pub(super) const RENDER: &str = "render";
+
+/// The variables of every pass, whatever its component: `render`, which switches it on,
+/// and `run`, a [`RunMode`].
 #[must_use]
 pub fn automatic_variables(place: &Place) -> Vec<VariableDescriptor> {
-    let mut render = VariableDescriptor::new("render", VariableType::Bool, place.clone());
-    render.about = "whether the pass is done".into();
+    let mut render = VariableDescriptor::new(RENDER, VariableType::Bool, place.clone());
+    render.about = "draw this pass".into();
     render.default = Some(Value::Bool(true));
-    let mut run = VariableDescriptor::new("run", VariableType::String, place.clone());
+    let mut run = VariableDescriptor::new(RunMode::VARIABLE, VariableType::String, place.clone());
     run.about = "always, once, or when a variable of the pass has changed".into();
-    run.default = Some(Value::String("always".into()));
-    run.one_of = ["always", "once", "changed"].map(str::to_owned).into();
+    run.default = Some(Value::String(RunMode::Always.word().to_owned()));
+    run.one_of = RunMode::WORDS.iter().map(|(word, _)| (*word).to_owned()).collect();
     run.internal = true;
     vec![render, run]
 }
 
-/// A shared descriptor.
+/// A descriptor that passes share.
 pub type SharedDescriptor = Arc<ComponentDescriptor>;

@@ -24,19 +24,6 @@ pub enum TechniqueError {
         /// What the device said.
         reason: String,
     },
-    /// A curve of a pass is wrong.
-    #[error("{pass}.{variable}: {what}")]
-    Curve {
-        /// The pass.
-        pass: String,
-        /// The variable.
-        variable: String,
-        /// What it should be.
-        what: String,
-    },
-    /// It was checked and could not be built, so there is nothing to draw.
-    #[error("the technique could not be built; there is nothing to draw")]
-    NotBuilt,
 }
 
 /// A setting `PASS.VARIABLE=VALUE` does not fit a technique.

@@ -1,4 +1,4 @@
-//! Images: files in directories, shipped or the user's own.
+//! Images: built-in ones and files of the user.
 
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -8,20 +8,20 @@ use edgemesh_brushes::IMAGES;
 use super::mistake::{Mistake, Place};
 use super::texture_name::{TextureName, TextureSource};
 
-/// An image that is there.
+/// An image that was found.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum ImageFile {
-    /// One of those that are shipped, by its number.
+    /// A built-in image, by its index in [`IMAGES`].
     Shipped(usize),
-    /// A file.
+    /// A file, by its path.
     File(PathBuf),
 }
 
 impl ImageFile {
-    /// Its bytes as a file.
+    /// The bytes of the file, a PNG or JPEG.
     ///
     /// # Errors
-    /// Where the file cannot be read.
+    /// If the file cannot be read.
     pub fn bytes(&self) -> std::io::Result<std::borrow::Cow<'static, [u8]>> {
         match self {
             Self::Shipped(at) => Ok(IMAGES[*at].png.into()),
@@ -29,7 +29,7 @@ impl ImageFile {
         }
     }
 
-    /// When the file was changed; none for those that are shipped.
+    /// When the file was changed; none for built-in images.
     #[must_use]
     pub fn changed(&self) -> Option<SystemTime> {
         match self {
@@ -38,7 +38,7 @@ impl ImageFile {
         }
     }
 
-    /// The directory that it is in.
+    /// The name of its directory.
     #[must_use]
     pub fn directory(&self) -> Option<&str> {
         match self {
@@ -47,7 +47,7 @@ impl ImageFile {
         }
     }
 
-    /// How messages call it.
+    /// Its name for messages: `directory:image` or a path.
     #[must_use]
     pub fn name(&self) -> String {
         match self {
@@ -59,11 +59,10 @@ impl ImageFile {
 
 const ENDINGS: [&str; 3] = ["png", "jpg", "jpeg"];
 
-/// Finds the image of a name in `folders` (in them, or in their `images`) or among those
-/// that are shipped.
+/// Finds an image in `folders`, in their subfolders `images`, and among the built-in ones.
 ///
 /// # Errors
-/// Which directories or images there are.
+/// An unknown image, with the directories or images that are available.
 pub(crate) fn find(
     name: &TextureName,
     folders: &[PathBuf],
@@ -75,19 +74,19 @@ pub(crate) fn find(
             let inside = folders.iter().map(|folder| folder.join(path));
             let mut candidates = inside.chain([PathBuf::from(path)]);
             let found = candidates.find(|path| path.is_file());
-            let missing = || error(format!("there is no picture file '{path}'"));
+            let missing = || error(format!("image file '{path}' not found"));
             return found.map(ImageFile::File).ok_or_else(missing);
         }
         TextureSource::Image { directory: Some(directory), image } => (directory, image),
-        _ => return Err(error(format!("'{name}' is no image"))),
+        _ => return Err(error(format!("'{name}' is not an image"))),
     };
     let is_safe = |part: &str| !part.contains(['/', '\\']) && part != "..";
     if !is_safe(directory) || !is_safe(image) {
-        return Err(error(format!("'{name}' leaves the image directories")));
+        return Err(error(format!("'{name}' points outside the image directories")));
     }
     let images = images_of(directory, folders);
     if images.is_empty() {
-        let mistake = error(format!("there is no image directory '{directory}'"));
+        let mistake = error(format!("unknown image directory '{directory}'"));
         let mut names: Vec<&str> = IMAGES.iter().map(|image| image.directory).collect();
         names.dedup();
         return Err(mistake.names(directory, names));
@@ -102,12 +101,13 @@ pub(crate) fn find(
             let mut names: Vec<&str> = images.iter().map(|(name, _)| name.as_str()).collect();
             names.sort_unstable();
             names.dedup();
-            Err(error(format!("there is no image '{image}' in {directory}")).names(image, names))
+            Err(error(format!("unknown image '{image}' in {directory}")).names(image, names))
         }
     }
 }
 
-/// The images of a directory, those of the first folder first.
+/// The images of a directory with their names: those of the first folder first, built-in
+/// ones last.
 #[must_use]
 pub fn images_of(directory: &str, folders: &[PathBuf]) -> Vec<(String, ImageFile)> {
     let mut images = Vec::new();

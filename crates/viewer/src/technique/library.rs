@@ -1,16 +1,15 @@
-//! The files of techniques, components, shaders and images: those that are shipped, and
-//! the user's own beside them.
+//! Built-in techniques and components, and those in the user's folder.
 //!
 //! ```text
-//!   own folder                shipped (in the program)
+//!   user's folder             built into the program
 //!     components/*.toml         techniques/components/*.toml
 //!     techniques/*.toml         techniques/*.toml
 //!     shaders/*.wgsl            shaders/programs/*.wgsl
 //!     images/DIRECTORY/*.png    brushes/DIRECTORY/*.png
 //! ```
 //!
-//! What the user has wins over what is shipped under the same name. Beside a technique
-//! file that is named by its path, shaders and images are looked for first.
+//! A file of the user replaces a built-in one with the same name. Shaders and images of a
+//! technique file that is given by its path are searched in its folder first.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -29,11 +28,11 @@ macro_rules! shipped {
     };
 }
 
-/// The component files that are shipped, and their texts.
+/// The built-in component files with their texts.
 const COMPONENTS: &[(&str, &str)] =
     shipped!["components/core", "components/detectors", "components/fills", "components/lines",];
 
-/// The techniques that are shipped, and their texts.
+/// The built-in techniques with their texts.
 const TECHNIQUES: &[(&str, &str)] = shipped![
     "anime",
     "blueprint",
@@ -72,20 +71,20 @@ const TECHNIQUES: &[(&str, &str)] = shipped![
 pub struct Library {
     components: BTreeMap<String, SharedDescriptor>,
     techniques: BTreeMap<String, Arc<SourceText>>,
-    /// The user's own folder.
+    /// The user's folder.
     folder: Option<PathBuf>,
     mistakes: Mistakes,
 }
 
 impl Library {
-    /// What is shipped.
+    /// The built-in files alone.
     #[must_use]
     pub fn shipped() -> Self {
         Self::load(None)
     }
 
-    /// What is shipped, and what `folder` has. What is wrong with the user's component
-    /// files is in [`Self::mistakes`]; their other components can be used.
+    /// The built-in files and those in `folder`. Mistakes in the user's component files are
+    /// in [`Self::mistakes`]; all other components can be used.
     #[must_use]
     pub fn load(folder: Option<&Path>) -> Self {
         let mut mistakes = Mistakes::default();
@@ -116,8 +115,8 @@ impl Library {
         Self { components, techniques, folder: folder.map(Path::to_owned), mistakes }
     }
 
-    /// The user's own folder where nothing else is said: `edgemesh` in the folder for
-    /// settings, by `XDG_CONFIG_HOME`, or `.config` at home.
+    /// The default of the user's folder: `edgemesh` in `$XDG_CONFIG_HOME`, or in
+    /// `~/.config`; none if it does not exist.
     #[must_use]
     pub fn default_folder() -> Option<PathBuf> {
         let config = std::env::var_os("XDG_CONFIG_HOME").filter(|path| !path.is_empty());
@@ -126,13 +125,13 @@ impl Library {
         folder.is_dir().then_some(folder)
     }
 
-    /// What is wrong with the component files.
+    /// The mistakes in component files.
     #[must_use]
     pub const fn mistakes(&self) -> &Mistakes {
         &self.mistakes
     }
 
-    /// The user's own folder.
+    /// The user's folder.
     #[must_use]
     pub fn folder(&self) -> Option<&Path> {
         self.folder.as_deref()
@@ -144,15 +143,16 @@ impl Library {
         &self.components
     }
 
-    /// The names of all techniques.
+    /// The names of all techniques, sorted.
     pub fn technique_names(&self) -> impl Iterator<Item = &str> {
         self.techniques.keys().map(String::as_str)
     }
 
-    /// A technique by its name (with hyphens or underscores), or by the path of its file.
+    /// Reads a technique by its name (with hyphens or underscores) or by the path of its
+    /// file. Returns warnings too.
     ///
     /// # Errors
-    /// Where there is none, or something in its file is wrong.
+    /// An unknown name, or all mistakes in the file.
     pub fn technique(&self, name: &str) -> Result<(Technique, Mistakes), Mistakes> {
         let is_path = name.ends_with(".toml") || name.contains(std::path::MAIN_SEPARATOR);
         if is_path {
@@ -160,43 +160,44 @@ impl Library {
         }
         let known = name.replace('-', "_");
         let Some(source) = self.techniques.get(&known) else {
-            let mistake = Mistake::without_place(format!("there is no technique '{name}'"));
-            let note = "a technique of your own is named by its file, as mine.toml";
+            let mistake = Mistake::without_place(format!("unknown technique '{name}'"));
+            let note = "give your own technique as a file, such as mine.toml";
             return Err(Mistakes::of(mistake.names(name, self.technique_names()).note(note)));
         };
         self.read(&known, source, None)
     }
 
-    /// A technique from a file.
+    /// Reads a technique from a file. Returns warnings too.
     ///
     /// # Errors
-    /// Where it cannot be read, or something in it is wrong.
+    /// If the file cannot be read; all mistakes in it.
     pub fn technique_file(&self, path: &Path) -> Result<(Technique, Mistakes), Mistakes> {
-        let source = text_of(path).map_err(Mistakes::of)?;
+        let source = SourceText::read(path).map_err(Mistakes::of)?;
         let name = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
         let folder = path.parent().map_or_else(PathBuf::new, Path::to_owned);
         self.read(&name, &source, Some(folder))
     }
 
-    /// Everything that is wrong with a technique file, its shaders and its images;
-    /// `shaders` stands for the folder of those that ship.
+    /// All mistakes in a technique file, in its shaders and in its images; `shaders` is a
+    /// folder that replaces the built-in shaders.
     #[must_use]
     pub fn check(&self, path: &Path, shaders: Option<&Path>) -> Mistakes {
-        let source = match text_of(path) {
+        let source = match SourceText::read(path) {
             Ok(source) => source,
             Err(mistake) => return Mistakes::of(mistake),
         };
         let mut mistakes = Mistakes::default();
-        let (mut technique, is_whole) =
+        let (mut technique, is_complete) =
             technique_file::read("", &source, &self.components, &mut mistakes);
         let folder = path.parent().map_or_else(PathBuf::new, Path::to_owned);
         technique.folders = std::iter::once(folder).chain(self.folder.clone()).collect();
-        // What lacks a pass would only have mistakes that follow from that.
-        if is_whole {
+        // Without all passes, further mistakes would only follow from the first ones.
+        if is_complete {
             let shaders = ShaderFiles::new(&technique.folders, shaders.map(Path::to_owned));
-            if let Err(others) = Plan::of(&technique, &shaders) {
-                mistakes.append(others);
-            }
+            mistakes.append(match Plan::of(&technique, &shaders) {
+                Ok(plan) => plan.warnings,
+                Err(mistakes) => mistakes,
+            });
         }
         mistakes
     }
@@ -212,7 +213,7 @@ impl Library {
             technique_file::read(name, source, &self.components, &mut mistakes);
         technique.folders = folder.into_iter().chain(self.folder.clone()).collect();
         if mistakes.has_errors() {
-            // A component that is missing may be one that could not be read.
+            // An unknown component can be one with a mistake in its file.
             mistakes.append(self.mistakes.clone());
         }
         mistakes.or(technique)
@@ -226,7 +227,7 @@ fn drafts(sources: &[Arc<SourceText>], mistakes: &mut Mistakes) -> Vec<Component
             if entry.key == "component" {
                 drafts.extend(component_file::drafts(&entry.node, mistakes));
             } else {
-                let message = format!("a component file has no '{}'", entry.key);
+                let message = format!("unknown key '{}' in a component file", entry.key);
                 let mistake = Mistake::error(&entry.place, message);
                 mistakes.add(mistake.names(&entry.key, ["component"]));
             }
@@ -235,8 +236,8 @@ fn drafts(sources: &[Arc<SourceText>], mistakes: &mut Mistakes) -> Vec<Component
     drafts
 }
 
-/// The TOML files of a folder by their names without the ending, in order; none where
-/// there is no such folder.
+/// The TOML files in a folder by their names without the ending, sorted; none if there is
+/// no such folder.
 fn toml_texts(folder: &Path, mistakes: &mut Mistakes) -> Vec<(String, Arc<SourceText>)> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
@@ -244,7 +245,7 @@ fn toml_texts(folder: &Path, mistakes: &mut Mistakes) -> Vec<(String, Arc<Source
     paths.sort();
     let mut texts = Vec::new();
     for path in paths {
-        match text_of(&path) {
+        match SourceText::read(&path) {
             Ok(source) => {
                 let name = path.file_stem().unwrap_or_default().to_string_lossy();
                 texts.push((name.replace('-', "_"), source));
@@ -253,17 +254,6 @@ fn toml_texts(folder: &Path, mistakes: &mut Mistakes) -> Vec<(String, Arc<Source
         }
     }
     texts
-}
-
-/// The text of a file.
-pub(crate) fn text_of(path: &Path) -> Result<Arc<SourceText>, Mistake> {
-    let name = path.display().to_string();
-    let failed = |error: &dyn std::fmt::Display| {
-        Mistake::without_place(format!("{name}: cannot be read: {error}"))
-    };
-    let bytes = std::fs::read(path).map_err(|error| failed(&error))?;
-    let text = String::from_utf8(bytes).map_err(|_| failed(&"it is not text in UTF-8"))?;
-    Ok(SourceText::new(name, text))
 }
 
 #[cfg(test)]
@@ -281,7 +271,7 @@ mod tests {
             let (technique, warnings) =
                 library.technique(name).unwrap_or_else(|mistakes| panic!("{mistakes}"));
             assert_eq!(warnings, Mistakes::default(), "{name}");
-            assert!(!technique.about.is_empty(), "{name} says what it shows");
+            assert!(!technique.about.is_empty(), "{name} has a description");
             Plan::of(&technique, &ShaderFiles::default())
                 .unwrap_or_else(|mistakes| panic!("{name}: {mistakes}"));
         }
@@ -295,13 +285,13 @@ mod tests {
         assert_eq!((phong.core, phong.inherits.as_deref()), (simple.core, Some("simple_render")));
         let program =
             |of: &SharedDescriptor| of.variable("fragment_program").unwrap().1.default.clone();
-        assert_eq!(program(&simple), None, "each pass must set it");
+        assert_eq!(program(&simple), None, "every pass must set it");
         assert_eq!(program(&phong), Some(Value::String("phong:phong".into())));
         let deep = component("edge_detect_normals_5_taps");
         let threshold = deep.variable("threshold").unwrap().1;
         assert_eq!(threshold.default, Some(Value::Numbers(vec![0.85])));
-        assert_eq!(threshold.minimum, Some(Value::Numbers(vec![-1.0])), "of its parent");
-        assert_eq!(threshold.ui_minimum, threshold.minimum, "a limit is that of the slider");
+        assert_eq!(threshold.minimum, Some(Value::Numbers(vec![-1.0])), "inherited");
+        assert_eq!(threshold.ui_minimum, threshold.minimum, "a limit is also that of sliders");
         assert_eq!(threshold.ui_maximum, Some(Value::Numbers(vec![1.0])), "unless it is set");
         for name in ["render", "run"] {
             assert!(deep.variable(name).is_some(), "every pass has {name}");

@@ -1,23 +1,22 @@
-//! Loops that end, whatever a shader says.
+//! A limit for the loops of user shaders.
 //!
-//! WGSL cannot be asked whether a program ends, and one that does not takes the graphics
-//! adapter with it: a window stands still, a driver gives up, a whole desktop can hang.
-//! So the loops of shaders that are not our own are counted: each invocation has so many
-//! turns through loops in all, and leaves the next loop when they are used up. The picture
-//! is then wrong, which can be seen and mended.
+//! Whether a program ends cannot be decided, and a program that does not end blocks the
+//! graphics adapter: the window, the driver or the whole desktop can hang. So each
+//! invocation of a user shader counts its loop iterations and leaves all further loops
+//! after [`MAX_ITERATIONS`]. The picture is then wrong, which the user can see and fix.
 //!
-//! Rejected: stopping the adapter from outside, which no API can.
+//! Rejected: stopping the adapter from outside, which no API supports.
 
 use naga::{
     AddressSpace, BinaryOperator, Block, Expression, Function, GlobalVariable, Handle, Literal,
     Module, Range, Scalar, Span, Statement, Type, TypeInner,
 };
 
-/// The turns that an invocation has: far more than any effect needs, and few enough that
-/// a picture that uses all of them is drawn in seconds on the slowest adapter.
-pub const MOST_TURNS: u32 = 1 << 14;
+/// Loop iterations of an invocation, all loops together: far more than effects need, and
+/// few enough that the slowest adapter draws a picture that uses all of them in seconds.
+pub const MAX_ITERATIONS: u32 = 1 << 14;
 
-/// Counts the turns of all loops of a valid module.
+/// Adds the limit to all loops of a valid module.
 pub(crate) fn bound_loops(module: &mut Module) {
     let has_loops = module
         .functions
@@ -32,30 +31,30 @@ pub(crate) fn bound_loops(module: &mut Module) {
     let number = module.types.insert(number, Span::UNDEFINED);
     let zero =
         module.global_expressions.append(Expression::Literal(Literal::U32(0)), Span::UNDEFINED);
-    let turns = GlobalVariable {
-        name: Some("turns_through_loops".into()),
+    let iterations = GlobalVariable {
+        name: Some("loop_iterations".into()),
         space: AddressSpace::Private,
         binding: None,
         ty: number,
         init: Some(zero),
         memory_decorations: naga::MemoryDecorations::empty(),
     };
-    let turns = module.global_variables.append(turns, Span::UNDEFINED);
+    let iterations = module.global_variables.append(iterations, Span::UNDEFINED);
     for (_, function) in module.functions.iter_mut() {
-        bound_function(function, turns);
+        bound_function(function, iterations);
     }
     for entry in &mut module.entry_points {
-        bound_function(&mut entry.function, turns);
+        bound_function(&mut entry.function, iterations);
     }
 }
 
-fn bound_function(function: &mut Function, turns: Handle<GlobalVariable>) {
+fn bound_function(function: &mut Function, iterations: Handle<GlobalVariable>) {
     let mut body = std::mem::take(&mut function.body);
-    bound_block(&mut body, function, turns);
+    bound_block(&mut body, function, iterations);
     function.body = body;
 }
 
-/// The blocks within a statement.
+/// The blocks inside a statement.
 fn blocks_of(statement: &mut Statement) -> Vec<&mut Block> {
     match statement {
         Statement::Block(block) => vec![block],
@@ -76,25 +75,25 @@ fn has_loop(block: &Block) -> bool {
     })
 }
 
-fn bound_block(block: &mut Block, function: &mut Function, turns: Handle<GlobalVariable>) {
+fn bound_block(block: &mut Block, function: &mut Function, iterations: Handle<GlobalVariable>) {
     for statement in block.iter_mut() {
         for inner in blocks_of(statement) {
-            bound_block(inner, function, turns);
+            bound_block(inner, function, iterations);
         }
         if let Statement::Loop { body, .. } = statement {
-            let mut counted = counting(function, turns);
+            let mut counted = counting(function, iterations);
             counted.append(body);
             *body = counted;
         }
     }
 }
 
-/// `turns += 1; if turns > MOST_TURNS { break; }`
-fn counting(function: &mut Function, turns: Handle<GlobalVariable>) -> Block {
+/// `iterations += 1; if iterations > MAX_ITERATIONS { break; }`
+fn counting(function: &mut Function, iterations: Handle<GlobalVariable>) -> Block {
     let mut add = |expression| function.expressions.append(expression, Span::UNDEFINED);
-    let pointer = add(Expression::GlobalVariable(turns));
+    let pointer = add(Expression::GlobalVariable(iterations));
     let one = add(Expression::Literal(Literal::U32(1)));
-    let most = add(Expression::Literal(Literal::U32(MOST_TURNS)));
+    let most = add(Expression::Literal(Literal::U32(MAX_ITERATIONS)));
     let known = add(Expression::Load { pointer });
     let next = add(Expression::Binary { op: BinaryOperator::Add, left: known, right: one });
     let op = BinaryOperator::Greater;
@@ -135,7 +134,7 @@ mod tests {
         validator.validate(&module).unwrap();
         let counted = |function: &Function| {
             let is_count = |expression: &Expression| {
-                *expression == Expression::Literal(Literal::U32(MOST_TURNS))
+                *expression == Expression::Literal(Literal::U32(MAX_ITERATIONS))
             };
             function.expressions.iter().filter(|(_, expression)| is_count(expression)).count()
         };
@@ -144,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_loops_stays_as_it_is() {
+    fn a_module_without_loops_is_not_changed() {
         let source = "@fragment fn one() -> @location(0) vec4f { return vec4f(1.0); }";
         let module = naga::front::wgsl::parse_str(source).unwrap();
         let mut bound = module.clone();

@@ -1,33 +1,49 @@
-//! Mistakes in text files: what is wrong, where, and what would be right.
+//! Mistakes in text files, underlined in the text, with hints.
 //!
-//! Every check goes on after a mistake, so that a file shows all of its mistakes at
-//! once; TOML and WGSL are underlined in the same look.
+//! Checks continue after a mistake, so that one run finds all of them. Mistakes in TOML and
+//! WGSL are printed in the same form.
 
 use std::fmt;
 use std::ops::Range;
+use std::path::Path;
 use std::sync::Arc;
 
 use codespan_reporting::diagnostic::{Diagnostic, Label};
 use codespan_reporting::files::SimpleFiles;
 use codespan_reporting::term;
 
-/// A text with the name that messages call it by.
+/// A text with a name for messages.
 #[derive(Debug, PartialEq, Eq)]
 pub struct SourceText {
-    /// The path of the file, or the name of a shipped one.
+    /// The path of the file, or of a built-in one in the repository.
     pub name: String,
     /// The whole text.
     pub text: String,
 }
 
 impl SourceText {
-    /// A text under a name.
+    /// A text with a name.
     #[must_use]
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Arc<Self> {
         Arc::new(Self { name: name.into(), text: text.into() })
     }
 
-    /// The bytes of `length` from a column (in bytes) of a line, both from 1.
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// If the file cannot be read, or is not UTF-8.
+    pub(crate) fn read(path: &Path) -> Result<Arc<Self>, Mistake> {
+        let name = path.display().to_string();
+        let failed = |error: &dyn fmt::Display| {
+            Mistake::without_place(format!("{name}: cannot be read: {error}"))
+        };
+        let bytes = std::fs::read(path).map_err(|error| failed(&error))?;
+        let text = String::from_utf8(bytes).map_err(|_| failed(&"it is not UTF-8 text"))?;
+        Ok(Self::new(name, text))
+    }
+
+    /// The byte range of `length` bytes from a line and a column in bytes, both counted
+    /// from 1; cut off at the end of the text.
     #[must_use]
     pub fn span(&self, line: usize, column: usize, length: usize) -> Range<usize> {
         let line_start = match line {
@@ -39,17 +55,17 @@ impl SourceText {
     }
 }
 
-/// A part of a text.
+/// A range of a text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
     /// The text.
     pub source: Arc<SourceText>,
-    /// The bytes of it.
+    /// The byte range.
     pub span: Range<usize>,
 }
 
 impl Place {
-    /// Line and column in characters, both from 1.
+    /// The line, and the column in characters, both counted from 1.
     #[must_use]
     pub fn line_and_column(&self) -> (usize, usize) {
         let before = self.source.text.get(..self.span.start).unwrap_or(&self.source.text);
@@ -58,25 +74,25 @@ impl Place {
     }
 }
 
-/// How bad a mistake is.
+/// Whether a technique with a mistake can be drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Severity {
-    /// Nothing can be drawn.
+    /// It cannot.
     Error,
-    /// Something was put right.
+    /// It can, with a value other than the given one.
     Warning,
 }
 
-/// One mistake.
+/// A mistake in a text file or in an assignment.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mistake {
-    /// How bad it is.
+    /// An error or a warning.
     pub severity: Severity,
-    /// What is wrong, in one line.
+    /// The mistake in one line.
     pub message: String,
-    /// Where, with what is to be said of each place; the first one is the mistake's.
+    /// Places with a text for each, which can be empty; the first is that of the mistake.
     pub labels: Vec<(Place, String)>,
-    /// What would be right.
+    /// Hints, one line each.
     pub notes: Vec<String>,
 }
 
@@ -87,16 +103,27 @@ impl Mistake {
         Self::new(Severity::Error, Some(place), message)
     }
 
-    /// An error in no text.
+    /// An error outside of any text.
     #[must_use]
     pub fn without_place(message: impl Into<String>) -> Self {
         Self::new(Severity::Error, None, message)
     }
 
-    /// Something that was put right.
+    /// A warning.
     #[must_use]
     pub fn warning(place: Option<&Place>, message: impl Into<String>) -> Self {
         Self::new(Severity::Warning, place, message)
+    }
+
+    /// A warning about a value of a variable that is replaced by another one.
+    #[must_use]
+    pub(crate) fn out_of_range(
+        place: Option<&Place>,
+        variable: &str,
+        value: &impl fmt::Display,
+        used: &impl fmt::Display,
+    ) -> Self {
+        Self::warning(place, format!("{variable} = {value} is out of range; {used} is used"))
     }
 
     fn new(severity: Severity, place: Option<&Place>, message: impl Into<String>) -> Self {
@@ -104,7 +131,7 @@ impl Mistake {
         Self { severity, message: message.into(), labels, notes: Vec::new() }
     }
 
-    /// Says something of the mistake's own place.
+    /// Sets the text at the place of the mistake.
     #[must_use]
     pub fn label(mut self, text: impl Into<String>) -> Self {
         if let Some(first) = self.labels.first_mut() {
@@ -113,37 +140,38 @@ impl Mistake {
         self
     }
 
-    /// Points at another place too.
+    /// Adds another place with a text.
     #[must_use]
     pub fn also(mut self, place: &Place, text: impl Into<String>) -> Self {
         self.labels.push((place.clone(), text.into()));
         self
     }
 
-    /// Says what would be right.
+    /// Adds a hint.
     #[must_use]
     pub fn note(mut self, note: impl Into<String>) -> Self {
         self.notes.push(note.into());
         self
     }
 
-    /// Says which names there are, the likeliest first.
+    /// Adds a hint with the names that are possible, and suggests the one that is nearest
+    /// to `given`, if any is near.
     #[must_use]
-    pub fn names<'a>(self, wanted: &str, names: impl IntoIterator<Item = &'a str>) -> Self {
+    pub fn names<'a>(self, given: &str, names: impl IntoIterator<Item = &'a str>) -> Self {
         let names: Vec<&str> = names.into_iter().collect();
-        let here = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-        let this = match closest(wanted, &names) {
+        let list = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+        let suggesting = match closest(given, &names) {
             Some(name) => self.label(format!("did you mean '{name}'?")),
             None => self,
         };
-        this.note(format!("there are: {here}"))
+        suggesting.note(format!("available: {list}"))
     }
 }
 
-/// All mistakes that were found.
+/// All mistakes of a check, in the order in which they were found; each once.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Mistakes {
-    /// In the order in which they were found.
+    /// The mistakes.
     pub list: Vec<Mistake>,
 }
 
@@ -154,27 +182,27 @@ impl Mistakes {
         Self { list: vec![mistake] }
     }
 
-    /// Adds one.
+    /// Adds a mistake, unless the same one is there.
     pub fn add(&mut self, mistake: Mistake) {
         if !self.list.contains(&mistake) {
             self.list.push(mistake);
         }
     }
 
-    /// Adds those of another check.
+    /// Adds the mistakes of another check.
     pub fn append(&mut self, others: Self) {
         for mistake in others.list {
             self.add(mistake);
         }
     }
 
-    /// Whether there are errors among them.
+    /// Whether any of them is an error.
     #[must_use]
     pub fn has_errors(&self) -> bool {
         self.list.iter().any(|mistake| mistake.severity == Severity::Error)
     }
 
-    /// Takes the warnings out.
+    /// Removes and returns the warnings.
     pub fn take_warnings(&mut self) -> Self {
         let (warnings, errors) = std::mem::take(&mut self.list)
             .into_iter()
@@ -191,10 +219,10 @@ impl Mistakes {
         text.strip_prefix("error: ").unwrap_or(&text).trim_end().to_owned()
     }
 
-    /// `value`, or the mistakes where there are errors among them.
+    /// Returns `value` and the warnings.
     ///
     /// # Errors
-    /// These mistakes.
+    /// All mistakes, if any of them is an error.
     pub fn or<T>(self, value: T) -> Result<(T, Self), Self> {
         if self.has_errors() { Err(self) } else { Ok((value, self)) }
     }
@@ -206,14 +234,14 @@ impl fmt::Display for Mistakes {
             if at > 0 {
                 formatter.write_str("\n")?;
             }
-            formatter.write_str(&drawn(mistake))?;
+            formatter.write_str(&report(mistake))?;
         }
         Ok(())
     }
 }
 
 /// A mistake with its lines of text underlined; ends in a line break.
-fn drawn(mistake: &Mistake) -> String {
+fn report(mistake: &Mistake) -> String {
     let mut files = SimpleFiles::new();
     let mut known: Vec<(&Arc<SourceText>, usize)> = Vec::new();
     let mut labels = Vec::new();
@@ -239,7 +267,7 @@ fn drawn(mistake: &Mistake) -> String {
         .with_labels(labels)
         .with_notes(mistake.notes.clone());
     let config = term::Config { chars: term::Chars::ascii(), ..term::Config::default() };
-    // The files are those of the labels, so they are always found.
+    // The files are those of the labels, so this does not fail.
     term::emit_into_string(&config, &files, &diagnostic)
         .unwrap_or_else(|_| format!("{}\n", mistake.message))
         .trim_end()
@@ -247,24 +275,24 @@ fn drawn(mistake: &Mistake) -> String {
         + "\n"
 }
 
-/// The name that is nearest to `wanted`, if any is near.
+/// The name with the smallest edit distance to `given`: at most a third of its letters, and
+/// none for names of one or two letters.
 #[must_use]
-pub fn closest<'a>(wanted: &str, names: &[&'a str]) -> Option<&'a str> {
-    // Of two letters, one other is another name.
-    let most = match wanted.chars().count() {
+pub fn closest<'a>(given: &str, names: &[&'a str]) -> Option<&'a str> {
+    let largest = match given.chars().count() {
         0..3 => 0,
         length => (length / 3).max(1),
     };
-    let near = names.iter().map(|name| (edit_distance(wanted, name), *name));
-    near.filter(|(distance, _)| *distance <= most).min_by_key(|near| near.0).map(|near| near.1)
+    let near = names.iter().map(|name| (edit_distance(given, name), *name));
+    near.filter(|(distance, _)| *distance <= largest).min_by_key(|near| near.0).map(|near| near.1)
 }
 
-/// Letters to insert, drop, change or swap with the next one to get from one name to the
-/// other.
+/// The number of letters to insert, delete, replace or swap with the next one to turn one
+/// name into the other (optimal string alignment).
 fn edit_distance(from: &str, to: &str) -> usize {
     let from: Vec<char> = from.chars().collect();
     let to: Vec<char> = to.chars().collect();
-    // The rows of the table before the last one, the last one, and the one under way.
+    // The last two complete rows of the table; `row` is the current one.
     let mut earlier = vec![0; to.len() + 1];
     let mut last: Vec<usize> = (0..=to.len()).collect();
     for (at, letter) in from.iter().enumerate() {
@@ -302,13 +330,13 @@ mod tests {
         let source = SourceText::new("a.toml", "[[pass]]\ncomponent = \"phong\"\n");
         let place = Place { source: source.clone(), span: 21..28 };
         assert_eq!(place.line_and_column(), (2, 13));
-        let mistake = Mistake::error(&place, "there is no component 'phong'")
+        let mistake = Mistake::error(&place, "unknown component 'phong'")
             .names("phong", ["render_phong", "phon"]);
         let text = Mistakes::of(mistake).to_string();
         assert_eq!(
             text,
-            "error: there is no component 'phong'\n  --> a.toml:2:13\n  |\n2 | component = \
-             \"phong\"\n  |             ^^^^^^^ did you mean 'phon'?\n  |\n  = there are: \
+            "error: unknown component 'phong'\n  --> a.toml:2:13\n  |\n2 | component = \
+             \"phong\"\n  |             ^^^^^^^ did you mean 'phon'?\n  |\n  = available: \
              render_phong, phon\n"
         );
         assert_eq!(source.span(2, 13, 7), 21..28);
@@ -322,7 +350,7 @@ mod tests {
         mistakes.add(Mistake::without_place("wrong"));
         mistakes.add(Mistake::without_place("wrong"));
         assert_eq!(mistakes.take_warnings().list.len(), 1);
-        assert_eq!(mistakes.list.len(), 1, "the same mistake is told once");
+        assert_eq!(mistakes.list.len(), 1, "the same mistake is listed once");
         assert!(mistakes.or(3).is_err());
     }
 }

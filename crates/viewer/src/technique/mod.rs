@@ -1,31 +1,32 @@
-//! Techniques: how a picture is made, as passes of components (NPRView thesis,
-//! chapter 2).
+//! Techniques: text files that describe a picture as a list of passes (NPRView thesis,
+//! chapter 2). Nothing here uses the GPU.
 //!
 //! ```text
 //!   component files --> descriptors --+
 //!   technique file  ------------------+--> Technique: passes with values
 //!   --set, the window ----------------+          |
-//!   shader files  -------------------------------+--> Plan: checked, nothing run yet
+//!   shader files  -------------------------------+--> Plan: checked, ready to build
 //!                                                          |
 //!                                              crate::pass_graph: pipelines, textures, pictures
 //! ```
 //!
 //! - [`value`], [`texture_name`]: types and values of variables.
-//! - [`descriptor`], [`core`]: the interface of a component, and what is in Rust.
-//! - [`library`]: the files that are shipped, and the user's own.
+//! - [`descriptor`], [`core`]: components and their variables.
+//! - [`core_view`]: the variables of a pass, typed, for the Rust code of its component.
+//! - [`library`]: built-in files, and those in the user's folder.
 //! - [`error`]: why a technique cannot be drawn.
-//! - [`mistake`]: everything that is wrong with a file, underlined.
-//! - [`loop_bound`]: loops of shaders that end.
-//! - [`program`]: what a shader wants to be given.
-//! - [`plan`]: a technique with everything checked.
-//! - [`changes`], [`mod@write`]: a technique that was changed, as settings and as a file.
+//! - [`mistake`]: errors in a file, underlined in its text.
+//! - [`program`]: shader programs, with their parameters by reflection.
+//! - [`loop_bound`]: a limit for loops of user shaders.
+//! - [`plan`]: a checked technique.
+//! - [`changes`], [`mod@write`]: a changed technique as settings and as a file.
 
 pub mod brush_file;
 pub mod changes;
 pub(crate) mod class_pass;
 mod component_file;
 pub mod core;
-pub(crate) mod curve;
+pub mod core_view;
 pub mod descriptor;
 pub mod error;
 pub mod image_file;
@@ -42,6 +43,7 @@ pub mod texture_format;
 pub mod texture_name;
 mod toml_file;
 pub mod value;
+pub mod word;
 pub mod write;
 
 use std::path::PathBuf;
@@ -50,31 +52,31 @@ use self::error::SettingError;
 use self::mistake::{Mistake, Mistakes};
 use self::pass::Pass;
 
-/// A technique: passes in order.
+/// A technique: a list of passes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Technique {
-    /// Its name: that of its file.
+    /// Its name: that of its file, without the ending.
     pub name: String,
-    /// What it shows.
+    /// What it shows, in one line for users.
     pub about: String,
-    /// Its passes, in the order in which they are done.
+    /// Its passes, in the order of drawing.
     pub passes: Vec<Pass>,
-    /// Where its shaders and images are looked for, before those that are shipped.
+    /// The folders that are searched for its shaders and images, before the built-in ones.
     pub folders: Vec<PathBuf>,
 }
 
 impl Technique {
-    /// The pass of a name.
+    /// The pass with a name.
     #[must_use]
     pub fn pass(&self, name: &str) -> Option<&Pass> {
         self.passes.iter().find(|pass| pass.name == name)
     }
 
-    /// Sets a variable from `PASS.VARIABLE=VALUE`, as command lines have it; a hyphen
-    /// is as good as an underscore.
+    /// Sets a variable from `PASS.VARIABLE=VALUE`, as on a command line; hyphens in names
+    /// count as underscores. Returns warnings.
     ///
-    /// A class of edges (`ridge`, `hidden-ridge`) is given a pass of its own, which is
-    /// that of the strokes it was drawn by, and changed there.
+    /// `PASS` can also be a class of edges, such as `ridge` or `hidden-ridge`: the pass of
+    /// strokes that draws it is split, and the new pass for this class alone is changed.
     ///
     /// # Errors
     /// [`SettingError`], with the names that exist.
@@ -88,7 +90,7 @@ impl Technique {
             path.trim().split_once('.').map(|(pass, variable)| (pass, variable, value.trim()))
         });
         let Some((pass, variable, value)) = parts else {
-            return Err("needs the form PASS.VARIABLE=VALUE".to_owned());
+            return Err("expected PASS.VARIABLE=VALUE".to_owned());
         };
         let (pass, variable) = (pass.replace('-', "_"), variable.replace('-', "_"));
         let targets = self.targets(&pass)?;
@@ -96,24 +98,24 @@ impl Technique {
         for target in targets {
             let pass = &mut self.passes[target];
             let Some((index, descriptor)) = pass.component.variable(&variable) else {
-                let list = Mistake::without_place(format!(
-                    "{} has no variable '{variable}'",
-                    pass.component.name
-                ));
+                let message = format!("{} has no variable '{variable}'", pass.component.name);
+                let mistake = Mistake::without_place(message);
                 let shown = pass.component.variables.iter().filter(|known| !known.internal);
                 let names: Vec<&str> = shown.map(|known| known.name.as_str()).collect();
-                return Err(told(&list.names(&variable, names.iter().copied()), &variable, &names));
+                let mistake = mistake.names(&variable, names.iter().copied());
+                return Err(one_line(&mistake, &variable, &names));
             };
             let value = descriptor.kind.parse(value)?;
             pass.set_value(index, value, None, &mut mistakes);
         }
         if let Some(error) = mistakes.list.iter().find(|m| m.severity == mistake::Severity::Error) {
-            return Err(told(error, "", &[]));
+            return Err(one_line(error, "", &[]));
         }
         Ok(mistakes)
     }
 
-    /// Lays a picture file on all visible strokes, whatever its name ends in.
+    /// Sets the brush of the pass `strokes`, and of passes split from it, to an image file
+    /// with any ending.
     ///
     /// # Errors
     /// [`SettingError`], if no pass has visible strokes.
@@ -131,12 +133,12 @@ impl Technique {
         Ok(())
     }
 
-    /// The passes that a name of `--set` stands for: that of the name and those split
-    /// from it, or the one that a class is given.
+    /// The indices of the passes that a name in `--set` means: the pass with this name and
+    /// those split from it, or the pass of a class, which is made if there is none.
     fn targets(&mut self, name: &str) -> Result<Vec<usize>, String> {
-        let is_meant = |pass: &Pass| pass.name == name || pass.split_from.as_deref() == Some(name);
+        let is_target = |pass: &Pass| pass.name == name || pass.split_from.as_deref() == Some(name);
         let found: Vec<usize> =
-            (0..self.passes.len()).filter(|&at| is_meant(&self.passes[at])).collect();
+            (0..self.passes.len()).filter(|&at| is_target(&self.passes[at])).collect();
         if !found.is_empty() {
             return Ok(found);
         }
@@ -144,17 +146,17 @@ impl Technique {
             return Ok(split);
         }
         let names: Vec<&str> = self.passes.iter().map(|pass| pass.name.as_str()).collect();
-        let what = match class_pass::is_class(name) {
+        let message = match class_pass::is_class(name) {
             true => format!("no pass of {} draws '{name}'", self.name),
             false => format!("{} has no pass '{name}'", self.name),
         };
-        let mistake = Mistake::without_place(what).names(name, names.iter().copied());
-        Err(told(&mistake, name, &names))
+        let mistake = Mistake::without_place(message).names(name, names.iter().copied());
+        Err(one_line(&mistake, name, &names))
     }
 }
 
-/// A mistake of a command line in one line.
-fn told(mistake: &Mistake, wanted: &str, names: &[&str]) -> String {
+/// A mistake without a place, in one line.
+fn one_line(mistake: &Mistake, wanted: &str, names: &[&str]) -> String {
     let guess = mistake::closest(wanted, names);
     let guess = guess.map_or_else(String::new, |name| format!(" (did you mean '{name}'?)"));
     let notes: String = mistake.notes.iter().map(|note| format!("; {note}")).collect();

@@ -2,29 +2,28 @@
 
 use std::sync::Arc;
 
-use super::descriptor::{SharedDescriptor, VariableDescriptor};
+use super::descriptor::{RENDER, SharedDescriptor, VariableDescriptor};
 use super::mistake::{Mistake, Mistakes, Place};
-use super::texture_name::TextureName;
 use super::value::Value;
 
 /// A pass of a technique.
 #[derive(Debug, Clone)]
 pub struct Pass {
-    /// Its name, which no other pass of the technique has.
+    /// Its name, unique in the technique.
     pub name: String,
-    /// The interface of its component.
+    /// The descriptor of its component.
     pub component: SharedDescriptor,
-    /// The values of the component's variables, in their order.
+    /// One value per variable of the component.
     values: Vec<Value>,
-    /// Where the values were set; none for defaults.
+    /// Where each value was set; none for defaults and command lines.
     places: Vec<Option<Place>>,
-    /// Where the pass stands.
+    /// Where the pass stands in its file.
     pub place: Place,
-    /// The pass that this one was split from, where it was.
+    /// The name of the pass that this one was split from for a class of edges, if any.
     pub split_from: Option<String>,
 }
 
-/// What a pass does is its component and its values; where they were set is not part of it.
+/// Compares what passes do; where their values were set does not count.
 impl PartialEq for Pass {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name
@@ -34,7 +33,7 @@ impl PartialEq for Pass {
     }
 }
 
-/// What it takes to set a variable.
+/// A value for the variable at `index` of a component.
 #[derive(Debug, Clone)]
 pub(crate) struct Assignment {
     pub(crate) index: usize,
@@ -43,8 +42,8 @@ pub(crate) struct Assignment {
 }
 
 impl Pass {
-    /// A pass with what is assigned, and defaults for everything else. A variable that
-    /// has neither is a mistake.
+    /// Makes a pass of the assigned values and the defaults of all other variables. A
+    /// variable with neither is a mistake.
     pub(crate) fn new(
         name: String,
         component: SharedDescriptor,
@@ -66,7 +65,7 @@ impl Pass {
             }
             places[assignment.index] = assignment.place;
         }
-        let lacking: Vec<&str> = component
+        let missing: Vec<&str> = component
             .variables
             .iter()
             .zip(&values)
@@ -74,16 +73,17 @@ impl Pass {
             .filter(|((_, value), is_wrong)| value.is_none() && !**is_wrong)
             .map(|((variable, _), _)| variable.name.as_str())
             .collect();
-        for variable in &lacking {
+        for variable in &missing {
             let message = format!("the pass '{name}' must set '{variable}'");
-            let note = format!("in {} it has no default", component.name);
+            let note = format!("it has no default in {}", component.name);
             mistakes.add(Mistake::error(&place, message).note(note));
         }
         let values: Option<Vec<Value>> = values.into_iter().collect();
         Some(Self { name, component, values: values?, places, place, split_from: None })
     }
 
-    /// Sets a variable by its number, within its limits.
+    /// Sets the variable at `index`, clamped to its limits. A value that the variable
+    /// cannot have is a mistake and changes nothing.
     pub fn set_value(
         &mut self,
         index: usize,
@@ -98,83 +98,29 @@ impl Pass {
         }
     }
 
-    /// All values, in the order of the component's variables.
+    /// One value per variable of the component, in the same order.
     #[must_use]
     pub fn values(&self) -> &[Value] {
         &self.values
     }
 
-    /// Where a variable was set, or else the pass.
+    /// Where a variable was set, or else where the pass stands.
     #[must_use]
-    pub fn place_of(&self, variable: &str) -> &Place {
+    pub(super) fn place_of(&self, variable: &str) -> &Place {
         let index = self.component.variable(variable).map(|found| found.0);
         index.and_then(|index| self.places[index].as_ref()).unwrap_or(&self.place)
     }
 
-    /// A variable's value.
-    #[must_use]
-    pub fn value(&self, variable: &str) -> Option<&Value> {
-        self.component.variable(variable).map(|(index, _)| &self.values[index])
-    }
-
-    /// A bool; false where there is none of the name.
-    #[must_use]
-    pub fn bool(&self, variable: &str) -> bool {
-        matches!(self.value(variable), Some(Value::Bool(true)))
-    }
-
-    /// An int; 0 where there is none of the name.
-    #[must_use]
-    pub fn int(&self, variable: &str) -> i32 {
-        match self.value(variable) {
-            Some(Value::Int(value)) => *value,
-            _ => 0,
-        }
-    }
-
-    /// The numbers of a number, vector or colour; zeros where there are none.
-    #[must_use]
-    pub fn numbers<const N: usize>(&self, variable: &str) -> [f32; N] {
-        let mut numbers = [0.0; N];
-        if let Some(Value::Numbers(values)) = self.value(variable) {
-            numbers.iter_mut().zip(values).for_each(|(number, value)| *number = *value);
-        }
-        numbers
-    }
-
-    /// A number; 0 where there is none of the name.
-    #[must_use]
-    pub fn number(&self, variable: &str) -> f32 {
-        self.numbers::<1>(variable)[0]
-    }
-
-    /// A string; empty where there is none of the name.
-    #[must_use]
-    pub fn string(&self, variable: &str) -> &str {
-        match self.value(variable) {
-            Some(Value::String(text)) => text,
-            _ => "",
-        }
-    }
-
-    /// A texture; none where there is none of the name.
-    #[must_use]
-    pub fn texture(&self, variable: &str) -> &TextureName {
-        match self.value(variable) {
-            Some(Value::Texture(name)) => name,
-            _ => const { &TextureName::NONE },
-        }
-    }
-
-    /// Whether the pass is done at all.
+    /// Whether the pass is drawn at all: its variable `render`.
     #[must_use]
     pub fn is_rendered(&self) -> bool {
-        self.bool("render")
+        let found = self.component.variable(RENDER);
+        found.is_some_and(|(index, _)| self.values[index] == Value::Bool(true))
     }
 }
 
-/// The value that a variable takes: within its limits, a word that it knows, an image
-/// of its own directory.
+/// The value as the variable takes it: clamped to its limits, one of its words, an image
+/// with its directory; none, and a mistake, for a value that it cannot have.
 fn checked(
     variable: &VariableDescriptor,
     value: Value,
@@ -188,7 +134,7 @@ fn checked(
     match value {
         Value::String(word) if !variable.one_of.is_empty() => {
             if variable.word_index(&word).is_none() {
-                let message = format!("'{word}' is none of the words of '{}'", variable.name);
+                let message = format!("'{word}' is not a value of '{}'", variable.name);
                 let words = variable.one_of.iter().map(String::as_str);
                 mistakes.add(error(message).names(&word, words));
                 return None;
@@ -198,8 +144,9 @@ fn checked(
         Value::Texture(name) => {
             let found = variable.in_directory(Value::Texture(name.clone()));
             if found.is_none() {
-                let message = format!("'{name}' has no directory");
-                let note = "a texture is directory:image, <generated>:name, or a file as paper.png";
+                let message = format!("the image '{name}' needs a directory");
+                let note =
+                    "a texture is directory:image, <generated>:name, or a file such as paper.png";
                 mistakes.add(error(message).note(note));
             }
             found
@@ -207,9 +154,7 @@ fn checked(
         value => {
             let clamped = value.clamped(variable.minimum.as_ref(), variable.maximum.as_ref());
             if clamped != value {
-                let name = &variable.name;
-                let message = format!("{name} = {value} is out of its range, {clamped} is taken");
-                mistakes.add(Mistake::warning(place, message));
+                mistakes.add(Mistake::out_of_range(place, &variable.name, &value, &clamped));
             }
             Some(clamped)
         }

@@ -1,54 +1,53 @@
-//! The plan of a technique: everything that its passes need, checked before anything
-//! is run.
+//! The plan of a technique: all that its passes need, checked without a GPU.
 //!
 //! ```text
-//!   Technique --+                       +--> passes: programs, what they read and write
-//!   ShaderFiles +--> plan (no GPU) -----+--> textures: sizes and formats
-//!   images -----+                       '--> or mistakes, all at once
+//!   Technique --+                       +--> passes: variables, programs, reads, target
+//!   ShaderFiles +--> Plan::of (no GPU) -+--> textures: sizes and formats
+//!   images -----+                       '--> or all mistakes
 //! ```
 //!
-//! A pass reads what an earlier one wrote in the same frame. What a pass reads and
-//! writes itself it works on in place: it sees what was there before, in the first
-//! frame nothing. Textures stay from frame to frame.
+//! A pass reads what an earlier pass wrote in the same frame. A pass that reads a texture
+//! that it writes reads what was there before; in the first frame that is empty. Textures
+//! are kept from frame to frame.
 
 use std::path::PathBuf;
 
-use edgemesh::line::class::LineClass;
-
-use super::class_pass::{ALL_CLASSES, classes_of};
 use super::core::CoreComponent;
-use super::curve::parse_curve;
+use super::core_view::render_target::{FORMAT, SCALE, TARGET, TEXTURE};
+use super::core_view::{Blend, CoreView, RenderTarget, RunMode, programs};
 use super::mistake::{Mistake, Mistakes, Place};
 use super::pass::Pass;
-use super::program::{Output, Program, ProgramKind, ShaderFiles, TextureKind};
-use super::texture_format::{
-    DEPTH_FORMAT, FORMATS, TextureSize, format_of, is_blendable, is_filterable, kind_of,
+use super::program::{
+    FieldKind, Output, PassPrograms, Program, ProgramKind, ShaderFiles, TextureKind,
 };
+use super::texture_format::{MAX_OUTPUT_BYTES_PER_PIXEL, TextureFormat, TextureSize};
 use super::texture_name::{TextureName, TextureSource};
 use super::{Technique, image_file, plan_params};
 
-/// A technique with everything checked.
+/// A checked technique.
 #[derive(Debug, Clone, Default)]
 pub struct Plan {
-    /// One a pass of the technique.
+    /// One plan per pass of the technique.
     pub passes: Vec<PassPlan>,
     /// The textures that passes write.
     pub textures: Vec<TexturePlan>,
+    /// Values that are replaced by others.
+    pub warnings: Mistakes,
 }
 
 /// What a pass needs.
 #[derive(Debug, Clone)]
 pub struct PassPlan {
+    /// The variables of its core component.
+    pub core: CoreView,
+    /// When it runs.
+    pub run: RunMode,
     /// Where it draws.
     pub target: Target,
-    /// The program that places vertices, where the component has one.
-    pub vertex: Option<Program>,
-    /// The program that colours fragments, where the component has one.
-    pub fragment: Option<Program>,
-    /// The program that colours what is behind the scene.
-    pub background: Option<Program>,
-    /// What it reads, by the names of its texture variables.
-    pub reads: Vec<Read>,
+    /// Its programs.
+    pub programs: PassPrograms,
+    /// The textures that it reads.
+    pub reads: Vec<TextureRead>,
     /// Whether it reads a texture that it writes.
     pub is_in_place: bool,
 }
@@ -56,34 +55,34 @@ pub struct PassPlan {
 /// Where a pass draws.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Target {
-    /// The picture itself.
+    /// The picture.
     Framebuffer,
-    /// Textures, by their numbers in the plan.
+    /// Textures, by their indices in the plan.
     Textures {
-        /// By location.
+        /// One per output, by location.
         colors: Vec<usize>,
-        /// The depth, where the pass writes it.
+        /// The depth, if the pass writes it.
         depth: Option<usize>,
     },
 }
 
 /// A texture that a pass reads.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Read {
-    /// The variable.
+pub struct TextureRead {
+    /// The name of its variable.
     pub variable: String,
-    /// What it is.
+    /// The texture.
     pub source: ReadSource,
-    /// Whether it is sampled between its texels.
+    /// Whether it is filtered between texels.
     pub is_filtered: bool,
 }
 
-/// What a pass reads.
+/// The kinds of textures that a pass reads.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ReadSource {
-    /// Nothing: one white texel.
+    /// No texture: one white texel.
     None,
-    /// A texture of the plan.
+    /// A texture of the plan, by its index.
     Generated(usize),
     /// An image.
     Image(image_file::ImageFile),
@@ -92,13 +91,13 @@ pub enum ReadSource {
 /// A texture that passes write.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TexturePlan {
-    /// Its name, without the directory.
+    /// Its name, without the directory `<generated>`.
     pub name: String,
     /// Its size.
     pub size: TextureSize,
     /// Its format.
-    pub format: wgpu::TextureFormat,
-    /// Where it was asked for first.
+    pub format: TextureFormat,
+    /// The variable of the first pass that writes it.
     pub place: Place,
 }
 
@@ -106,54 +105,49 @@ impl Plan {
     /// Checks a technique and makes its plan.
     ///
     /// # Errors
-    /// All mistakes, in the technique and in its shaders.
+    /// All mistakes in the technique, its shaders and its images.
     pub fn of(technique: &Technique, shaders: &ShaderFiles) -> Result<Self, Mistakes> {
+        let passes = &technique.passes;
         let mut planner = Planner {
             shaders,
             folders: &technique.folders,
-            plan: Self::default(),
+            textures: Vec::new(),
             mistakes: Mistakes::default(),
         };
-        // Programs first: what a pass writes depends on what its program returns.
-        let programs: Vec<Programs> =
-            technique.passes.iter().map(|pass| planner.programs(pass)).collect();
-        let targets: Vec<Target> = technique
-            .passes
-            .iter()
-            .zip(&programs)
-            .map(|(pass, programs)| planner.target(pass, programs))
-            .collect();
+        let views: Vec<CoreView> =
+            passes.iter().map(|pass| CoreView::read(pass, &mut planner.mistakes)).collect();
+        // Programs before targets: what a pass writes depends on what its program returns.
+        let programs: Vec<PassPrograms> =
+            passes.iter().zip(&views).map(|(pass, view)| planner.programs(pass, view)).collect();
+        let inputs = passes.iter().zip(&views).zip(&programs);
+        let targets: Vec<Target> =
+            inputs.map(|((pass, view), programs)| planner.target(pass, view, programs)).collect();
         let writes: Vec<Vec<usize>> = targets.iter().map(Target::textures).collect();
-        for (at, pass) in technique.passes.iter().enumerate() {
+        let mut plans = Vec::new();
+        let parts = views.into_iter().zip(programs).zip(targets);
+        for (at, ((core, programs), target)) in parts.enumerate() {
+            let pass = &passes[at];
             let reads = planner.reads(technique, at, &writes);
-            let [vertex, fragment, background] = programs[at].clone();
-            plan_params::check(pass, vertex.as_ref(), fragment.as_ref(), &mut planner.mistakes);
-            if let Some(background) = &background {
-                plan_params::check_used(pass, background, &mut planner.mistakes);
-            }
-            for program in [&vertex, &fragment, &background].into_iter().flatten() {
+            plan_params::check(pass, &programs, &mut planner.mistakes);
+            for program in programs.iter() {
                 planner.check_textures(pass, program, &reads);
             }
             let is_in_place = reads.iter().any(|read| match read.source {
                 ReadSource::Generated(texture) => writes[at].contains(&texture),
                 _ => false,
             });
-            planner.check_strokes(pass);
-            let target = targets[at].clone();
-            planner.check_blend(pass, &target, is_in_place);
-            let pass = PassPlan { target, vertex, fragment, background, reads, is_in_place };
-            planner.plan.passes.push(pass);
+            let run = RunMode::read(pass, &mut planner.mistakes);
+            planner.check_blend(pass, core.blend(), &target, is_in_place);
+            plans.push(PassPlan { core, run, target, programs, reads, is_in_place });
         }
-        let Planner { plan, mistakes, .. } = planner;
-        mistakes.or(plan).map(|(plan, _)| plan)
+        let Planner { textures, mistakes, .. } = planner;
+        let plan = Self { passes: plans, textures, warnings: Mistakes::default() };
+        mistakes.or(plan).map(|(plan, warnings)| Self { warnings, ..plan })
     }
 }
 
-/// The programs of a pass: vertex, fragment, background.
-type Programs = [Option<Program>; 3];
-
 impl Target {
-    /// The textures that are written.
+    /// The indices of the textures that are written.
     #[must_use]
     pub fn textures(&self) -> Vec<usize> {
         match self {
@@ -166,158 +160,147 @@ impl Target {
 struct Planner<'a> {
     shaders: &'a ShaderFiles,
     folders: &'a [PathBuf],
-    plan: Plan,
+    textures: Vec<TexturePlan>,
     mistakes: Mistakes,
 }
 
 impl Planner<'_> {
-    fn programs(&mut self, pass: &Pass) -> Programs {
-        let variables = [
-            ("vertex_program", ProgramKind::Vertex),
-            ("fragment_program", ProgramKind::Fragment),
-            ("background_program", ProgramKind::Fragment),
-        ];
-        variables.map(|(variable, kind)| {
-            let name = pass.string(variable);
-            if name.is_empty() {
-                return None;
-            }
-            match self.shaders.program(name, kind, pass.place_of(variable)) {
-                Ok(program) => Some(program),
-                Err(mistakes) => {
-                    self.mistakes.append(mistakes);
-                    None
-                }
-            }
-        })
-    }
-
-    /// Where a pass draws; the textures that it writes are added to the plan.
-    fn target(&mut self, pass: &Pass, [_, fragment, _]: &Programs) -> Target {
-        let core = pass.component.core;
-        let size = TextureSize {
-            sides: [pass.int("render_target_width"), pass.int("render_target_height")],
-            scale: pass.number("render_target_scale"),
+    fn programs(&mut self, pass: &Pass, view: &CoreView) -> PassPrograms {
+        let mut program = |name: Option<String>, variable, kind| {
+            let found = self.shaders.program(&name?, kind, pass.place_of(variable));
+            found.map_err(|mistakes| self.mistakes.append(mistakes)).ok()
         };
-        match core {
-            CoreComponent::CopyToTexture | CoreComponent::GenerateTexture => {
-                let name = pass.string("texture").to_owned();
-                let is_depth = pass.bool("depth");
-                let (format, size) = match core {
-                    CoreComponent::GenerateTexture => (self.formats(pass, 1)[0], size),
-                    _ if is_depth => (DEPTH_FORMAT, TextureSize::PICTURE),
-                    _ => (strokes::gpu::target_formats::COLOR_FORMAT, TextureSize::PICTURE),
-                };
-                let texture = self.texture(pass, "texture", name, size, format);
-                match is_depth {
-                    true => Target::Textures { colors: Vec::new(), depth: Some(texture) },
-                    false => Target::Textures { colors: vec![texture], depth: None },
-                }
-            }
-            _ if pass.string("render_target").is_empty() => Target::Framebuffer,
-            _ => {
-                let outputs = fragment.as_ref().map(|program| program.interface.outputs.clone());
-                self.render_targets(pass, size, &outputs.unwrap_or_default())
-            }
+        let names = view.programs();
+        PassPrograms {
+            vertex: program(names.vertex, programs::VERTEX, ProgramKind::Vertex),
+            fragment: program(names.fragment, programs::FRAGMENT, ProgramKind::Fragment),
+            background: program(names.background, programs::BACKGROUND, ProgramKind::Fragment),
         }
     }
 
-    fn render_targets(&mut self, pass: &Pass, size: TextureSize, outputs: &[Output]) -> Target {
-        let name = pass.string("render_target").to_owned();
-        let formats = self.formats(pass, outputs.len().max(1));
+    /// Where a pass draws. Adds the textures that it writes to the plan.
+    fn target(&mut self, pass: &Pass, view: &CoreView, programs: &PassPrograms) -> Target {
+        let target = match view {
+            CoreView::Strokes(_) => return Target::Framebuffer,
+            CoreView::CopyToTexture(view) => {
+                let (size, format) = match view.is_depth {
+                    true => (TextureSize::PICTURE, TextureFormat::DEPTH),
+                    false => (TextureSize::PICTURE, TextureFormat::PICTURE),
+                };
+                let place = pass.place_of(TEXTURE).clone();
+                let name = view.texture.clone();
+                let plan = TexturePlan { name, size, format, place };
+                let texture = self.texture(pass, &view.texture, plan);
+                return match view.is_depth {
+                    true => Target::Textures { colors: Vec::new(), depth: Some(texture) },
+                    false => Target::Textures { colors: vec![texture], depth: None },
+                };
+            }
+            CoreView::GenerateTexture(view) => {
+                let place = pass.place_of(TEXTURE).clone();
+                let name = view.texture.clone();
+                let plan = TexturePlan { name, size: view.size, format: view.format, place };
+                let texture = self.texture(pass, &view.texture, plan);
+                return Target::Textures { colors: vec![texture], depth: None };
+            }
+            CoreView::SimpleRender(view) => &view.target,
+            CoreView::ProcessTexture(view) => &view.target,
+            CoreView::PingPong(view) => &view.target,
+            CoreView::Composite(view) => &view.target,
+        };
+        match &target.name {
+            None => Target::Framebuffer,
+            Some(name) => self.render_targets(pass, name, target, programs.outputs()),
+        }
+    }
+
+    /// The textures of a named target: one per output of the fragment program, and the depth
+    /// of a pass that draws the scene.
+    fn render_targets(
+        &mut self,
+        pass: &Pass,
+        name: &str,
+        target: &RenderTarget,
+        outputs: &[Output],
+    ) -> Target {
+        let plan = |suffix: &str, format| TexturePlan {
+            name: format!("{name}_{suffix}"),
+            size: target.size,
+            format,
+            place: pass.place_of(TARGET).clone(),
+        };
+        let count = outputs.len().max(1);
+        let formats: Vec<TextureFormat> = (0..count).map(|at| target.format(at)).collect();
         let mut colors = Vec::new();
-        for (at, format) in formats.iter().enumerate() {
+        for (at, &format) in formats.iter().enumerate() {
             let suffix = match outputs.get(at) {
                 Some(output) if output.location > 0 => output.name.as_str(),
                 _ => "color",
             };
             if let Some(output) = outputs.get(at)
-                && output.kind != kind_of(*format)
+                && output.kind != format.number_kind()
             {
                 let message = format!(
-                    "'{}' of the fragment program does not fit the format {}",
+                    "the output '{}' of the fragment program does not fit the format {}",
                     output.name,
-                    super::texture_format::word_of(*format)
+                    format.word()
                 );
-                let place = pass.place_of("render_target_format");
-                self.mistakes.add(Mistake::error(place, message));
+                self.mistakes.add(Mistake::error(pass.place_of(FORMAT), message));
             }
-            let name = format!("{name}_{suffix}");
-            colors.push(self.texture(pass, "render_target", name, size, *format));
+            colors.push(self.texture(pass, name, plan(suffix, format)));
         }
         self.check_cost(pass, &formats);
-        let depth = (pass.component.core == CoreComponent::SimpleRender).then(|| {
-            self.texture(pass, "render_target", format!("{name}_depth"), size, DEPTH_FORMAT)
-        });
+        let depth = (pass.component.core == CoreComponent::SimpleRender)
+            .then(|| self.texture(pass, name, plan("depth", TextureFormat::DEPTH)));
         Target::Textures { colors, depth }
     }
 
-    /// What every adapter can write at once for a pixel.
-    fn check_cost(&mut self, pass: &Pass, formats: &[wgpu::TextureFormat]) {
-        let limits = wgpu::Limits::default();
-        let cost: u32 = formats.iter().filter_map(|format| format.target_pixel_byte_cost()).sum();
-        let most = limits.max_color_attachment_bytes_per_sample;
-        if cost > most {
-            let message = format!("the outputs take {cost} bytes a pixel, adapters have {most}");
-            let note = "give some of them smaller formats, as rgba16f or rgba8 (8 bytes each)";
-            let place = pass.place_of("render_target_format");
+    /// Checks that every adapter can write the outputs of a pass at once.
+    fn check_cost(&mut self, pass: &Pass, formats: &[TextureFormat]) {
+        let cost: u32 = formats.iter().map(|format| format.output_bytes_per_pixel()).sum();
+        if cost > MAX_OUTPUT_BYTES_PER_PIXEL {
+            let message = format!(
+                "the outputs take {cost} bytes per pixel; the limit is {MAX_OUTPUT_BYTES_PER_PIXEL}"
+            );
+            let note =
+                "use smaller formats for some of them, such as rgba16f or rgba8 (8 bytes each)";
+            self.mistakes.add(Mistake::error(pass.place_of(FORMAT), message).note(note));
+        }
+    }
+
+    /// The index of a texture, which is added to the plan unless it is there. `target` is
+    /// its name in the file, without a suffix.
+    fn texture(&mut self, pass: &Pass, target: &str, texture: TexturePlan) -> usize {
+        let TexturePlan { size, format, ref place, .. } = texture;
+        if !super::component_file::is_name(target) {
+            let message = format!("'{target}' is not a valid name of a render target");
+            let note = "names consist of letters, digits and _";
             self.mistakes.add(Mistake::error(place, message).note(note));
         }
-    }
-
-    /// The formats of `count` outputs: the last one stands for those behind it.
-    fn formats(&mut self, pass: &Pass, count: usize) -> Vec<wgpu::TextureFormat> {
-        let text = pass.string("render_target_format");
-        let mut formats = Vec::new();
-        for word in text.split(',').map(str::trim) {
-            let format = format_of(word);
-            if format.is_none() {
-                let place = pass.place_of("render_target_format");
-                let mistake = Mistake::error(place, format!("there is no format '{word}'"));
-                self.mistakes.add(mistake.names(word, FORMATS.map(|(word, _)| word)));
-            }
-            formats.push(format.unwrap_or(strokes::gpu::target_formats::COLOR_FORMAT));
-        }
-        let last = formats.last().copied().unwrap_or(strokes::gpu::target_formats::COLOR_FORMAT);
-        formats.resize(count, last);
-        formats
-    }
-
-    /// The number of a texture of the plan, which is added where it is new.
-    fn texture(
-        &mut self,
-        pass: &Pass,
-        variable: &str,
-        name: String,
-        size: TextureSize,
-        format: wgpu::TextureFormat,
-    ) -> usize {
-        let place = pass.place_of(variable).clone();
-        let target = pass.string(variable);
-        if !super::component_file::is_name(target) {
-            let message = format!("'{target}' cannot be the name of a render target");
-            let note = "names are letters, digits and _";
-            self.mistakes.add(Mistake::error(&place, message).note(note));
-        }
         if size.scale <= 0.0 {
-            let place = pass.place_of("render_target_scale");
-            let message = format!("a texture of size {} is nothing", size.scale);
-            self.mistakes.add(Mistake::error(place, message));
+            let message = "the scale of a texture must be greater than 0";
+            self.mistakes.add(Mistake::error(pass.place_of(SCALE), message));
         }
-        if let Some(known) = self.plan.textures.iter().position(|known| known.name == name) {
-            let first = &self.plan.textures[known];
+        if let Some(known) = self.textures.iter().position(|known| known.name == texture.name) {
+            let first = &self.textures[known];
             if first.size != size || first.format != format {
                 let message = format!("two passes write '{target}' in different sizes or formats");
-                self.mistakes.add(Mistake::error(&place, message).also(&first.place, "here"));
+                let mistake = Mistake::error(place, message);
+                self.mistakes.add(mistake.also(&first.place, "first written here"));
             }
             return known;
         }
-        self.plan.textures.push(TexturePlan { name, size, format, place });
-        self.plan.textures.len() - 1
+        self.textures.push(texture);
+        self.textures.len() - 1
     }
 
-    /// What pass number `at` reads.
-    fn reads(&mut self, technique: &Technique, at: usize, writes: &[Vec<usize>]) -> Vec<Read> {
+    /// What the pass at index `at` reads.
+    fn reads(
+        &mut self,
+        technique: &Technique,
+        at: usize,
+        writes: &[Vec<usize>],
+    ) -> Vec<TextureRead> {
         let pass = &technique.passes[at];
         let mut reads = Vec::new();
         for (index, variable) in pass.component.textures() {
@@ -343,22 +326,22 @@ impl Planner<'_> {
             if let ReadSource::Generated(texture) = source {
                 self.check_filter(name, texture, place);
             }
-            reads.push(Read { variable: variable.name.clone(), source, is_filtered });
+            reads.push(TextureRead { variable: variable.name.clone(), source, is_filtered });
         }
         reads
     }
 
     fn check_filter(&mut self, name: &TextureName, texture: usize, place: &Place) {
-        let texture = &self.plan.textures[texture];
-        if name.filters() && !is_filterable(texture.format) {
-            let word = super::texture_format::word_of(texture.format);
+        let texture = &self.textures[texture];
+        if name.filters() && !texture.format.is_filterable() {
+            let word = texture.format.word();
             let message = format!("'{}' cannot be filtered: its format is {word}", texture.name);
-            let note = "leave the :1 out, or give its pass another render_target_format";
+            let note = "omit the :1, or give its pass another render_target_format";
             self.mistakes.add(Mistake::error(place, message).note(note));
         }
     }
 
-    /// A generated texture that pass number `at` reads.
+    /// The index of a generated texture that the pass at index `at` reads.
     fn generated(
         &mut self,
         technique: &Technique,
@@ -367,12 +350,11 @@ impl Planner<'_> {
         name: &str,
         place: &Place,
     ) -> Option<usize> {
-        let Some(texture) = self.plan.textures.iter().position(|known| known.name == name) else {
+        let Some(texture) = self.textures.iter().position(|known| known.name == name) else {
             let names: Vec<&str> =
-                self.plan.textures.iter().map(|texture| texture.name.as_str()).collect();
+                self.textures.iter().map(|texture| texture.name.as_str()).collect();
             let mistake = Mistake::error(place, format!("no pass writes the texture '{name}'"));
-            let mistake = mistake.names(name, names);
-            self.mistakes.add(mistake);
+            self.mistakes.add(mistake.names(name, names));
             return None;
         };
         let is_written = writes[..=at].iter().any(|written| written.contains(&texture));
@@ -384,45 +366,44 @@ impl Planner<'_> {
             if let Some(later) = later {
                 mistake = mistake.also(&later.place, format!("'{}' writes it", later.name));
             }
-            self.mistakes.add(mistake.note("put the pass that writes it above this one"));
+            self.mistakes.add(mistake.note("move the pass that writes it above this one"));
         }
         Some(texture)
     }
 
-    /// The textures that a program wants must be variables, of the right kind.
-    fn check_textures(&mut self, pass: &Pass, program: &Program, reads: &[Read]) {
+    /// Checks that the textures of a program are variables, and that they have the kind that
+    /// it reads.
+    fn check_textures(&mut self, pass: &Pass, program: &Program, reads: &[TextureRead]) {
         for slot in &program.interface.textures {
             let is_variable = pass.component.textures().any(|(_, known)| known.name == slot.name);
             if !is_variable {
                 let message = format!(
-                    "the program wants a texture '{}', which {} has not",
+                    "the program reads a texture '{}', which is not a variable of {}",
                     slot.name, pass.component.name
                 );
                 let names: Vec<&str> =
                     pass.component.textures().map(|(_, known)| known.name.as_str()).collect();
-                let place = pass.place_of("fragment_program");
+                let place = pass.place_of(programs::FRAGMENT);
                 self.mistakes.add(Mistake::error(place, message).names(&slot.name, names));
                 continue;
             }
             let Some(read) = reads.iter().find(|read| read.variable == slot.name) else { continue };
-            let fits = match (&read.source, slot.kind) {
-                (ReadSource::Generated(texture), kind) => {
-                    let format = self.plan.textures[*texture].format;
-                    match kind {
-                        TextureKind::Depth => format == DEPTH_FORMAT,
-                        TextureKind::Uint => format == wgpu::TextureFormat::R32Uint,
-                        TextureKind::Float => format != wgpu::TextureFormat::R32Uint,
-                    }
-                }
-                (_, kind) => kind == TextureKind::Float,
+            let format = match &read.source {
+                ReadSource::Generated(texture) => self.textures[*texture].format,
+                ReadSource::None | ReadSource::Image(_) => TextureFormat::Rgba8,
+            };
+            let fits = match slot.kind {
+                TextureKind::Depth => format == TextureFormat::DEPTH,
+                TextureKind::Uint => format.number_kind() == FieldKind::Uint,
+                TextureKind::Float => format.number_kind() == FieldKind::Float,
             };
             if !fits {
-                let wanted = match slot.kind {
+                let expected = match slot.kind {
                     TextureKind::Depth => "a depth texture",
-                    TextureKind::Uint => "whole numbers",
-                    TextureKind::Float => "colours",
+                    TextureKind::Uint => "a texture of unsigned integers",
+                    TextureKind::Float => "a color texture",
                 };
-                let message = format!("'{}' needs {wanted}", slot.name);
+                let message = format!("'{}' needs {expected}", slot.name);
                 let place = pass.place_of(&slot.name);
                 let note = "a pass with render_target = \"x\" writes <generated>:x_color and \
                             <generated>:x_depth";
@@ -431,41 +412,23 @@ impl Planner<'_> {
         }
     }
 
-    /// Texts of strokes that have a form of their own.
-    fn check_strokes(&mut self, pass: &Pass) {
-        if pass.component.core != CoreComponent::Strokes {
-            return;
-        }
-        if let Err(word) = classes_of(pass.string("classes")) {
-            let message = format!("there is no class '{word}'");
-            let classes = LineClass::ALL.map(LineClass::name).into_iter().chain([ALL_CLASSES]);
-            let mistake = Mistake::error(pass.place_of("classes"), message);
-            self.mistakes.add(mistake.names(&word, classes));
-        }
-        for (variable, most) in [("width_curve", 10.0), ("opacity_curve", 1.0)] {
-            if let Err(what) = parse_curve(pass.string(variable), most) {
-                self.mistakes.add(Mistake::error(pass.place_of(variable), what));
-            }
-        }
-    }
-
-    fn check_blend(&mut self, pass: &Pass, target: &Target, is_in_place: bool) {
-        let blend = pass.string("blend");
+    fn check_blend(&mut self, pass: &Pass, blend: Blend, target: &Target, is_in_place: bool) {
         let Target::Textures { colors, .. } = target else { return };
-        if matches!(blend, "" | "replace") {
+        if blend == Blend::Replace {
             return;
         }
+        let place = pass.place_of(Blend::VARIABLE);
         if is_in_place {
-            let message = format!("'{}' reads what it draws to, so it cannot blend", pass.name);
-            let note = "what was there before is read as a texture: mix it in the program";
-            self.mistakes.add(Mistake::error(pass.place_of("blend"), message).note(note));
+            let message =
+                format!("'{}' reads the texture that it draws to, so it cannot blend", pass.name);
+            let note = "mix with the previous content in the program instead";
+            self.mistakes.add(Mistake::error(place, message).note(note));
         }
         for &color in colors {
-            let texture = &self.plan.textures[color];
-            if !is_blendable(texture.format) {
-                let word = super::texture_format::word_of(texture.format);
-                let message = format!("blending does not work in the format {word}");
-                self.mistakes.add(Mistake::error(pass.place_of("blend"), message));
+            let format = self.textures[color].format;
+            if !format.is_blendable() {
+                let message = format!("the format {} cannot be blended", format.word());
+                self.mistakes.add(Mistake::error(place, message));
             }
         }
     }

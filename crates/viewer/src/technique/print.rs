@@ -1,32 +1,31 @@
-//! A technique as text: its passes with what each reads, writes and sets, and the
-//! textures between them.
+//! A technique as text: what each pass reads, writes and sets, and the textures between
+//! passes.
 
 use std::fmt::Write as _;
 
 use super::Technique;
 use super::pass::Pass;
 use super::plan::{PassPlan, Plan, ReadSource, Target};
-use super::texture_format::word_of;
 
-/// The passes of a technique, resolved.
+/// The passes and textures of a technique, for `viewer techniques print`.
 #[must_use]
-pub fn printed(technique: &Technique, plan: &Plan) -> String {
+pub fn technique_text(technique: &Technique, plan: &Plan) -> String {
     let mut text = format!("{}: {}\n", technique.name, technique.about);
     for (at, (pass, pass_plan)) in technique.passes.iter().zip(&plan.passes).enumerate() {
         text += "\n";
-        text += &pass_printed(at + 1, pass, pass_plan, plan);
+        text += &pass_text(at + 1, pass, pass_plan, plan);
     }
     if !plan.textures.is_empty() {
         text += "\ntextures\n";
     }
     for texture in &plan.textures {
-        let format = word_of(texture.format);
+        let format = texture.format.word();
         let _ = writeln!(text, "    <generated>:{}  {}, {format}", texture.name, texture.size);
     }
     text
 }
 
-fn pass_printed(number: usize, pass: &Pass, pass_plan: &PassPlan, plan: &Plan) -> String {
+fn pass_text(number: usize, pass: &Pass, pass_plan: &PassPlan, plan: &Plan) -> String {
     let component = &pass.component;
     let mut text = format!("{number} {} ({})", pass.name, component.name);
     if component.name != component.core.name() {

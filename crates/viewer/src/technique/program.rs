@@ -1,20 +1,20 @@
-//! Programs: functions in shader files, and what they want to be given.
+//! Programs: functions in shader files, and the parameters that they declare.
 //!
-//! A program is named `file:function`. Its parameters are found by reflection, so that
-//! an effect needs no Rust:
+//! A program is named `file:function`. Reflection finds its parameters, so that an effect
+//! needs no Rust:
 //!
 //! ```wgsl
 //! struct Params { threshold: f32, edge_color: vec4f }       // fields: variables
 //! @group(1) @binding(0) var<uniform> params: Params;
 //! @group(1) @binding(1) var normal_texture: texture_2d<f32>; // a texture variable
-//! @group(1) @binding(2) var normal_texture_sampler: sampler; // how that is sampled
+//! @group(1) @binding(2) var normal_texture_sampler: sampler; // its sampler
 //! ```
 //!
-//! `@group(0)` is the view, `@group(2)` what is drawn; both come with `common/`. A
-//! vertex program in a file of its own has its parameters in `@group(3)`.
+//! Files in `common/` declare the view in `@group(0)` and the model in `@group(2)`. A
+//! vertex program in its own file has its parameters in `@group(3)`.
 //!
-//! Rejected: parameters by position, or a struct of fixed slots, which read well
-//! nowhere and break when a line moves.
+//! Rejected: parameters by position, or a struct of fixed slots, which are hard to read
+//! and break when a line moves.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -24,15 +24,14 @@ use edgemesh_shaders::files::{PROGRAMS, text as embedded_text};
 use edgemesh_shaders::{ShaderError, ShaderSource};
 use naga::{AddressSpace, ImageClass, ImageDimension, ScalarKind, ShaderStage, TypeInner};
 
-use super::library::text_of;
 use super::mistake::{Mistake, Mistakes, Place, SourceText};
 
-/// Which program of a pass.
+/// The stage of a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum ProgramKind {
     /// Places vertices.
     Vertex,
-    /// Colours fragments.
+    /// Colors fragments.
     Fragment,
 }
 
@@ -52,46 +51,72 @@ impl ProgramKind {
     }
 }
 
-/// A program, valid by itself.
+/// A valid program.
 #[derive(Debug, Clone)]
 pub struct Program {
-    /// The function.
+    /// Its name, `file:function`.
+    pub name: String,
+    /// Its function, the entry point.
     pub function: String,
-    /// The module's text, imports and all.
+    /// The text of its module with all imports.
     pub source: Arc<ShaderSource>,
-    /// What it wants to be given.
+    /// Its parameters and outputs.
     pub interface: Interface,
-    /// Whether it can be told that there are no clip planes.
+    /// Whether it has the override `CLIPS`, which is 0 without clip planes.
     pub asks_for_clips: bool,
-    /// Whether its loops are counted, as it is not one that ships.
+    /// Whether its loops are limited: true for all but built-in programs.
     pub is_bounded: bool,
 }
 
-/// What a program wants to be given, and gives.
+/// The programs of a pass, as far as its component has them.
+#[derive(Debug, Clone, Default)]
+pub struct PassPrograms {
+    /// Places vertices.
+    pub vertex: Option<Program>,
+    /// Colors fragments.
+    pub fragment: Option<Program>,
+    /// Colors the background.
+    pub background: Option<Program>,
+}
+
+impl PassPrograms {
+    /// All programs.
+    pub fn iter(&self) -> impl Iterator<Item = &Program> {
+        [&self.vertex, &self.fragment, &self.background].into_iter().flatten()
+    }
+
+    /// The outputs of the fragment program.
+    #[must_use]
+    pub fn outputs(&self) -> &[Output] {
+        self.fragment.as_ref().map_or(&[], |program| &program.interface.outputs)
+    }
+}
+
+/// The parameters and outputs of a program.
 #[derive(Debug, Clone, Default)]
 pub struct Interface {
-    /// The uniform with its parameters.
+    /// The uniform of its parameters.
     pub params: Option<Params>,
     /// The textures that it reads.
     pub textures: Vec<TextureSlot>,
-    /// The samplers: the textures that they are for, by name.
+    /// The samplers of its textures.
     pub samplers: Vec<SamplerSlot>,
-    /// What a fragment program writes, by location.
+    /// What a fragment program returns, by location.
     pub outputs: Vec<Output>,
 }
 
 /// A uniform of parameters.
 #[derive(Debug, Clone)]
 pub struct Params {
-    /// Its group.
+    /// Its `@group`.
     pub group: u32,
-    /// Its binding.
+    /// Its `@binding`.
     pub binding: u32,
-    /// Its bytes.
+    /// Its size in bytes.
     pub size: u32,
     /// Its fields.
     pub fields: Vec<Field>,
-    /// Where the struct stands.
+    /// Where the variable is declared.
     pub place: Place,
 }
 
@@ -100,19 +125,19 @@ pub struct Params {
 pub struct Field {
     /// Its name, that of a variable.
     pub name: String,
-    /// Where it begins, in bytes.
+    /// Its offset in bytes.
     pub offset: u32,
-    /// How many numbers it has.
+    /// The count of its numbers, 1 to 4.
     pub count: usize,
-    /// What numbers.
+    /// The type of its numbers.
     pub kind: FieldKind,
-    /// Its type, as WGSL has it.
+    /// Its type in WGSL.
     pub type_name: String,
-    /// Where it stands.
+    /// Where it is declared.
     pub place: Place,
 }
 
-/// The numbers of a field.
+/// The type of numbers in a field, an output or a texture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FieldKind {
     /// `f32`
@@ -128,15 +153,15 @@ pub enum FieldKind {
 pub struct TextureSlot {
     /// The name of its variable.
     pub name: String,
-    /// Its group.
+    /// Its `@group`.
     pub group: u32,
-    /// Its binding.
+    /// Its `@binding`.
     pub binding: u32,
-    /// What is in it.
+    /// Its type.
     pub kind: TextureKind,
 }
 
-/// What a shader takes a texture for.
+/// The type of a texture in a shader.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TextureKind {
     /// `texture_2d<f32>`
@@ -147,40 +172,40 @@ pub enum TextureKind {
     Depth,
 }
 
-/// A sampler.
+/// The sampler of a texture.
 #[derive(Debug, Clone)]
 pub struct SamplerSlot {
-    /// The texture variable that it is for.
+    /// The name of the texture's variable.
     pub texture: String,
-    /// Its group.
+    /// Its `@group`.
     pub group: u32,
-    /// Its binding.
+    /// Its `@binding`.
     pub binding: u32,
 }
 
-/// A value that a fragment program writes.
+/// A value that a fragment program returns.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Output {
-    /// Its location.
+    /// Its `@location`.
     pub location: u32,
-    /// The name of its field; `color` where the program returns it bare.
+    /// The name of its field; `color` for a value that is not in a struct.
     pub name: String,
-    /// What numbers.
+    /// The type of its numbers.
     pub kind: FieldKind,
 }
 
-/// The shader files that programs are taken from.
+/// The shader files of programs.
 #[derive(Debug, Clone, Default)]
 pub struct ShaderFiles {
-    /// Folders that come before what is shipped.
+    /// Folders that are searched before the built-in files.
     folders: Vec<PathBuf>,
-    /// A folder that stands for what is shipped.
+    /// A folder that is searched before the built-in files, and after all others.
     shipped: Option<PathBuf>,
 }
 
 impl ShaderFiles {
-    /// Files of `folders`, before those that are shipped; these come from `shipped`, a
-    /// copy of `shaders/`, where there is one.
+    /// Files in `folders` and their subfolders `shaders`, then in `shipped`, a copy of
+    /// `shaders/`, then the built-in ones.
     #[must_use]
     pub fn new(folders: &[PathBuf], shipped: Option<PathBuf>) -> Self {
         let mut own = Vec::new();
@@ -190,13 +215,14 @@ impl ShaderFiles {
         Self { folders: own, shipped }
     }
 
-    /// The files that a path from the shader folder can be, the first one first.
+    /// The files that a path relative to the shader folder can mean, in the order of the
+    /// search.
     pub(crate) fn candidates(&self, path: &str) -> Vec<PathBuf> {
         let own = self.folders.iter().map(|folder| folder.join(path));
         own.chain(self.shipped.iter().map(|folder| folder.join(path))).collect()
     }
 
-    /// The text of a path from the shader folder, under the name that messages use.
+    /// The text of a path relative to the shader folder.
     fn load(&self, path: &str) -> Option<Arc<SourceText>> {
         let is_outside = path.split(['/', '\\']).any(|part| part == "..");
         if is_outside || std::path::Path::new(path).is_absolute() {
@@ -204,12 +230,12 @@ impl ShaderFiles {
         }
         let found = self.candidates(path).into_iter().find(|file| file.is_file());
         if let Some(file) = found {
-            return text_of(&file).ok();
+            return SourceText::read(&file).ok();
         }
         embedded_text(path).map(|text| SourceText::new(format!("shaders/{path}"), text))
     }
 
-    /// The path of a program's file: beside the technique, or among those shipped.
+    /// The path of a program's file: in a folder, or else built in.
     fn path_of(&self, file: &str) -> Option<String> {
         let own = format!("{file}.wgsl");
         let shipped = format!("programs/{file}.wgsl");
@@ -220,10 +246,10 @@ impl ShaderFiles {
         [&own, &shipped].into_iter().find(|path| is_there(path)).cloned()
     }
 
-    /// The program `name`, which was named at `place`.
+    /// Reads the program `name`, which is set at `place`.
     ///
     /// # Errors
-    /// Mistakes in the name, or in the shader.
+    /// Mistakes in the name or in the shader.
     pub fn program(
         &self,
         name: &str,
@@ -231,85 +257,72 @@ impl ShaderFiles {
         place: &Place,
     ) -> Result<Program, Mistakes> {
         let Some((file, function)) = name.split_once(':') else {
-            let message = format!("'{name}' is no program");
-            let note = "a program is file:function, as \"phong:phong\"";
+            let message = format!("'{name}' is not a program name");
+            let note = "a program is file:function, such as \"phong:phong\"";
             return Err(Mistakes::of(Mistake::error(place, message).note(note)));
         };
         let Some(path) = self.path_of(file) else {
-            let message = format!("there is no shader file '{file}.wgsl'");
+            let message = format!("shader file '{file}.wgsl' not found");
             let places: Vec<String> =
                 self.folders.iter().map(|folder| folder.display().to_string()).collect();
             let note = match places.is_empty() {
-                true => "looked for among the shipped ones".to_owned(),
-                false => format!("looked for in {} and among the shipped ones", places.join(", ")),
+                true => "searched in the built-in shaders".to_owned(),
+                false => format!("searched in {} and the built-in shaders", places.join(", ")),
             };
             return Err(Mistakes::of(Mistake::error(place, message).note(note)));
         };
         let source =
             ShaderSource::resolve(&path, &|path| self.load(path).map(|source| source.text.clone()))
-                .map_err(|error| self.told(&error))?;
+                .map_err(|error| self.mistakes_of(&error))?;
         if source.text.trim().is_empty() {
             let message = format!("the shader file '{file}.wgsl' is empty");
             return Err(Mistakes::of(Mistake::error(place, message)));
         }
-        let (module, info) = source.reflect().map_err(|error| self.told(&error))?;
-        self.reflected(&path, function, kind, place, Arc::new(source), &module, &info)
+        let (module, info) = source.reflect().map_err(|error| self.mistakes_of(&error))?;
+        let entry =
+            self.entry_point(&module, &path, function, kind, place).map_err(Mistakes::of)?;
+        let reflection = Reflection { files: self, source: &source, module: &module };
+        let interface = reflection.interface(entry, &info)?;
+        let is_clips = |known: &naga::Override| known.name.as_deref() == Some("CLIPS");
+        let asks_for_clips = module.overrides.iter().any(|(_, known)| is_clips(known));
+        let shipped = ShaderSource::embedded(&path);
+        let is_bounded = shipped.map_or(true, |shipped| shipped.text != source.text);
+        let (name, function) = (name.to_owned(), function.to_owned());
+        let source = Arc::new(source);
+        Ok(Program { name, function, source, interface, asks_for_clips, is_bounded })
     }
 
-    #[expect(clippy::too_many_arguments, reason = "what reflection has found")]
-    fn reflected(
+    /// The index of the entry point of a program.
+    fn entry_point(
         &self,
+        module: &naga::Module,
         path: &str,
         function: &str,
         kind: ProgramKind,
         place: &Place,
-        source: Arc<ShaderSource>,
-        module: &naga::Module,
-        info: &naga::valid::ModuleInfo,
-    ) -> Result<Program, Mistakes> {
-        let of_kind = |entry: &&naga::EntryPoint| entry.stage == kind.stage();
-        let entries: Vec<&str> =
-            module.entry_points.iter().filter(of_kind).map(|entry| entry.name.as_str()).collect();
-        let Some(index) = module
-            .entry_points
-            .iter()
-            .position(|entry| entry.name == function && entry.stage == kind.stage())
-        else {
-            let file = self.load(path);
-            let message = format!(
-                "{} has no {} program '{function}'",
-                file.map_or_else(|| path.to_owned(), |file| file.name.clone()),
-                kind.name()
-            );
-            let mut mistake = Mistake::error(place, message).names(function, entries);
-            if module.entry_points.iter().any(|entry| entry.name == function) {
-                mistake = mistake.label("it is of another stage");
-            }
-            return Err(Mistakes::of(mistake));
-        };
-        let reflection = Reflection { files: self, source: &source, module };
-        let mut mistakes = Mistakes::default();
-        let mut interface = Interface::default();
-        let uses = info.get_entry_point(index);
-        for (handle, variable) in module.global_variables.iter() {
-            if !uses[handle].is_empty() {
-                reflection.add(handle, variable, &mut interface, &mut mistakes);
-            }
+    ) -> Result<usize, Mistake> {
+        let entries = || module.entry_points.iter();
+        let is_program =
+            |entry: &naga::EntryPoint| entry.name == function && entry.stage == kind.stage();
+        if let Some(index) = entries().position(is_program) {
+            return Ok(index);
         }
-        if kind == ProgramKind::Fragment {
-            interface.outputs = reflection.outputs(&module.entry_points[index]);
-        }
-        let is_clips = |known: &naga::Override| known.name.as_deref() == Some("CLIPS");
-        let asks_for_clips = module.overrides.iter().any(|(_, known)| is_clips(known));
-        let shipped = ShaderSource::embedded(path);
-        let is_bounded = shipped.map_or(true, |shipped| shipped.text != source.text);
-        let function = function.to_owned();
-        let program = Program { function, source, interface, asks_for_clips, is_bounded };
-        mistakes.or(program).map(|(program, _)| program)
+        let file = self.load(path);
+        let message = format!(
+            "{} has no {} program '{function}'",
+            file.map_or_else(|| path.to_owned(), |file| file.name.clone()),
+            kind.name()
+        );
+        let of_stage = entries().filter(|entry| entry.stage == kind.stage());
+        let names = of_stage.map(|entry| entry.name.as_str());
+        let mistake = Mistake::error(place, message).names(function, names);
+        Err(match entries().any(|entry| entry.name == function) {
+            true => mistake.label("this program is of another stage"),
+            false => mistake,
+        })
     }
-
-    /// A mistake in a shader, underlined in the file that it was written in.
-    fn told(&self, error: &ShaderError) -> Mistakes {
+    /// An error in a shader as a mistake in the file with its text.
+    fn mistakes_of(&self, error: &ShaderError) -> Mistakes {
         let Some(source) = self.load(&error.file) else {
             return Mistakes::of(Mistake::without_place(error.to_string()));
         };
@@ -322,7 +335,7 @@ impl ShaderFiles {
     }
 }
 
-/// The common files that programs import, as those that ship show.
+/// The files in `common/` that built-in programs import.
 fn imported_files() -> BTreeSet<&'static str> {
     let programs = PROGRAMS.iter().filter(|(path, _)| path.starts_with("programs/"));
     let imports = programs.flat_map(|(_, text)| text.lines()).filter_map(|line| {
@@ -332,11 +345,11 @@ fn imported_files() -> BTreeSet<&'static str> {
     imports.collect()
 }
 
-/// What a validator says, without what only it can know.
+/// A message of the validator without names that only it knows.
 fn plainer(message: &str) -> &str {
     match message.split_once(" is invalid: ") {
         _ if message.contains("does not match the declared return type") => {
-            "what is returned is not of the type that the function declares"
+            "the returned value does not have the declared type"
         }
         Some((_, rest)) => rest,
         None => message,
@@ -350,7 +363,28 @@ struct Reflection<'a> {
 }
 
 impl Reflection<'_> {
-    /// Adds a variable that the program uses to what it wants.
+    /// The interface of an entry point, given by its index.
+    fn interface(
+        &self,
+        entry: usize,
+        info: &naga::valid::ModuleInfo,
+    ) -> Result<Interface, Mistakes> {
+        let mut mistakes = Mistakes::default();
+        let mut interface = Interface::default();
+        let uses = info.get_entry_point(entry);
+        for (handle, variable) in self.module.global_variables.iter() {
+            if !uses[handle].is_empty() {
+                self.add(handle, variable, &mut interface, &mut mistakes);
+            }
+        }
+        let entry = &self.module.entry_points[entry];
+        if entry.stage == ShaderStage::Fragment {
+            interface.outputs = self.outputs(entry);
+        }
+        mistakes.or(interface).map(|(interface, _)| interface)
+    }
+
+    /// Adds a global variable that the program uses to its interface.
     fn add(
         &self,
         handle: naga::Handle<naga::GlobalVariable>,
@@ -362,11 +396,11 @@ impl Reflection<'_> {
         let name = variable.name.clone().unwrap_or_default();
         let place = || self.place(self.module.global_variables.get_span(handle));
         let inner = &self.module.types[variable.ty].inner;
-        // The view and what is drawn: `common/` declares them.
+        // The view and the model, which `common/` declares.
         if matches!(at.group, 0 | 2) {
             if let Err(message) = known_binding(at, &name) {
-                let note = "parameters and textures are in @group(1), those of a vertex program \
-                            in a file of its own in @group(3)";
+                let note = "parameters and textures belong in @group(1), those of a vertex \
+                            program in its own file in @group(3)";
                 mistakes.add(Mistake::error(&place(), message).note(note));
             }
             return;
@@ -377,7 +411,7 @@ impl Reflection<'_> {
                 let fields = self.fields(variable.ty, members, mistakes);
                 let params = Params { group, binding, size: *span, fields, place: place() };
                 if interface.params.replace(params).is_some() {
-                    let message = "a program has one uniform of parameters";
+                    let message = "a program can have only one uniform of parameters";
                     mistakes.add(Mistake::error(&place(), message));
                 }
             }
@@ -399,8 +433,8 @@ impl Reflection<'_> {
             }
             (_, TypeInner::Sampler { comparison: false }) => {
                 let Some(texture) = name.strip_suffix("_sampler") else {
-                    let message = format!("the sampler '{name}' is for no texture");
-                    let note = "a sampler is called as its texture and _sampler";
+                    let message = format!("the sampler '{name}' belongs to no texture");
+                    let note = "name a sampler after its texture, such as texture_sampler";
                     mistakes.add(Mistake::error(&place(), message).note(note));
                     return;
                 };
@@ -427,8 +461,8 @@ impl Reflection<'_> {
                 TypeInner::Scalar(scalar) => (*scalar, 1),
                 TypeInner::Vector { size, scalar } => (*scalar, *size as usize),
                 _ => {
-                    let message = format!("the field '{name}' has a type that no variable has");
-                    let note = "fields are f32, i32, u32, vec2f, vec3f or vec4f";
+                    let message = format!("no variable has the type of the field '{name}'");
+                    let note = "fields can be f32, i32, u32, vec2f, vec3f or vec4f";
                     mistakes.add(Mistake::error(&place, message).note(note));
                     continue;
                 }
@@ -444,7 +478,7 @@ impl Reflection<'_> {
         fields
     }
 
-    /// The name of a field in the text of its struct, or the whole of it.
+    /// The span of a field's name in that of its struct, or else the whole struct.
     fn field_span(&self, of: naga::Span, name: &str) -> naga::Span {
         let Some(range) = of.to_range() else { return of };
         let text = self.source.text.get(range.clone()).unwrap_or_default();
@@ -460,7 +494,7 @@ impl Reflection<'_> {
         })
     }
 
-    /// What a fragment program writes.
+    /// The outputs of a fragment program, by location.
     fn outputs(&self, entry: &naga::EntryPoint) -> Vec<Output> {
         let Some(result) = &entry.function.result else { return Vec::new() };
         let kind_of = |ty| match &self.module.types[ty].inner {
@@ -491,7 +525,7 @@ impl Reflection<'_> {
         outputs
     }
 
-    /// A span of the joined text, in the file that it was written in.
+    /// The place of a span of the joined text in its file.
     fn place(&self, span: naga::Span) -> Place {
         let at = span.location(&self.source.text);
         let (file, line) = self.source.origin(at.line_number as usize);
@@ -503,12 +537,13 @@ impl Reflection<'_> {
 }
 
 fn wrong_binding(place: &Place, name: &str) -> Mistake {
-    let note = "a program is given a uniform struct, texture_2d<f32>, texture_2d<u32>, \
+    let note = "supported: one uniform struct, texture_2d<f32>, texture_2d<u32>, \
                 texture_depth_2d, and samplers";
-    Mistake::error(place, format!("'{name}' is nothing that a program can be given")).note(note)
+    Mistake::error(place, format!("the type of '{name}' is not supported")).note(note)
 }
 
-/// The bindings that `common/` declares, by group, binding and name.
+/// Checks a binding in the groups of `common/`; an error for others than those that
+/// `common/` declares.
 fn known_binding(at: naga::ResourceBinding, name: &str) -> Result<(), String> {
     const KNOWN: [(u32, u32, &str); 6] = [
         (0, 0, "frame"),
@@ -525,7 +560,7 @@ fn known_binding(at: naga::ResourceBinding, name: &str) -> Result<(), String> {
         return Ok(());
     }
     Err(format!(
-        "@group({}) @binding({}) is taken: groups 0 and 2 are the view's and the model's",
+        "@group({}) @binding({}) is reserved: group 0 belongs to the view, group 2 to the model",
         at.group, at.binding
     ))
 }

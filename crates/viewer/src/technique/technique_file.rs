@@ -2,7 +2,7 @@
 //!
 //! ```toml
 //! [[pass]]
-//! name = "phong_and_depth"          # optional; else that of the component
+//! name = "phong_and_depth"          # optional; by default that of the component
 //! component = "render_phong"
 //! render_target = "phong"           # every other key is a variable
 //!
@@ -11,7 +11,7 @@
 //! depth_texture = "<generated>:phong_depth"
 //! ```
 //!
-//! A file may describe components of its own as well, in a `component` table.
+//! A file can also describe components, in a `component` table.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -23,8 +23,8 @@ use super::mistake::{Mistake, Mistakes, SourceText};
 use super::pass::{Assignment, Pass};
 use super::toml_file::{self, Entry, Node};
 
-/// Reads a technique called `name`; its components may inherit from `components`. Says
-/// as well whether all of its passes could be read.
+/// Reads a technique called `name`; its own components can inherit from `components`. The
+/// flag is false if a pass could not be read.
 pub(crate) fn read(
     name: &str,
     source: &Arc<SourceText>,
@@ -44,10 +44,11 @@ pub(crate) fn read(
         folders: Vec::new(),
     };
     if mistakes.has_errors() && own.is_empty() {
-        // Of a text that is no TOML not more than that is known.
+        // The rest of a file with syntax errors cannot be checked.
         return (technique, false);
     }
-    let mut is_whole = true;
+    let known = KnownComponents { own: &own, others: components };
+    let mut is_complete = true;
     let mut has_passes = false;
     for Entry { key, place, node } in &root {
         match key.as_str() {
@@ -57,13 +58,13 @@ pub(crate) fn read(
                 has_passes = true;
                 for node in node.array(mistakes).unwrap_or_default() {
                     let taken: Vec<&Pass> = technique.passes.iter().collect();
-                    let pass = read_pass(node, (&own, components), &taken, mistakes);
-                    is_whole &= pass.is_some();
+                    let pass = read_pass(node, &known, &taken, mistakes);
+                    is_complete &= pass.is_some();
                     technique.passes.extend(pass);
                 }
             }
             other => {
-                let message = format!("a technique has no '{other}'");
+                let message = format!("unknown key '{other}' in a technique");
                 let names = ["about", "pass", "component"];
                 mistakes.add(Mistake::error(place, message).names(other, names));
             }
@@ -72,39 +73,43 @@ pub(crate) fn read(
     if !has_passes && !mistakes.has_errors() {
         let place = super::mistake::Place { source: source.clone(), span: 0..0 };
         let note = "a technique is a list of passes; each begins with [[pass]]";
-        mistakes.add(Mistake::error(&place, "the technique has no pass").note(note));
+        mistakes.add(Mistake::error(&place, "the technique has no passes").note(note));
     }
-    (technique, is_whole && has_passes)
+    (technique, is_complete && has_passes)
 }
 
-/// A pass of one of the file's own components, or of those that are known.
+/// The components that passes of a file can name.
+struct KnownComponents<'a> {
+    /// Those of the file; none for one with mistakes.
+    own: &'a BTreeMap<String, Option<SharedDescriptor>>,
+    others: &'a BTreeMap<String, SharedDescriptor>,
+}
+
+/// Reads a pass; `taken` are the passes above it.
 fn read_pass(
     node: &Node,
-    (own, known): (
-        &BTreeMap<String, Option<SharedDescriptor>>,
-        &BTreeMap<String, SharedDescriptor>,
-    ),
+    known: &KnownComponents,
     taken: &[&Pass],
     mistakes: &mut Mistakes,
 ) -> Option<Pass> {
     let entries = node.table(mistakes)?;
     let of_key = |key: &str| entries.iter().find(|entry| entry.key == key);
     let Some(component) = of_key("component") else {
-        let note = "say which, as component = \"render_phong\"";
+        let note = "name one, such as component = \"render_phong\"";
         mistakes.add(Mistake::error(&node.place, "the pass has no component").note(note));
         return None;
     };
     let component_name = component.node.text(mistakes)?;
-    let found = match own.get(&component_name) {
-        // Its own mistake was told.
+    let found = match known.own.get(&component_name) {
+        // The component has a mistake already.
         Some(None) => return None,
         Some(Some(own)) => Some(own),
-        None => known.get(&component_name),
+        None => known.others.get(&component_name),
     };
     let Some(descriptor) = found.cloned() else {
-        let message = format!("there is no component '{component_name}'");
+        let message = format!("unknown component '{component_name}'");
         let mistake = Mistake::error(&component.node.place, message);
-        let names = own.keys().chain(known.keys()).map(String::as_str);
+        let names = known.own.keys().chain(known.others.keys()).map(String::as_str);
         mistakes.add(mistake.names(&component_name, names));
         return None;
     };
@@ -122,7 +127,7 @@ fn read_pass(
             mistakes.add(mistake.names(&entry.key, shown));
             continue;
         };
-        // What is not there for a mistake of its own is not told twice.
+        // A value with a mistake is not also missing.
         let value = entry.node.value(variable.kind, mistakes).or_else(|| variable.default.clone());
         if let Some(value) = value {
             assignments.push(Assignment { index, value, place: Some(entry.node.place.clone()) });
@@ -134,20 +139,21 @@ fn read_pass(
 fn pass_name(entry: &Entry, taken: &[&Pass], mistakes: &mut Mistakes) -> Option<String> {
     let name = entry.node.text(mistakes)?;
     if !is_name(&name) {
-        let message = format!("'{name}' cannot be the name of a pass");
-        let note = "names are letters, digits and _";
+        let message = format!("'{name}' is not a valid pass name");
+        let note = "names consist of letters, digits and _";
         mistakes.add(Mistake::error(&entry.node.place, message).note(note));
         return None;
     }
     if let Some(first) = taken.iter().find(|pass| pass.name == name) {
-        let message = format!("there is a pass '{name}' already");
-        mistakes.add(Mistake::error(&entry.node.place, message).also(&first.place, "here"));
+        let message = format!("the pass name '{name}' is already used");
+        let mistake = Mistake::error(&entry.node.place, message);
+        mistakes.add(mistake.also(&first.place, "first used here"));
         return None;
     }
     Some(name)
 }
 
-/// The component's name, with a number where a pass has it already.
+/// The component's name, or with the first number from 2 that makes it unique.
 fn free_name(component: &str, taken: &[&Pass]) -> String {
     let is_free = |name: &String| taken.iter().all(|pass| pass.name != *name);
     let numbered = (2..).map(|number| format!("{component}_{number}"));

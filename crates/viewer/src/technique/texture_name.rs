@@ -1,11 +1,12 @@
 //! Names of textures: `directory:image:filter` (NPRView thesis, section 2.2.2).
 //!
-//! - `toon_maps:two_steps:0`: an image, sampled nearest; without a filter, as with
-//!   `:1`, images are sampled between texels and between mip levels.
+//! - `toon_maps:two_steps:0`: an image, sampled at the nearest texel; without a filter, or
+//!   with `:1`, images are filtered between texels and mip levels.
 //! - `papers:*`: the first image of a directory, by name.
-//! - `<generated>:scene_color`: what a pass drew; nearest, unless `:1` asks for more.
-//! - `paper.png`: a file, from the folder of the technique.
-//! - `rough`: an image of the directory that the variable takes its images from.
+//! - `<generated>:scene_color`: a texture that a pass draws; sampled at the nearest texel,
+//!   or filtered with `:1`.
+//! - `paper.png`: a file, searched in the technique's folder first.
+//! - `rough`: an image of the variable's directory.
 //! - `none`: no texture.
 
 use std::fmt;
@@ -16,28 +17,27 @@ pub const GENERATED: &str = "<generated>";
 /// The name of a texture.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct TextureName {
-    /// What it names.
+    /// The texture without its filter.
     pub source: TextureSource,
-    /// Whether it is sampled between its texels; `None` as usual for its kind.
+    /// Whether it is filtered between texels; none for the default of its kind.
     pub is_filtered: Option<bool>,
 }
 
-/// What a texture's name stands for.
+/// The kinds of textures.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum TextureSource {
-    /// No texture at all.
+    /// No texture.
     None,
-    /// What a pass drew.
+    /// A texture that a pass draws, by its name without `<generated>`.
     Generated(String),
-    /// An image of a directory; of the variable's own where that is `None`. `*` is the
-    /// first one.
+    /// An image of a directory.
     Image {
-        /// The directory.
+        /// The directory; none for that of the variable.
         directory: Option<String>,
-        /// The image, without its ending.
+        /// The image without its ending, or `*` for the first one.
         image: String,
     },
-    /// A picture file.
+    /// A file, by its path.
     File(String),
 }
 
@@ -54,11 +54,10 @@ impl TextureName {
     /// Reads a name.
     ///
     /// # Errors
-    /// What it should be.
+    /// The expected form, if the text does not have it.
     pub fn parse(text: &str) -> Result<Self, String> {
-        let what = || {
-            "needs a texture as directory:image or directory:image:filter, where filter is 0 or 1"
-                .to_owned()
+        let expected = || {
+            "expected directory:image or directory:image:filter, where filter is 0 or 1".to_owned()
         };
         let text = text.trim();
         if matches!(text, "" | "none") {
@@ -76,7 +75,7 @@ impl TextureName {
             _ if is_file => TextureSource::File(name.to_owned()),
             Some((directory, image)) => {
                 if directory.is_empty() || image.is_empty() || image.contains(':') {
-                    return Err(what());
+                    return Err(expected());
                 }
                 match directory {
                     GENERATED => TextureSource::Generated(image.to_owned()),
@@ -91,7 +90,7 @@ impl TextureName {
         Ok(Self { source, is_filtered })
     }
 
-    /// The name of the generated texture, where it is one.
+    /// The name of a generated texture; none for others.
     #[must_use]
     pub fn as_generated(&self) -> Option<&str> {
         match &self.source {
@@ -100,8 +99,8 @@ impl TextureName {
         }
     }
 
-    /// Whether it is sampled between its texels: images are, generated textures not,
-    /// unless it is said.
+    /// Whether it is filtered between texels: by default images and files are, generated
+    /// textures are not.
     #[must_use]
     pub const fn filters(&self) -> bool {
         match self.is_filtered {

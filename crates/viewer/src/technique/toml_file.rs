@@ -1,5 +1,5 @@
-//! What component files and technique files have in common: TOML as a tree with the
-//! place of every key and value, and values as variables have them.
+//! TOML as a tree with the place of every key and value, and values of variables in it;
+//! shared by component files and technique files.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use super::mistake::{Mistake, Mistakes, Place, SourceText};
 use super::texture_name::TextureName;
 use super::value::{Value, VariableType, parse_color};
 
-/// A value of a file, where it stands.
+/// A value in a file with its place.
 #[derive(Debug, Clone)]
 pub(crate) struct Node {
     pub(crate) place: Place,
@@ -20,7 +20,7 @@ pub(crate) struct Node {
 #[derive(Debug, Clone)]
 pub(crate) enum Content {
     Bool(bool),
-    /// None where it does not fit 64 bits.
+    /// None for one that does not fit 64 bits.
     Integer(Option<i64>),
     Number(f64),
     Text(String),
@@ -29,22 +29,22 @@ pub(crate) enum Content {
     Table(Vec<Entry>),
 }
 
-/// A key with its value.
+/// A key and its value in a table.
 #[derive(Debug, Clone)]
 pub(crate) struct Entry {
     pub(crate) key: String,
-    /// Of the key.
+    /// The place of the key.
     pub(crate) place: Place,
     pub(crate) node: Node,
 }
 
-/// Parses a text, whose mistakes of syntax are told at once; entries are in the order of
-/// the file.
+/// Parses a text and returns the entries that it could read, in the order of the file;
+/// adds all syntax errors to `mistakes`.
 pub(crate) fn parse(source: &Arc<SourceText>, mistakes: &mut Mistakes) -> Vec<Entry> {
     let (root, errors) = DeTable::parse_recoverable(&source.text);
     for error in errors {
         let place = Place { source: source.clone(), span: error.span().unwrap_or(0..0) };
-        let message = error.message().lines().next().unwrap_or("is no TOML").to_owned();
+        let message = error.message().lines().next().unwrap_or("this is not TOML").to_owned();
         mistakes.add(Mistake::error(&place, message));
     }
     table_of(source, root.get_ref())
@@ -85,9 +85,9 @@ impl Content {
     const fn type_name(&self) -> &'static str {
         match self {
             Self::Bool(_) => "true or false",
-            Self::Integer(_) => "a whole number",
+            Self::Integer(_) => "an integer",
             Self::Number(_) => "a number",
-            Self::Text(_) => "a text",
+            Self::Text(_) => "a string",
             Self::Date => "a date",
             Self::Array(_) => "an array",
             Self::Table(_) => "a table",
@@ -96,16 +96,16 @@ impl Content {
 }
 
 impl Node {
-    /// A text where there must be one.
+    /// The text; none and a mistake for anything else.
     pub(crate) fn text(&self, mistakes: &mut Mistakes) -> Option<String> {
         let Content::Text(text) = &self.content else {
-            mistakes.add(self.wrong_type(VariableType::String.wanted()));
+            mistakes.add(self.wrong_type(VariableType::String.expected()));
             return None;
         };
         Some(text.clone())
     }
 
-    /// A table where there must be one.
+    /// The entries of the table; none and a mistake for anything else.
     pub(crate) fn table(&self, mistakes: &mut Mistakes) -> Option<&[Entry]> {
         let Content::Table(entries) = &self.content else {
             mistakes.add(self.wrong_type("a table"));
@@ -114,7 +114,7 @@ impl Node {
         Some(entries)
     }
 
-    /// An array where there must be one.
+    /// The elements of the array; none and a mistake for anything else.
     pub(crate) fn array(&self, mistakes: &mut Mistakes) -> Option<&[Self]> {
         let Content::Array(nodes) = &self.content else {
             mistakes.add(self.wrong_type("an array"));
@@ -123,27 +123,27 @@ impl Node {
         Some(nodes)
     }
 
-    /// A value of a type where there must be one.
+    /// The value as one of a type; none and a mistake for anything else.
     pub(crate) fn value(&self, of: VariableType, mistakes: &mut Mistakes) -> Option<Value> {
         match self.read(of) {
             Ok(value) => Some(value),
             Err(None) => {
-                mistakes.add(self.wrong_type(of.wanted()));
+                mistakes.add(self.wrong_type(of.expected()));
                 None
             }
-            Err(Some(what)) => {
-                mistakes.add(Mistake::error(&self.place, what));
+            Err(Some(message)) => {
+                mistakes.add(Mistake::error(&self.place, message));
                 None
             }
         }
     }
 
-    pub(crate) fn wrong_type(&self, wanted: &str) -> Mistake {
-        let is = self.content.type_name();
-        Mistake::error(&self.place, format!("needs {wanted}")).label(format!("this is {is}"))
+    pub(crate) fn wrong_type(&self, expected: &str) -> Mistake {
+        let found = self.content.type_name();
+        Mistake::error(&self.place, format!("expected {expected}")).label(format!("found {found}"))
     }
 
-    /// The value, or what is wrong with it where it is not just the type.
+    /// The value as one of a type. An error has a message, or none for a wrong type.
     fn read(&self, of: VariableType) -> Result<Value, Option<String>> {
         Ok(match (of, &self.content) {
             (VariableType::Bool, Content::Bool(value)) => Value::Bool(*value),
@@ -152,7 +152,7 @@ impl Node {
             }
             (VariableType::Int, Content::Integer(number)) => {
                 let number = number.and_then(|number| i32::try_from(number).ok());
-                Value::Int(number.ok_or_else(|| "needs a whole number of 32 bits".to_owned())?)
+                Value::Int(number.ok_or_else(|| "expected an integer of 32 bits".to_owned())?)
             }
             (VariableType::String, Content::Text(text)) => Value::String(text.clone()),
             (VariableType::Texture, Content::Text(text)) => {

@@ -1,22 +1,22 @@
 //! The types and values of component variables (NPRView thesis, section 2.2.2).
 //!
-//! Values come from TOML, where they are typed, and from command lines, where all of
-//! them are text; both lead to the same checks.
+//! Values come from TOML, which has types, and as text from command lines; both lead to
+//! the same checks.
 
 use std::fmt;
 
 use super::texture_name::TextureName;
 
-/// What a variable can be.
+/// The type of a variable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VariableType {
     /// True or false; in files also 1 or 0.
     Bool,
-    /// A whole number of 32 bits.
+    /// An integer of 32 bits.
     Int,
     /// A floating-point number of 32 bits.
     Number,
-    /// A text; the name of a program, of a render target, or one of some words.
+    /// A string: a word, or the name of a program or render target.
     String,
     /// Two numbers.
     Vector2,
@@ -24,22 +24,22 @@ pub enum VariableType {
     Vector3,
     /// Four numbers.
     Vector4,
-    /// A colour: red, green, blue, 0 to 1.
+    /// A color: red, green, blue, 0 to 1.
     Rgb,
-    /// A colour with its opacity.
+    /// A color and alpha, not premultiplied, 0 to 1.
     Rgba,
     /// An image or a generated texture.
     Texture,
 }
 
-/// A value of one of the types.
+/// A value of a variable.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
     /// Of [`VariableType::Bool`].
     Bool(bool),
     /// Of [`VariableType::Int`].
     Int(i32),
-    /// Of the numbers, vectors and colours: as many as the type has.
+    /// Of numbers, vectors and colors: [`VariableType::number_count`] numbers.
     Numbers(Vec<f32>),
     /// Of [`VariableType::String`].
     String(String),
@@ -62,7 +62,7 @@ impl VariableType {
         Self::Texture,
     ];
 
-    /// The name of the type, as files have it.
+    /// The name of the type in files.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -79,7 +79,7 @@ impl VariableType {
         }
     }
 
-    /// How many floating-point numbers it has; 0 for the types that are none.
+    /// The count of its floating-point numbers, 1 to 4; 0 for types of other values.
     #[must_use]
     pub const fn number_count(self) -> usize {
         match self {
@@ -91,37 +91,38 @@ impl VariableType {
         }
     }
 
-    /// Whether it is a colour.
+    /// Whether it is a color.
     #[must_use]
     pub const fn is_color(self) -> bool {
         matches!(self, Self::Rgb | Self::Rgba)
     }
 
-    /// Whether extremes can be set: not for bool, string and texture.
+    /// Whether it can have a minimum and a maximum: all but bool, string and texture.
     #[must_use]
     pub const fn has_extremes(self) -> bool {
         matches!(self, Self::Int) || self.number_count() > 0
     }
 
-    /// What a value must look like, for messages.
+    /// A value in a file, for messages.
     #[must_use]
-    pub const fn wanted(self) -> &'static str {
+    pub const fn expected(self) -> &'static str {
         match self {
             Self::Bool => "true or false",
-            Self::Int => "a whole number",
+            Self::Int => "an integer",
             Self::Number => "a number",
-            Self::String => "a text in quotes",
-            Self::Vector2 => "two numbers, as [1, 2]",
-            Self::Vector3 => "three numbers, as [1, 2, 3]",
-            Self::Vector4 => "four numbers, as [1, 2, 3, 4]",
-            Self::Rgb => "a colour, as \"#204060\" or [0.1, 0.2, 0.4]",
-            Self::Rgba => "a colour, as \"#204060\", \"#20406080\" or [0.1, 0.2, 0.4, 0.5]",
-            Self::Texture => "a texture, as \"papers:rough\" or \"<generated>:scene_color\"",
+            Self::String => "a string in quotes",
+            Self::Vector2 => "two numbers, such as [1, 2]",
+            Self::Vector3 => "three numbers, such as [1, 2, 3]",
+            Self::Vector4 => "four numbers, such as [1, 2, 3, 4]",
+            Self::Rgb => "a color, such as \"#204060\" or [0.1, 0.2, 0.4]",
+            Self::Rgba => "a color, such as \"#204060\", \"#20406080\" or [0.1, 0.2, 0.4, 0.5]",
+            Self::Texture => "a texture, such as \"papers:rough\" or \"<generated>:scene_color\"",
         }
     }
 
-    /// The value of `numbers`, which are one for each component, or one for all;
-    /// colours may leave their opacity out.
+    /// Makes a value of one number per component, or of one number for all components of
+    /// a vector; the alpha of a color can be omitted. Returns none for any other count and
+    /// for numbers that are not finite.
     #[must_use]
     pub fn of_numbers(self, numbers: &[f64]) -> Option<Value> {
         let count = self.number_count();
@@ -137,13 +138,13 @@ impl VariableType {
         is_sound.then_some(Value::Numbers(given))
     }
 
-    /// Reads a value from the text of a command line.
+    /// Reads a value from text, as on a command line.
     ///
     /// # Errors
-    /// What the text should be.
+    /// The expected form, if the text does not have it.
     pub fn parse(self, text: &str) -> Result<Value, String> {
         let text = text.trim();
-        let wrong = || format!("needs {}", self.wanted_text());
+        let wrong = || format!("expected {}", self.expected_text());
         Ok(match self {
             Self::Bool => match text {
                 "true" | "1" => Value::Bool(true),
@@ -165,23 +166,23 @@ impl VariableType {
         })
     }
 
-    /// What a value on a command line must look like.
+    /// A value on a command line, for messages.
     #[must_use]
-    const fn wanted_text(self) -> &'static str {
+    const fn expected_text(self) -> &'static str {
         match self {
-            Self::String => "a text",
-            Self::Vector2 => "two numbers, as 1,2",
-            Self::Vector3 => "three numbers, as 1,2,3",
-            Self::Vector4 => "four numbers, as 1,2,3,4",
-            Self::Rgb => "a colour, as #rrggbb or 0.1,0.2,0.4",
-            Self::Rgba => "a colour, as #rrggbb, #rrggbbaa or 0.1,0.2,0.4,0.5",
-            Self::Texture => "a texture, as papers:rough or <generated>:scene_color",
-            _ => self.wanted(),
+            Self::String => "a string",
+            Self::Vector2 => "two numbers, such as 1,2",
+            Self::Vector3 => "three numbers, such as 1,2,3",
+            Self::Vector4 => "four numbers, such as 1,2,3,4",
+            Self::Rgb => "a color, such as #204060 or 0.1,0.2,0.4",
+            Self::Rgba => "a color, such as #204060, #20406080 or 0.1,0.2,0.4,0.5",
+            Self::Texture => "a texture, such as papers:rough or <generated>:scene_color",
+            _ => self.expected(),
         }
     }
 }
 
-/// Reads `#rrggbb`, or `#rrggbbaa` for a type with opacity, as values from 0 to 1.
+/// Reads `#rrggbb`, or `#rrggbbaa` for [`VariableType::Rgba`], as numbers from 0 to 1.
 #[must_use]
 pub fn parse_color(text: &str, of: VariableType) -> Option<Vec<f32>> {
     let digits = text.strip_prefix('#')?;
@@ -200,8 +201,8 @@ pub fn parse_color(text: &str, of: VariableType) -> Option<Vec<f32>> {
     Some((0..of.number_count()).map(|channel_at| channel(2 * channel_at)).collect())
 }
 
-/// A colour as `#rrggbb` or `#rrggbbaa`, where its values are those of bytes, so that
-/// [`parse_color`] reads the same ones again.
+/// A color as `#rrggbb` or `#rrggbbaa`; none if [`parse_color`] would not read exactly the
+/// same numbers again.
 #[must_use]
 pub fn color_text(numbers: &[f32]) -> Option<String> {
     let of = match numbers.len() {
@@ -219,19 +220,7 @@ pub fn color_text(numbers: &[f32]) -> Option<String> {
 }
 
 impl Value {
-    /// Whether it is of a type.
-    #[must_use]
-    pub const fn is_of(&self, of: VariableType) -> bool {
-        match self {
-            Self::Bool(_) => matches!(of, VariableType::Bool),
-            Self::Int(_) => matches!(of, VariableType::Int),
-            Self::Numbers(numbers) => of.number_count() == numbers.len() && of.number_count() > 0,
-            Self::String(_) => matches!(of, VariableType::String),
-            Self::Texture(_) => matches!(of, VariableType::Texture),
-        }
-    }
-
-    /// The value within two extremes of its type, component by component.
+    /// The value between two limits of its type, per component.
     #[must_use]
     pub fn clamped(&self, minimum: Option<&Self>, maximum: Option<&Self>) -> Self {
         match self {
@@ -260,7 +249,7 @@ impl Value {
     }
 }
 
-/// As files write it.
+/// As in files.
 impl fmt::Display for Value {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

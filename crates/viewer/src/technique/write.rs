@@ -1,7 +1,7 @@
-//! A technique that was changed, as a technique file.
+//! A changed technique as a technique file.
 //!
-//! The file that it came from is kept as it is, its comments and its own components
-//! included; only what was changed is changed in it.
+//! The text is that of the file that the technique was read from, with its comments and
+//! components; only changed values differ.
 
 use thiserror::Error;
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, TomlError};
@@ -24,17 +24,17 @@ pub enum WriteTechniqueError {
     Passes,
 }
 
-/// The text of a file for `technique`, which was read from a file and changed since;
-/// `about` says what it shows.
+/// The text of a file for a technique that was read from a file and then changed; `about`
+/// becomes its description.
 ///
 /// # Errors
 /// [`WriteTechniqueError`].
-pub fn written(technique: &Technique, about: &str) -> Result<String, WriteTechniqueError> {
+pub fn file_text(technique: &Technique, about: &str) -> Result<String, WriteTechniqueError> {
     let source = technique.passes.first().map_or("", |pass| &pass.place.source.text);
     let mut document: DocumentMut = source.parse()?;
     let tables = document.get("pass").and_then(Item::as_array_of_tables).cloned();
     let tables = tables.ok_or(WriteTechniqueError::Passes)?;
-    // The passes that were there are those of the file, in its order.
+    // Passes that were not split off are those of the file, in its order.
     let mut known = tables.iter();
     let mut last: Option<Table> = None;
     let mut passes = ArrayOfTables::new();
@@ -44,7 +44,7 @@ pub fn written(technique: &Technique, about: &str) -> Result<String, WriteTechni
             Some(_) => split_table(last.as_ref(), pass),
         };
         set_values(&mut table, pass);
-        // Without a place of its own it stands behind the one before.
+        // Without a position it follows the table before it.
         table.set_position(None);
         if pass.split_from.is_none() {
             last = Some(table.clone());
@@ -56,7 +56,7 @@ pub fn written(technique: &Technique, about: &str) -> Result<String, WriteTechni
     Ok(document.to_string())
 }
 
-/// A pass that was split off the one whose table is `parent`.
+/// The table of a pass that was split off the one with the table `parent`.
 fn split_table(parent: Option<&Table>, pass: &Pass) -> Table {
     let mut table = parent.cloned().unwrap_or_default();
     table.decor_mut().set_prefix("\n");
@@ -65,22 +65,22 @@ fn split_table(parent: Option<&Table>, pass: &Pass) -> Table {
     table
 }
 
-/// Writes what differs from what the table says.
+/// Writes the values that differ from those in the table.
 fn set_values(table: &mut Table, pass: &Pass) {
     for (variable, value) in pass.component.variables.iter().zip(pass.values()) {
         let is_default = variable.default.as_ref() == Some(value);
-        let said = table.get(&variable.name).map(|item| value_of(item, variable));
-        let is_said = match said {
-            Some(said) => said.as_ref() == Some(value),
+        let known = table.get(&variable.name).map(|item| value_of(item, variable));
+        let is_same = match known {
+            Some(known) => known.as_ref() == Some(value),
             None => is_default,
         };
-        if !is_said {
+        if !is_same {
             set_value(table, &variable.name, toml_value(variable.kind, value));
         }
     }
 }
 
-/// Sets a value; the comments around it stay.
+/// Sets a value and keeps the comments around it.
 fn set_value(table: &mut Table, key: &str, value: toml_edit::Value) {
     match table.get_mut(key).and_then(Item::as_value_mut) {
         Some(known) => {
@@ -92,8 +92,8 @@ fn set_value(table: &mut Table, key: &str, value: toml_edit::Value) {
     }
 }
 
-/// What a table says of a variable; `None` where it is said in another way than it would
-/// be written here.
+/// The value of a variable in a table; none if it has another form than [`toml_value`]
+/// writes.
 fn value_of(item: &Item, variable: &VariableDescriptor) -> Option<Value> {
     use toml_edit::Value as Toml;
     let kind = variable.kind;
@@ -122,7 +122,7 @@ fn value_of(item: &Item, variable: &VariableDescriptor) -> Option<Value> {
 
 fn toml_value(kind: VariableType, value: &Value) -> toml_edit::Value {
     let number = |number: &f32| -> toml_edit::Value {
-        // By its shortest text, which as 64 bits has the digits that people wrote.
+        // By its shortest decimal text, which is what users wrote.
         number.to_string().parse().map_or_else(
             |_| f64::from(*number).into(),
             |float: f64| {
@@ -153,11 +153,11 @@ mod tests {
     use crate::technique::library::Library;
 
     #[test]
-    fn every_technique_that_ships_is_written_as_it_was() {
+    fn every_built_in_technique_is_written_as_it_was() {
         let library = Library::shipped();
         for name in library.technique_names() {
             let (technique, _) = library.technique(name).unwrap();
-            let text = written(&technique, &technique.about).unwrap();
+            let text = file_text(&technique, &technique.about).unwrap();
             assert_eq!(text, technique.passes[0].place.source.text, "{name}");
         }
     }
@@ -176,7 +176,7 @@ mod tests {
             for setting in settings {
                 technique.set(setting).unwrap();
             }
-            let text = written(&technique, "my \"own\"").unwrap();
+            let text = file_text(&technique, "my \"own\"").unwrap();
             std::fs::write(&path, &text).unwrap();
             let (again, _) = library.technique_file(&path).unwrap_or_else(|m| panic!("{m}{text}"));
             assert_eq!(again.about, "my \"own\"");
@@ -185,7 +185,7 @@ mod tests {
                 assert_eq!(one.name, other.name);
                 assert_eq!(one.values(), other.values(), "{}\n{text}", one.name);
             }
-            assert!(text.starts_with('#'), "the comment at its head stays: {text}");
+            assert!(text.starts_with('#'), "the first comment is kept: {text}");
         }
     }
 }

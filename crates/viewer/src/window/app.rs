@@ -22,7 +22,7 @@ use super::thumbnails::{self, Thumbnail};
 use super::watching::{Change, Watching};
 use super::{desktop, panels, style};
 use crate::error::Error;
-use crate::technique::write::written;
+use crate::technique::write::file_text;
 
 /// The key under which the window remembers.
 const REMEMBERED: &str = "remembered";
@@ -363,7 +363,7 @@ impl Window {
     fn save_technique(&mut self, path: &std::path::Path) {
         let appearance = &self.session.recipe.appearance;
         let about = appearance.technique.about.clone();
-        let saved = written(&appearance.technique, &about)
+        let saved = file_text(&appearance.technique, &about)
             .map_err(Error::from)
             .and_then(|text| Ok(write_file(path, text.as_bytes())?));
         match saved {

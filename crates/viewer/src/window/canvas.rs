@@ -284,7 +284,7 @@ impl Sheet {
 
     /// Hands the picture to the window.
     fn show(&mut self, gpu: &Gpu, painter: &PicturePainter) {
-        if let Some(picture) = self.renderer.as_ref().and_then(PictureRenderer::picture) {
+        if let Some(picture) = self.renderer.as_ref().map(PictureRenderer::picture) {
             self.painted = Some(painter.picture(&gpu.device, picture));
         }
     }

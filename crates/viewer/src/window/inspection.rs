@@ -6,7 +6,7 @@ use crate::technique::library::Library;
 use crate::technique::mistake::Mistakes;
 use crate::technique::pass::{Assignment, Pass};
 use crate::technique::program::FieldKind;
-use crate::technique::texture_format::{DEPTH_FORMAT, PassTexture, kind_of};
+use crate::technique::texture_format::{PassTexture, TextureFormat};
 use crate::technique::texture_name::TextureName;
 use crate::technique::value::Value;
 
@@ -32,15 +32,15 @@ impl Inspection {
     #[must_use]
     pub fn has_range(&self) -> bool {
         let format = self.texture.format;
-        format != DEPTH_FORMAT && kind_of(format) == FieldKind::Float
+        format != TextureFormat::DEPTH && format.number_kind() == FieldKind::Float
     }
 
     /// A technique that ends with showing the texture.
     #[must_use]
     pub fn shown(&self, technique: &Technique, library: &Library) -> Option<Technique> {
         let format = self.texture.format;
-        let (component, variable) = match kind_of(format) {
-            _ if format == DEPTH_FORMAT => ("shade_depth", "depth_texture"),
+        let (component, variable) = match format.number_kind() {
+            _ if format == TextureFormat::DEPTH => ("shade_depth", "depth_texture"),
             FieldKind::Uint => ("show_ids", "texture"),
             _ => ("show_texture", "texture"),
         };
@@ -48,7 +48,7 @@ impl Inspection {
         let texture = Value::Texture(TextureName::generated(&self.texture.name));
         let mut values = vec![(variable, texture)];
         if self.has_range() {
-            let count = i32::from(format.components());
+            let count = format.channel_count().cast_signed();
             values.extend([
                 ("low", Value::Numbers(vec![self.low])),
                 ("high", Value::Numbers(vec![self.high])),

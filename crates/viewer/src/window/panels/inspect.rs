@@ -6,7 +6,6 @@ use egui::{Grid, Slider, SliderClamping, Ui};
 use egui_plot::{Legend, Line, Plot, PlotPoints};
 
 use super::bar::grouped;
-use crate::technique::texture_format::word_of;
 use crate::window::inspection::Inspection;
 use crate::window::session::{KEPT_FRAMES, LOOKS, Session};
 
@@ -48,8 +47,8 @@ fn textures(ui: &mut Ui, session: &mut Session) {
         for texture in session.generated.clone() {
             let known = session.inspection.as_ref();
             let is_it = known.is_some_and(|inspection| inspection.texture == texture);
-            let format = word_of(texture.format);
-            let label = ui.selectable_label(is_it, &texture.name).on_hover_text(format);
+            let label = ui.selectable_label(is_it, &texture.name);
+            let label = label.on_hover_text(texture.format.word());
             if label.clicked() && !is_it {
                 session.inspection = Some(Inspection::of(texture));
             }

@@ -4,11 +4,12 @@ use edgemesh::line::class::LineClass;
 use egui::{Grid, Ui};
 
 use super::bar::grouped;
-use crate::technique::class_pass::classes_of;
 use crate::technique::core::CoreComponent;
+use crate::technique::core_view::{LineSelection, Visibility, classes_text};
 use crate::technique::mistake::Mistakes;
 use crate::technique::pass::Pass;
 use crate::technique::value::Value;
+use crate::technique::word::Word as _;
 use crate::window::error_text::error_text;
 use crate::window::session::Session;
 
@@ -25,7 +26,7 @@ pub(super) fn lines_panel(ui: &mut Ui, session: &mut Session) {
     ui.heading("Visible");
     Grid::new("classes").num_columns(3).spacing([12.0, 4.0]).show(ui, |ui| {
         for class in LineClass::ALL {
-            let mut is_drawn = draws(&technique.passes, class, "visible");
+            let mut is_drawn = draws(&technique.passes, class, Visibility::Visible);
             let name = capitalized(class.name());
             if ui.checkbox(&mut is_drawn, name).changed() {
                 set_drawn(&mut technique.passes, class, is_drawn);
@@ -80,7 +81,7 @@ fn stroke(ui: &mut Ui, pass: &mut Pass) {
             if ui.checkbox(&mut is_on, name).changed() {
                 set(pass, "render", Value::Bool(is_on));
             }
-            ui.weak(pass.string("visibility").to_owned());
+            ui.weak(LineSelection::of(pass).map_or("", |lines| lines.visibility.word()));
         });
         Grid::new("stroke").num_columns(2).spacing([12.0, 4.0]).show(ui, |ui| {
             for name in ["width", "color", "brush", "parameterization", "linked"] {
@@ -102,41 +103,31 @@ fn is_strokes(pass: &Pass) -> bool {
     pass.component.core == CoreComponent::Strokes
 }
 
-/// The passes that draw a class.
-fn has_class(pass: &Pass, class: LineClass, visibility: &str) -> bool {
-    is_strokes(pass)
-        && pass.string("visibility") == visibility
-        && classes_of(pass.string("classes")).is_ok_and(|classes| classes.contains(&class))
+/// Whether any pass draws a class.
+fn draws(passes: &[Pass], class: LineClass, visibility: Visibility) -> bool {
+    let has_class =
+        |pass: &Pass| LineSelection::of(pass).is_some_and(|lines| lines.draws(class, visibility));
+    passes.iter().any(|pass| pass.is_rendered() && has_class(pass))
 }
 
-fn draws(passes: &[Pass], class: LineClass, visibility: &str) -> bool {
-    passes.iter().any(|pass| pass.is_rendered() && has_class(pass, class, visibility))
-}
-
-/// Has a class drawn by the first pass of visible strokes, or by none.
+/// Lets the first pass of visible strokes draw a class, or none.
 fn set_drawn(passes: &mut [Pass], class: LineClass, is_drawn: bool) {
-    for pass in passes.iter_mut().filter(|pass| pass.string("visibility") == "visible") {
-        if !is_strokes(pass) {
+    for pass in passes {
+        let lines = LineSelection::of(pass);
+        let Some(lines) = lines.filter(|lines| lines.visibility == Visibility::Visible) else {
             continue;
-        }
-        let mut classes = classes_of(pass.string("classes")).unwrap_or_default();
+        };
+        let mut classes = lines.classes;
         if is_drawn {
             if !classes.contains(&class) {
                 classes.push(class);
             }
-            // In the order that all files have.
+            // In the order of all files.
             classes = LineClass::ALL.into_iter().filter(|known| classes.contains(known)).collect();
         } else {
             classes.retain(|known| *known != class);
         }
-        let text = match classes.len() == LineClass::ALL.len() {
-            true => "all".to_owned(),
-            false => {
-                let names: Vec<&str> = classes.iter().map(|class| class.name()).collect();
-                names.join(", ")
-            }
-        };
-        set(pass, "classes", Value::String(text));
+        set(pass, LineSelection::CLASSES, Value::String(classes_text(&classes)));
         set(pass, "render", Value::Bool(pass.is_rendered() || is_drawn));
         if is_drawn {
             return;
@@ -167,8 +158,8 @@ mod tests {
         let before = Library::shipped().technique("ink").unwrap().0;
         let mut passes = before.passes.clone();
         set_drawn(&mut passes, LineClass::Ridge, false);
-        assert!(!draws(&passes, LineClass::Ridge, "visible"));
-        assert!(draws(&passes, LineClass::Contour, "visible"));
+        assert!(!draws(&passes, LineClass::Ridge, Visibility::Visible));
+        assert!(draws(&passes, LineClass::Contour, Visibility::Visible));
         set_drawn(&mut passes, LineClass::Ridge, true);
         assert_eq!(passes, before.passes);
     }

@@ -1,18 +1,20 @@
-//! Curves along strokes, as text: `0.3,1,0.3`.
+//! The variables `width_curve` and `opacity_curve` of `strokes`: `0.3,1,0.3`.
 
 use strokes::style::link_style::CURVE_LENGTH;
 
-/// Two to eight numbers, spread evenly over the values of a curve.
-pub(crate) fn parse_curve(value: &str, most: f32) -> Result<[f32; CURVE_LENGTH], String> {
-    let what = || format!("needs 2 to {CURVE_LENGTH} numbers from 0 to {most}, as 0.3,1,0.3");
-    let numbers: Option<Vec<f32>> = value
-        .split(',')
-        .map(|number| number.trim().parse().ok().filter(|number| (0.0..=most).contains(number)))
-        .collect();
-    let numbers =
-        numbers.filter(|numbers| (2..=CURVE_LENGTH).contains(&numbers.len())).ok_or_else(what)?;
+/// Reads two to eight numbers from 0 to `largest`, and interpolates them linearly at the
+/// values of a curve.
+pub(super) fn parse_curve(text: &str, largest: f32) -> Result<[f32; CURVE_LENGTH], String> {
+    let message =
+        || format!("expected 2 to {CURVE_LENGTH} numbers from 0 to {largest}, such as 0.3,1,0.3");
+    let in_range = |number: &f32| (0.0..=largest).contains(number);
+    let numbers: Option<Vec<f32>> =
+        text.split(',').map(|number| number.trim().parse().ok().filter(in_range)).collect();
+    let numbers = numbers
+        .filter(|numbers| (2..=CURVE_LENGTH).contains(&numbers.len()))
+        .ok_or_else(message)?;
     Ok(std::array::from_fn(|at| {
-        // In sevenths of the way: exact where there is a number.
+        // In whole sevenths of the way, so that the given numbers are exact.
         let place = at * (numbers.len() - 1);
         let (first, part) = (place / (CURVE_LENGTH - 1), place % (CURVE_LENGTH - 1));
         let next = (first + 1).min(numbers.len() - 1);

@@ -1,0 +1,20 @@
+//! The variables of `copy_to_texture`.
+
+use super::reader::Reader;
+use super::render_target::TEXTURE;
+
+/// A pass that copies the current picture, or its depth.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CopyToTexture {
+    /// `x` for the texture `<generated>:x`.
+    pub texture: String,
+    /// Whether the depth is copied instead of the color.
+    pub is_depth: bool,
+}
+
+impl CopyToTexture {
+    pub(super) fn read(reader: &mut Reader) -> Self {
+        let texture = reader.string(TEXTURE).to_owned();
+        Self { texture, is_depth: reader.bool("depth") }
+    }
+}
