@@ -40,12 +40,14 @@ const HOUSES: [House; 5] = [
         name: "edgemesh",
         source: "crates/edgemesh/src",
         stairs: &[
-            &["index", "report", "line"], // numbers, warnings, kinds of lines
+            &["index", "report"],         // numbers of things; warnings
             &["model"],                   // polygons as files have them
             &["edge_mesh"],               // what is built and drawn
+            &["line"],                    // classes and kinds of lines
             &["format", "build", "view"], // files; polygons to edges; a camera
             &["load"],                    // a file to an edge mesh
-            &["oracle", "command"],       // CPU twins for tests; the program
+            &["arguments", "oracle"],     // options of commands; CPU twins for tests
+            &["command"],
         ],
     },
     House {
@@ -56,17 +58,19 @@ const HOUSES: [House; 5] = [
             &["mesh", "style"], // what is drawn, and how
             &["view"],          // what one eye sees
             &["graph", "draw"], // edges to ribbons; passes
-            &["renderer"],      // a frame
+            &["render"],        // a frame
         ],
     },
     House {
         name: "viewer",
         source: "crates/viewer/src",
         stairs: &[
-            &["error", "watch"],
-            &["technique", "scene"], // what a picture is made of, without a GPU
-            &["pass_graph"],         // the same on the GPU
+            &["watch", "technique"], // what a picture is made of, without a GPU
+            &["error"],
+            &["scene"],
+            &["pass_graph"], // techniques on the GPU
             &["picture", "comparison"],
+            &["arguments"], // a picture as a command line says it
             &["window"],
             &["command"],
         ],
@@ -80,6 +84,7 @@ const DOORS: &[(&str, &[&str])] = &[
     ("edgemesh/oracle", &["viewer/comparison"]),
     // Exit statuses and options are the business of commands.
     ("edgemesh/command", &["edgemesh/main", "viewer/command", "viewer/main"]),
+    ("edgemesh/arguments", &["edgemesh", "viewer/arguments", "viewer/window", "viewer/command"]),
     ("viewer/command", &["viewer/main"]),
     // The GPU crate knows no file.
     ("edgemesh/format", &["edgemesh", "viewer"]),
@@ -88,9 +93,19 @@ const DOORS: &[(&str, &[&str])] = &[
     ("edgemesh_brushes", &["viewer"]),
 ];
 
+/// The rooms that know the options of commands.
+const OPTIONS: &[&str] = &[
+    "edgemesh/arguments",
+    "edgemesh/command",
+    "edgemesh/main",
+    "viewer/arguments",
+    "viewer/command",
+    "viewer/main",
+];
+
 /// Crates and modules of others, and the only rooms that name them.
 const CRATES: &[(&str, &[&str])] = &[
-    ("wgpu", &["strokes", "viewer/pass_graph", "viewer/picture", "viewer/window"]),
+    ("wgpu", &["strokes", "viewer/error", "viewer/pass_graph", "viewer/picture", "viewer/window"]),
     ("naga", &["edgemesh_shaders", "viewer/technique"]),
     ("egui", &["viewer/window"]),
     ("eframe", &["viewer/window"]),
@@ -99,7 +114,7 @@ const CRATES: &[(&str, &[&str])] = &[
     ("rfd", &["viewer/window"]),
     ("zbus", &["viewer/window"]),
     ("notify", &["viewer/watch"]),
-    ("clap", &["edgemesh/command", "edgemesh/main", "viewer/command", "viewer/main"]),
+    ("clap", OPTIONS),
     ("std::process", &["edgemesh/command", "edgemesh/main", "viewer/command", "viewer/main"]),
     ("image", &["strokes", "viewer"]),
     // `strokes` takes pixels and gives pixels: no files, no decoders.
@@ -173,31 +188,35 @@ fn leads_to(path: &[String], wanted: &str) -> bool {
         || wanted.len() == 1 && path.iter().any(|segment| *segment == wanted[0])
 }
 
-/// Everything that crosses a border: a line each.
+/// Everything that crosses a border: a line for each file and what it should not see.
 fn crossings(uses: &BTreeSet<Use>) -> Vec<String> {
-    let mut lines = Vec::new();
+    let mut crossed: BTreeMap<(&str, String), BTreeSet<String>> = BTreeMap::new();
     for Use { from, to, .. } in uses {
         let room = room_of(from);
-        match to {
+        let found = match to {
             Named::Item { file, .. } | Named::Module { file } => {
                 let other = room_of(file);
-                if let Some(why) = forbidden_room(&room, &other) {
-                    let name = if let Named::Item { name, .. } = to { name } else { "the module" };
-                    lines.push(format!("{from} names {name} of {file}, but {other} {why}"));
-                }
+                forbidden_room(&room, &other).map(|why| format!("{file}, but {other} {why}"))
             }
-            Named::Foreign(path) => {
-                let closed = CRATES
-                    .iter()
-                    .find(|(wanted, rooms)| leads_to(path, wanted) && !has_room(rooms, &room));
-                if let Some((wanted, _)) = closed {
-                    let path = path.join("::");
-                    lines.push(format!("{from} names {path}, but {wanted} is closed to {room}"));
-                }
-            }
+            Named::Foreign(path) => CRATES
+                .iter()
+                .find(|(wanted, rooms)| leads_to(path, wanted) && !has_room(rooms, &room))
+                .map(|(wanted, _)| format!("{wanted}, which is closed to {room}")),
+        };
+        let name = match to {
+            Named::Item { name, .. } => name.clone(),
+            Named::Module { .. } => "the module".to_owned(),
+            Named::Foreign(path) => path.join("::"),
+        };
+        if let Some(found) = found {
+            crossed.entry((from, found)).or_default().insert(name);
         }
     }
-    lines
+    let line = |((from, found), names): ((&str, String), BTreeSet<String>)| {
+        let names: Vec<String> = names.into_iter().collect();
+        format!("{from} names {} of {found}", names.join(", "))
+    };
+    crossed.into_iter().map(line).collect()
 }
 
 /// Each circle with its arrows and the names on them.
@@ -375,10 +394,10 @@ fn a_room_that_looks_up_or_aside_is_found() {
         ("use crate::view;", "names the module of crates/strokes/src/view.rs, but strokes/view is above it"),
         ("pub use crate::view::View;", "names View of crates/strokes/src/view.rs, but strokes/view is above it"),
         ("fn of(_: super::style::Style) {}", "names Style of crates/strokes/src/style.rs, but strokes/style is beside it"),
-        ("use std::fs;", "names std::fs, but std::fs is closed to strokes/mesh"),
-        ("use std::{fs::File, io};", "names std::fs::File, but std::fs is closed to strokes/mesh"),
-        ("fn of() { let _ = image::open(\"a\"); }", "names image::open, but image::open is closed to strokes/mesh"),
-        ("use egui::Color32;", "names egui::Color32, but egui is closed to strokes/mesh"),
+        ("use std::fs;", "names std::fs of std::fs, which is closed to strokes/mesh"),
+        ("use std::{fs::File, io};", "names std::fs::File of std::fs, which is closed to strokes/mesh"),
+        ("fn of() { let _ = image::open(\"a\"); }", "names image::open of image::open, which is closed to strokes/mesh"),
+        ("use egui::Color32;", "names egui::Color32 of egui, which is closed to strokes/mesh"),
         ("use crate::gpu::Gpu; use image::GrayImage; use wgpu::Buffer;", ""),
     ];
     for (text, expected) in cases {

@@ -12,6 +12,8 @@ mod corpus;
 mod display;
 #[cfg(feature = "gpu")]
 mod drop_file;
+#[cfg(feature = "gpu")]
+mod easel;
 mod expectations;
 #[cfg(feature = "gpu")]
 mod gpu_detectors;
