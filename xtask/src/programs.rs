@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 use crate::failure::Failure;
 
@@ -73,6 +73,12 @@ pub(crate) fn run(command: &mut Command) -> Result<(), Failure> {
         message: format!("failed ({status}): {}", command_line(command)),
         status: status.code().and_then(|code| u8::try_from(code).ok()).unwrap_or(1),
     })
+}
+
+/// Whether a program can be started and succeeds, without a word.
+pub(crate) fn succeeds(command: &mut Command) -> bool {
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    command.status().is_ok_and(|status| status.success())
 }
 
 pub(crate) fn cannot_start(command: &Command, error: &std::io::Error) -> Failure {

@@ -1,32 +1,61 @@
-//! `cargo xtask test`: every test, also those that need an adapter and the two
-//! commands, and one turn of every bench so that none of them rots.
+//! `cargo xtask test`: every test, also those that need an adapter and the two commands,
+//! and one turn of every bench so that none of them rots.
 
 use std::process::Command;
 
 use crate::failure::Failure;
-use crate::programs::Programs;
-use crate::{adapter, programs};
+use crate::programs::{self, Programs};
+use crate::adapter;
 
-/// Runs the tests; `args` go to the test programs. Who gives some wants to see
-/// certain tests only, so the benches are left out then.
+/// Runs the tests. With `args`, which go to the test programs, only `cargo test` runs, and
+/// no bench.
 pub(crate) fn run(args: &[&str]) -> Result<(), Failure> {
     let programs = programs::build()?;
     adapter::ensure(&programs.viewer)?;
-    let mut tests = cargo_test(&programs, &[])?;
-    if args.is_empty() {
-        programs::run(&mut tests)?;
-        return programs::run(&mut cargo_test(&programs, &["--benches"])?);
+    if !args.is_empty() {
+        programs::run(call(&programs, &["test"])?.arg("--").args(args))?;
+        eprintln!("xtask: the benches were left out, as arguments were given");
+        return Ok(());
     }
-    programs::run(tests.arg("--").args(args))?;
-    eprintln!("xtask: the benches were left out, as arguments were given");
+    let has_nextest = programs::succeeds(programs::cargo().args(["nextest", "--version"]));
+    for task in tasks(has_nextest) {
+        programs::run(&mut call(&programs, task)?)?;
+    }
     Ok(())
 }
 
-fn cargo_test(programs: &Programs, targets: &[&str]) -> Result<Command, Failure> {
+/// The calls of cargo that run everything. cargo-nextest runs the tests of all programs at
+/// once, and no doctests.
+fn tasks(has_nextest: bool) -> &'static [&'static [&'static str]] {
+    if has_nextest {
+        &[&["nextest", "run"], &["test", "--doc"], &["test", "--benches"]]
+    } else {
+        &[&["test"], &["test", "--benches"]]
+    }
+}
+
+/// A call of cargo for the whole workspace, all with the same features, so that nothing is
+/// built twice.
+fn call(programs: &Programs, task: &[&str]) -> Result<Command, Failure> {
     let mut command = programs::cargo();
-    command.args(["test", "--workspace"]).args(targets).args(["--features", "testkit/gpu"]);
+    command.args(task).args(["--workspace", "--features", "testkit/gpu"]);
     command.env("TESTKIT_BIN", &programs.folder);
     command.env("TESTKIT_ROOT", programs::workspace_root().join("tests"));
     adapter::use_vulkan(&mut command)?;
     Ok(command)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn doctests_and_benches_run_with_and_without_nextest() {
+        assert!(tasks(true).contains(&&["nextest", "run"][..]));
+        assert!(tasks(true).contains(&&["test", "--doc"][..]), "nextest runs none");
+        assert!(tasks(false).contains(&&["test"][..]), "which runs doctests too");
+        for has_nextest in [true, false] {
+            assert!(tasks(has_nextest).contains(&&["test", "--benches"][..]));
+        }
+    }
 }

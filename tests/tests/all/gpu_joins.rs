@@ -84,18 +84,26 @@ fn stars(random: &mut Random) -> EdgeMesh {
     build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default())
 }
 
+/// A renderer for all pictures of a test.
+fn renderer() -> Renderer {
+    Renderer::new(gpu(), RendererOptions::new(TargetFormats::new(1))).unwrap()
+}
+
 /// What was drawn: red of every pixel, and the ribbons.
-fn draw(mesh: &EdgeMesh, style: StrokeStyle, classes: &[LineClass]) -> (Vec<u8>, GraphReadback) {
+fn draw(
+    renderer: &mut Renderer,
+    mesh: &EdgeMesh,
+    style: StrokeStyle,
+    classes: &[LineClass],
+) -> (Vec<u8>, GraphReadback) {
     let gpu = gpu();
-    let formats = TargetFormats::new(1);
-    let mut renderer = Renderer::new(gpu, RendererOptions::new(formats)).unwrap();
     let layers = vec![Layer { classes: classes.into(), visible: Some(style), hidden: None }];
     let style = renderer.prepare(gpu, &DrawingStyle { layers, ..DrawingStyle::default() }).unwrap();
     let options = MeshOptions { links: true, ..MeshOptions::default() };
     let buffers = Arc::new(MeshBuffers::new(&gpu.device, mesh, options).unwrap());
     let instance = MeshInstance::new(&buffers, DMat4::IDENTITY);
     let mut scene = SceneView::new(gpu, vec![instance], vec![style]);
-    let targets = Targets::new(&gpu.device, [SIZE.into(); 2], formats);
+    let targets = Targets::new(&gpu.device, [SIZE.into(); 2], renderer.options().formats);
     let camera = Camera {
         eye: DVec3::new(0.0, 0.0, 4.0),
         target: DVec3::ZERO,
@@ -163,6 +171,7 @@ fn drawn(graph: &GraphReadback) -> Vec<Ribbon> {
 #[test]
 fn wandering_lines_have_no_gap_and_no_pixel_is_covered_twice() {
     let mut random = Random(11);
+    let mut renderer = renderer();
     let mut inside = 0;
     for case in 0..100 {
         let mesh = wandering(&mut random);
@@ -180,7 +189,7 @@ fn wandering_lines_have_no_gap_and_no_pixel_is_covered_twice() {
             link: Some(link),
             ..StrokeStyle::default()
         };
-        let (picture, graph) = draw(&mesh, style, &LineClass::ALL);
+        let (picture, graph) = draw(&mut renderer, &mesh, style, &LineClass::ALL);
         let ribbons = drawn(&graph);
         assert!(ribbons.len() > 20, "case {case}: {} segments", ribbons.len());
         let reach = 0.5 * width;
@@ -207,6 +216,7 @@ fn wandering_lines_have_no_gap_and_no_pixel_is_covered_twice() {
 #[test]
 fn strokes_outside_of_contours_have_no_gap_either() {
     let mut random = Random(5);
+    let mut renderer = renderer();
     let mut inside = 0;
     for case in 0..60 {
         let mesh = stars(&mut random);
@@ -222,7 +232,7 @@ fn strokes_outside_of_contours_have_no_gap_either() {
             link: Some(link),
             ..StrokeStyle::default()
         };
-        let (picture, graph) = draw(&mesh, style, &[LineClass::Contour]);
+        let (picture, graph) = draw(&mut renderer, &mesh, style, &[LineClass::Contour]);
         let ribbons = drawn(&graph);
         assert!(ribbons.len() > 100, "case {case}: {} segments", ribbons.len());
         assert!(picture.iter().all(|red| *red >= ONCE), "case {case}: covered twice");
@@ -248,6 +258,7 @@ fn strokes_outside_of_contours_have_no_gap_either() {
 #[test]
 fn nothing_makes_a_stroke_darker_than_its_ink() {
     let mut random = Random(23);
+    let mut renderer = renderer();
     for (case, name) in BRUSH_NAMES.into_iter().cycle().take(20).enumerate() {
         let mesh = wandering(&mut random);
         let link = LinkStyle {
@@ -264,7 +275,7 @@ fn nothing_makes_a_stroke_darker_than_its_ink() {
             link: Some(link),
             ..StrokeStyle::default()
         };
-        let (picture, _) = draw(&mesh, style, &LineClass::ALL);
+        let (picture, _) = draw(&mut renderer, &mesh, style, &LineClass::ALL);
         assert!(picture.iter().all(|red| *red >= ONCE), "{name}");
         assert!(picture.iter().any(|red| *red < 200), "{name} leaves ink");
     }

@@ -15,25 +15,35 @@ use strokes::mesh::buffers::MeshBuffers;
 use strokes::mesh::layout::Layout;
 use strokes::render::pipelines::DetectionStage;
 use testkit::locate::{left_out, shared};
-use viewer::picture::renderer::{PictureOptions, PictureRenderer};
+use viewer::picture::renderer::PictureOptions;
 use viewer::technique::Technique;
 
+use crate::easel::Easel;
 use crate::gpu_device::{gpu, gpu_with_limits};
-use crate::gpu_render::{own_model, scene_of, technique};
-use crate::gpu_twin::detect;
+use crate::gpu_render::{own_model, technique};
+use crate::gpu_twin::Detector;
 use crate::noop::layouts_and_stages;
 use crate::own_models::own_models;
 
-fn picture_on(
-    gpu: &Gpu,
-    mesh: &EdgeMesh,
-    technique: &Technique,
-    (layout, stage): (Layout, DetectionStage),
-) -> RgbaImage {
-    let options = PictureOptions { size: [256; 2], layout, stage, ..PictureOptions::default() };
-    let mut renderer =
-        PictureRenderer::new(gpu, &scene_of(mesh), technique, &[], &options).unwrap();
-    renderer.render(&Camera::default_view(&mesh.bounds)).unwrap().0
+/// A mesh on a device, drawn in several ways.
+struct Drawn<'a> {
+    easel: Easel<'a>,
+    camera: Camera,
+}
+
+impl<'a> Drawn<'a> {
+    fn on(gpu: &'a Gpu, mesh: &EdgeMesh) -> Self {
+        Self { easel: Easel::new(gpu, mesh), camera: Camera::default_view(&mesh.bounds) }
+    }
+
+    fn picture(
+        &mut self,
+        technique: &Technique,
+        (layout, stage): (Layout, DetectionStage),
+    ) -> RgbaImage {
+        let options = PictureOptions { size: [256; 2], layout, stage, ..PictureOptions::default() };
+        self.easel.picture(&self.camera, technique, &options)
+    }
 }
 
 /// The largest difference of a channel.
@@ -64,8 +74,9 @@ fn looks() -> Vec<Technique> {
 #[test]
 fn all_layouts_and_stages_draw_the_same() {
     for (name, mesh) in own_models() {
+        let mut drawn = Drawn::on(gpu(), &mesh);
         for (at, look) in looks().iter().enumerate() {
-            let pictures = layouts_and_stages().map(|how| picture_on(gpu(), &mesh, look, how));
+            let pictures = layouts_and_stages().map(|how| drawn.picture(look, how));
             let [indexed, others @ ..] = &pictures;
             for (other, (layout, stage)) in others.iter().zip(&layouts_and_stages()[1..]) {
                 if *layout != Layout::Replicated16 {
@@ -89,9 +100,10 @@ fn textured_strokes_differ_by_their_order_at_most() {
     for name in ["bracket", "torus_knot"] {
         let mesh = own_model(name);
         let look = technique("pen", &["strokes.width=8"]);
-        let indexed = picture_on(gpu(), &mesh, &look, (Layout::Indexed, DetectionStage::Compute));
+        let mut drawn = Drawn::on(gpu(), &mesh);
+        let indexed = drawn.picture(&look, (Layout::Indexed, DetectionStage::Compute));
         for how in layouts_and_stages().into_iter().filter(|how| how.0 != Layout::Replicated16) {
-            let apart = difference(&indexed, &picture_on(gpu(), &mesh, &look, how));
+            let apart = difference(&indexed, &drawn.picture(&look, how));
             let most = if how == (Layout::Replicated, DetectionStage::Vertex) { 4 } else { 0 };
             assert!(apart <= most, "{name}, {how:?}: {apart}");
         }
@@ -115,9 +127,10 @@ fn sixteen_bits_draw_their_own_positions() {
             *plane = FacePlane { normal, point };
         }
         let look = technique("ink", &[]);
-        let exact = picture_on(gpu(), &rounded, &look, (Layout::Indexed, DetectionStage::Compute));
-        let sixteen =
-            picture_on(gpu(), &mesh, &look, (Layout::Replicated16, DetectionStage::Compute));
+        let exact = Drawn::on(gpu(), &rounded)
+            .picture(&look, (Layout::Indexed, DetectionStage::Compute));
+        let sixteen = Drawn::on(gpu(), &mesh)
+            .picture(&look, (Layout::Replicated16, DetectionStage::Compute));
         let wrong = exact
             .pixels()
             .zip(sixteen.pixels())
@@ -134,11 +147,13 @@ fn chunks_draw_the_picture_of_the_whole() {
     // The project's models are small: these bindings take a few hundred edges.
     let small = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 15);
     for (name, mesh) in own_models() {
+        let mut at_once = Drawn::on(gpu(), &mesh);
+        let mut in_chunks = Drawn::on(&small, &mesh);
         let pen = technique("pen", &["strokes.width=6"]);
         for (at, look) in looks().iter().chain([&pen]).enumerate() {
             for how in layouts_and_stages() {
-                let whole = picture_on(gpu(), &mesh, look, how);
-                let chunks = picture_on(&small, &mesh, look, how);
+                let whole = at_once.picture(look, how);
+                let chunks = in_chunks.picture(look, how);
                 // The paper's passes, chunk by chunk, are another order of the ink.
                 let is_reordered = how.1 == DetectionStage::Vertex && how.0 != Layout::Indexed;
                 let most = if is_reordered && at == looks().len() { 4 } else { 0 };
@@ -160,9 +175,11 @@ fn large_meshes_in_bindings_of_a_mebibyte() {
         let buffers = MeshBuffers::new(&small.device, &mesh, Layout::Indexed).unwrap();
         assert_eq!(buffers.chunk_count() > 1, mesh.triangles.len() > 32_768, "{name}");
         let how = (Layout::Indexed, DetectionStage::Compute);
+        let mut at_once = Drawn::on(gpu(), &mesh);
+        let mut in_chunks = Drawn::on(&small, &mesh);
         for look in [technique("ink", &[]), technique("pen", &["hidden.render=true"])] {
-            let whole = picture_on(gpu(), &mesh, &look, how);
-            assert_eq!(difference(&whole, &picture_on(&small, &mesh, &look, how)), 0, "{name}");
+            let whole = at_once.picture(&look, how);
+            assert_eq!(difference(&whole, &in_chunks.picture(&look, how)), 0, "{name}");
         }
     }
 }
@@ -179,12 +196,14 @@ fn linked_strokes_are_the_same_in_every_layout_and_in_chunks() {
         ),
     ];
     for (name, mesh) in own_models() {
+        let mut at_once = Drawn::on(gpu(), &mesh);
+        let mut in_chunks = Drawn::on(&small, &mesh);
         for look in &looks {
             let how = |layout| (layout, DetectionStage::Compute);
-            let indexed = picture_on(gpu(), &mesh, look, how(Layout::Indexed));
-            let replicated = picture_on(gpu(), &mesh, look, how(Layout::Replicated));
+            let indexed = at_once.picture(look, how(Layout::Indexed));
+            let replicated = at_once.picture(look, how(Layout::Replicated));
             assert_eq!(difference(&indexed, &replicated), 0, "{name}");
-            let chunks = picture_on(&small, &mesh, look, how(Layout::Replicated));
+            let chunks = in_chunks.picture(look, how(Layout::Replicated));
             assert_eq!(difference(&indexed, &chunks), 0, "{name} in chunks");
         }
     }
@@ -196,10 +215,11 @@ fn strokes_without_room_are_drawn_all_the_same() {
     // Room for 273 strokes a chunk.
     let crowded = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 17);
     let mesh = own_model("torus_knot");
+    let (mut roomy, mut crowded) = (Drawn::on(gpu(), &mesh), Drawn::on(&crowded, &mesh));
     for look in looks() {
         let how = (Layout::Indexed, DetectionStage::Compute);
-        let whole = picture_on(gpu(), &mesh, &look, how);
-        assert_eq!(difference(&whole, &picture_on(&crowded, &mesh, &look, how)), 0);
+        let whole = roomy.picture(&look, how);
+        assert_eq!(difference(&whole, &crowded.picture(&look, how)), 0);
     }
 }
 
@@ -212,10 +232,11 @@ fn clusters_at_16_bits_are_those_of_the_rounded_faces() {
         let angle = f64::from(step) * 0.53;
         DVec3::new(angle.cos(), (angle * 1.7).sin(), angle.sin()) * 4.0
     });
+    let mut detector = Detector::new(Layout::Replicated16);
     for eye in views {
         let view = Camera { eye, target: DVec3::ZERO, ..Camera::default_view(&mesh.bounds) }
             .view(&mesh.bounds, 1.0);
-        let (_, _, live) = detect(&mesh, &view, &technique("ink", &[]), Layout::Replicated16);
+        let (_, _, live) = detector.detect(&mesh, &view, &technique("ink", &[]));
         let quantization = Quantization::of(&mesh.bounds);
         let vertices = replicate_16(&mesh);
         let contours = vertices.iter().step_by(4).enumerate().filter(|(_, vertex)| {

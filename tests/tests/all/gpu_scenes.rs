@@ -23,7 +23,7 @@ use viewer::scene::models::{PlacedObject, Scene};
 use viewer::technique::Technique;
 
 use crate::gpu_device::gpu;
-use crate::gpu_render::{look_of, own_model, picture, technique};
+use crate::gpu_render::{look_of, own_model, picture, scene_of, technique};
 
 /// A scene of one model many times.
 fn scene(mesh: &EdgeMesh, places: &[(DMat4, usize)]) -> Scene {
@@ -230,10 +230,11 @@ fn lines_stay_whole_in_a_slow_zoom() {
         ("cylinder", "centred"),
     ] {
         let mesh = own_model(name);
+        let mut renderers = visible_and_hidden(&mesh, placement);
         let mut last: Option<[usize; 2]> = None;
         for step in 0..=40 {
             let radii = 1.3 * (100.0_f64 / 1.3).powf(f64::from(step) / 40.0);
-            let [visible, hidden] = zoomed(&mesh, placement, radii, false);
+            let [visible, hidden] = zoomed(&mesh, &mut renderers, radii, false);
             if let Some(last) = last {
                 let jump = visible.abs_diff(last[0]).max(hidden.abs_diff(last[1]));
                 assert!(
@@ -246,27 +247,41 @@ fn lines_stay_whole_in_a_slow_zoom() {
             last = Some([visible, hidden]);
         }
         // Far away perspective is no different from none.
-        let [far, flat] = [false, true].map(|is_flat| zoomed(&mesh, placement, 100.0, is_flat)[0]);
+        let [far, flat] =
+            [false, true].map(|is_flat| zoomed(&mesh, &mut renderers, 100.0, is_flat)[0]);
         assert!(far.abs_diff(flat) * 20 < flat, "{name} {placement}: {far} and {flat}");
     }
 }
 
-/// Pixels of visible and of hidden strokes, in a picture that keeps the model's
-/// size while the eye goes `radii` away.
-fn zoomed(mesh: &EdgeMesh, placement: &str, radii: f64, is_orthographic: bool) -> [usize; 2] {
-    let mut camera = Camera::default_view(&mesh.bounds);
-    let direction = (camera.eye - camera.target).normalize_or_zero();
-    camera.eye = camera.target + direction * mesh.bounds.radius() * radii;
-    camera.fov_y_rad = 2.0 * (0.8 / (radii - 0.2).max(0.9)).atan().min(1.2);
-    camera.is_orthographic = is_orthographic;
+/// Renderers of the visible and of the hidden strokes alone.
+fn visible_and_hidden(mesh: &EdgeMesh, placement: &str) -> [PictureRenderer; 2] {
     let hidden = ["strokes.render=false", "hidden.render=true", "hidden.color=#000000"];
     [&[][..], &hidden].map(|settings| {
         let [visible, hidden] =
             ["strokes", "hidden"].map(|pass| format!("{pass}.placement={placement}"));
         let placed = [&visible, &hidden, "hidden.width=2"];
         let look = technique("ink", &[settings, &placed].concat());
-        count(&picture(mesh, &camera, &look, 256, 1), |pixel| pixel[0] < 128)
+        let options = PictureOptions { size: [256; 2], samples: 1, ..PictureOptions::default() };
+        PictureRenderer::new(gpu(), &scene_of(mesh), &look, &[], &options).unwrap()
     })
+}
+
+/// Pixels of visible and of hidden strokes, in a picture that keeps the model's
+/// size while the eye goes `radii` away.
+fn zoomed(
+    mesh: &EdgeMesh,
+    renderers: &mut [PictureRenderer; 2],
+    radii: f64,
+    is_orthographic: bool,
+) -> [usize; 2] {
+    let mut camera = Camera::default_view(&mesh.bounds);
+    let direction = (camera.eye - camera.target).normalize_or_zero();
+    camera.eye = camera.target + direction * mesh.bounds.radius() * radii;
+    camera.fov_y_rad = 2.0 * (0.8 / (radii - 0.2).max(0.9)).atan().min(1.2);
+    camera.is_orthographic = is_orthographic;
+    renderers
+        .each_mut()
+        .map(|renderer| count(&renderer.render(&camera).unwrap().0, |pixel| pixel[0] < 128))
 }
 
 /// Eyes inside, on an edge, at a vertex; edges through the eye plane, along the
@@ -295,10 +310,10 @@ fn no_view_draws_what_is_no_number() {
         ],
         &["strokes.placement=inside", "strokes.brush=fur", "ridge.kind=thin"],
     ];
-    for (mesh_name, mesh) in awkward_meshes() {
-        for how in crate::noop::layouts_and_stages() {
-            let options = RendererOptions { layout: how.0, stage: how.1, formats };
-            let mut renderer = Renderer::new(gpu, options).unwrap();
+    for how in crate::noop::layouts_and_stages() {
+        let options = RendererOptions { layout: how.0, stage: how.1, formats };
+        let mut renderer = Renderer::new(gpu, options).unwrap();
+        for (mesh_name, mesh) in awkward_meshes() {
             let buffers = Arc::new(MeshBuffers::new(&gpu.device, &mesh, how.0).unwrap());
             for settings in settings {
                 let look = renderer.prepare(gpu, &look_of(&look(settings), &mesh)).unwrap();

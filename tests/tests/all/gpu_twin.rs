@@ -505,29 +505,39 @@ fn cameras(mesh: &EdgeMesh) -> Vec<Camera> {
     cameras
 }
 
-/// What the GPU finds: facing bits, counts, and the live list.
-pub(crate) fn detect(
-    mesh: &EdgeMesh,
-    view: &View,
-    technique: &Technique,
-    layout: Layout,
-) -> (Vec<u32>, Tally, Vec<u32>) {
-    let gpu = gpu();
-    let formats = TargetFormats::new(1);
-    let options = RendererOptions { layout, ..RendererOptions::new(formats) };
-    let mut renderer = Renderer::new(gpu, options).unwrap();
-    let style = renderer.prepare(gpu, &look_of(technique, mesh)).unwrap();
-    let buffers = Arc::new(MeshBuffers::new(&gpu.device, mesh, layout).unwrap());
-    let instance = MeshInstance::new(&buffers, DMat4::IDENTITY);
-    let mut scene = SceneView::new(gpu, vec![instance], vec![style]);
-    let targets = Targets::new(&gpu.device, [16, 16], formats);
-    // Twice: the second frame finds what no view changes worked out already.
-    for _ in 0..2 {
-        renderer.render(gpu, &targets, &mut scene, view, [0.0; 4], None).unwrap();
+/// Finds lines on the GPU, in one layout.
+pub(crate) struct Detector {
+    renderer: Renderer,
+}
+
+impl Detector {
+    pub(crate) fn new(layout: Layout) -> Self {
+        let options = RendererOptions { layout, ..RendererOptions::new(TargetFormats::new(1)) };
+        Self { renderer: Renderer::new(gpu(), options).unwrap() }
     }
-    let object = &scene.drawing.objects()[0];
-    let facing = object.read_facing(gpu, 0).unwrap();
-    (facing, object.read_tally(gpu).unwrap(), object.read_live(gpu, 0).unwrap())
+
+    /// What the GPU finds: facing bits, counts, and the live list.
+    pub(crate) fn detect(
+        &mut self,
+        mesh: &EdgeMesh,
+        view: &View,
+        technique: &Technique,
+    ) -> (Vec<u32>, Tally, Vec<u32>) {
+        let gpu = gpu();
+        let RendererOptions { layout, formats, .. } = *self.renderer.options();
+        let style = self.renderer.prepare(gpu, &look_of(technique, mesh)).unwrap();
+        let buffers = Arc::new(MeshBuffers::new(&gpu.device, mesh, layout).unwrap());
+        let instance = MeshInstance::new(&buffers, DMat4::IDENTITY);
+        let mut scene = SceneView::new(gpu, vec![instance], vec![style]);
+        let targets = Targets::new(&gpu.device, [16, 16], formats);
+        // Twice: the second frame finds what no view changes worked out already.
+        for _ in 0..2 {
+            self.renderer.render(gpu, &targets, &mut scene, view, [0.0; 4], None).unwrap();
+        }
+        let object = &scene.drawing.objects()[0];
+        let facing = object.read_facing(gpu, 0).unwrap();
+        (facing, object.read_tally(gpu).unwrap(), object.read_live(gpu, 0).unwrap())
+    }
 }
 
 #[test]
@@ -538,6 +548,7 @@ fn live_edges_and_counts_equal_the_oracles() {
         &["hidden.render=true", "contour.width=4"],
         &["strokes.ridge_angle=5", "strokes.valley_angle=70", "contour.render=false"],
     ];
+    let mut detector = Detector::new(Layout::Indexed);
     for (name, mesh) in own_models() {
         let words = edge_words(&mesh);
         for (camera, settings) in cameras(&mesh).iter().zip(techniques.iter().cycle()) {
@@ -546,7 +557,7 @@ fn live_edges_and_counts_equal_the_oracles() {
             let look = look_of(&technique, &mesh);
             let outside = eye_is_outside(view.eye, mesh.bounds.min.into(), mesh.bounds.max.into());
             let lines = classify_lines(&mesh, &words, view.eye, &look.class_table(), outside);
-            let (facing, tally, live) = detect(&mesh, &view, &technique, Layout::Indexed);
+            let (facing, tally, live) = detector.detect(&mesh, &view, &technique);
             let bits = facing_bits(&mesh, view.eye);
             let is_same = (0..bits.len())
                 .all(|face| bits[face] == (facing[face / 32] >> (face % 32) & 1 == 1));
@@ -576,12 +587,13 @@ fn live_edges_and_counts_equal_the_oracles() {
 #[test]
 fn replicated_edges_find_the_same_lines() {
     let (mut lines, mut differing) = (0, 0);
+    let [mut indexed, mut replicated] = [Layout::Indexed, Layout::Replicated].map(Detector::new);
     for (name, mesh) in own_models() {
         for camera in cameras(&mesh) {
             let view = camera.view(&mesh.bounds, 1.0);
             let technique = technique("ink", &[]);
-            let (_, counts, want) = detect(&mesh, &view, &technique, Layout::Indexed);
-            let (_, tally, live) = detect(&mesh, &view, &technique, Layout::Replicated);
+            let (_, counts, want) = indexed.detect(&mesh, &view, &technique);
+            let (_, tally, live) = replicated.detect(&mesh, &view, &technique);
             let edge_on = |face: u32| {
                 let plane = &mesh.face_planes[face as usize];
                 let to_eye = view.eye.truncate() - view.eye.w * Vec4::from(plane.point).truncate();
@@ -618,6 +630,7 @@ fn a_mesh_without_edges_draws_nothing() {
         &mut Report::default(),
     );
     let view = Camera::default_view(&mesh.bounds).view(&mesh.bounds, 1.0);
-    let (_, tally, live) = detect(&mesh, &view, &technique("ink", &[]), Layout::Indexed);
+    let mut detector = Detector::new(Layout::Indexed);
+    let (_, tally, live) = detector.detect(&mesh, &view, &technique("ink", &[]));
     assert_eq!((tally.stroke_count, live.len()), (0, 0));
 }

@@ -2,16 +2,18 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod borders;
 mod broken_techniques;
 mod child;
 mod commands;
 mod compare_strokes;
 mod corpus;
-mod dependencies;
 #[cfg(feature = "gpu")]
 mod display;
 #[cfg(feature = "gpu")]
 mod drop_file;
+#[cfg(feature = "gpu")]
+mod easel;
 mod expectations;
 #[cfg(feature = "gpu")]
 mod gpu_detectors;

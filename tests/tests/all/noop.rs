@@ -11,6 +11,7 @@ use strokes::mesh::layout::Layout;
 use strokes::render::pipelines::DetectionStage;
 use viewer::picture::renderer::{PictureOptions, PictureRenderer};
 use viewer::scene::models::Scene;
+use viewer::technique::Technique;
 use viewer::technique::core::CoreComponent;
 use viewer::technique::library::Library;
 use viewer::technique::value::VariableType;
@@ -50,25 +51,33 @@ fn every_technique_builds_its_pipelines_within_the_default_limits() {
     let gpu = noop(wgpu::Limits::default());
     let library = Library::shipped();
     let scene = scene_of(&tetrahedron());
-    for name in library.technique_names() {
-        for samples in [1, 4] {
-            let mut technique = library.technique(name).unwrap().0;
-            for (pass, setting) in [
-                ("hidden", "hidden.render=true"),
-                ("silhouette", "silhouette.render=true"),
-                ("strokes", "strokes.ends=disks"),
-            ] {
-                if technique.pass(pass).is_some() {
-                    technique.set(setting).unwrap();
-                }
+    let techniques = library.technique_names().map(|name| {
+        let mut technique = library.technique(name).unwrap().0;
+        for (pass, setting) in [
+            ("hidden", "hidden.render=true"),
+            ("silhouette", "silhouette.render=true"),
+            ("strokes", "strokes.ends=disks"),
+        ] {
+            if technique.pass(pass).is_some() {
+                technique.set(setting).unwrap();
             }
-            let fins = (Layout::FaceNormals, DetectionStage::Vertex);
-            for (layout, stage) in layouts_and_stages().into_iter().chain([fins]) {
-                let size = [64, 32];
-                let options =
-                    PictureOptions { size, samples, layout, stage, ..PictureOptions::default() };
-                PictureRenderer::new(&gpu, &scene, &technique, &[], &options)
-                    .unwrap_or_else(|error| panic!("{name}: {error}"));
+        }
+        technique
+    });
+    let techniques: Vec<Technique> = techniques.collect();
+    let fins = (Layout::FaceNormals, DetectionStage::Vertex);
+    for (layout, stage) in layouts_and_stages().into_iter().chain([fins]) {
+        for samples in [1, 4] {
+            let size = [64, 32];
+            let options =
+                PictureOptions { size, samples, layout, stage, ..PictureOptions::default() };
+            // Techniques share pipelines: each is built once.
+            let first = &techniques[0];
+            let mut renderer = PictureRenderer::new(&gpu, &scene, first, &[], &options).unwrap();
+            for technique in &techniques {
+                renderer
+                    .reload(&scene, technique, &[], &options)
+                    .unwrap_or_else(|error| panic!("{}: {error}", technique.name));
             }
         }
     }

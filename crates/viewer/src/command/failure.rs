@@ -76,7 +76,7 @@ fn status_of(error: &Error) -> ExitStatus {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::technique::error::{SettingError, TechniqueError};
+    use crate::technique::error::SettingError;
 
     #[test]
     fn hints_name_options_and_errors_do_not() {

@@ -1,0 +1,198 @@
+//! What the manifests ask for: crates that have no place where they are, crates that
+//! nothing uses, features that would have everything built twice.
+
+use std::collections::BTreeSet;
+use std::process::Command;
+use std::{env, fs};
+
+use testkit::locate::workspace_root;
+use toml::{Table, Value};
+
+use super::source::first_segments;
+use super::{assert_none, sources};
+
+/// Crates that have no place in `edgemesh`: it runs without a GPU, a window, a picture.
+const FOREIGN: [&str; 6] = ["wgpu", "naga", "winit", "egui", "eframe", "image"];
+
+/// The packages: the folder, and what `[dependencies]` are for; all other code is for
+/// `[dev-dependencies]`. The whole of `testkit` and of `fuzz` is tests.
+const PACKAGES: [(&str, &[&str]); 8] = [
+    ("brushes", &["src"]),
+    ("crates/edgemesh", &["src"]),
+    ("crates/strokes", &["src"]),
+    ("crates/viewer", &["src"]),
+    ("fuzz", &["src", "fuzz_targets"]),
+    ("shaders", &["src"]),
+    ("tests", &["src", "tests"]),
+    ("xtask", &["src"]),
+];
+
+/// Packages whose library has another name.
+const RENAMED: [(&str, &str); 1] = [("obj-rs", "obj")];
+
+/// Dependencies that no code names, and what they are for.
+const UNNAMED: [(&str, &str, &str); 1] =
+    [("tests", "getrandom", "its features: see `the_demo_builds_what_the_tests_use`")];
+
+/// What `cargo tree` prints, a package a line; `None` where it cannot run.
+fn cargo_tree(arguments: &[&str]) -> Option<Vec<String>> {
+    let manifest = workspace_root().join("Cargo.toml");
+    if fs::metadata(&manifest).is_err() {
+        eprintln!("left out the dependencies: no {}", manifest.display());
+        return None;
+    }
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let output = Command::new(cargo)
+        .args(["tree", "--offline", "--prefix", "none"])
+        .args(arguments)
+        .arg("--manifest-path")
+        .arg(&manifest)
+        .output();
+    let Ok(output) = output else {
+        eprintln!("left out the dependencies: no cargo to ask");
+        return None;
+    };
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "cargo tree failed: {stderr}");
+    let lines = String::from_utf8_lossy(&output.stdout);
+    Some(lines.lines().map(|line| line.trim_end_matches(" (*)").to_owned()).collect())
+}
+
+/// The name of a crate in a line such as `glam v0.34.0`.
+fn name(line: &str) -> &str {
+    line.split_whitespace().next().unwrap_or("")
+}
+
+fn is_foreign(name: &str) -> bool {
+    FOREIGN.iter().any(|foreign| {
+        // wgpu-core and egui_extras are as foreign as wgpu and egui themselves.
+        name.strip_prefix(foreign)
+            .is_some_and(|rest| rest.is_empty() || rest.starts_with(['-', '_']))
+    })
+}
+
+#[test]
+fn edgemesh_needs_no_gpu_and_no_window() {
+    let Some(lines) = cargo_tree(&["--edges", "normal", "--package", "edgemesh"]) else { return };
+    assert_eq!(lines.first().map(|line| name(line)), Some("edgemesh"), "{lines:#?}");
+    assert!(lines.len() > 5, "cargo tree lists the crates: {lines:#?}");
+    let foreign: Vec<&str> =
+        lines.iter().map(|line| name(line)).filter(|n| is_foreign(n)).collect();
+    assert!(foreign.is_empty(), "edgemesh depends on {foreign:?}");
+}
+
+#[test]
+fn foreign_crates_are_known_by_their_names() {
+    for line in ["wgpu v30.0.0", "wgpu-core v30.0.0", "egui_extras v0.37.0", "image v0.25.1"] {
+        assert!(is_foreign(name(line)), "{line}");
+    }
+    for line in ["glam v0.34.0", "imagesize v0.1.0", "edgemesh v0.1.0 (/somewhere)"] {
+        assert!(!is_foreign(name(line)), "{line}");
+    }
+}
+
+/// Tests turn features of shared crates on, by what only tests depend on. Where the demo is
+/// built without them, everything above such a crate is built twice. A line here is a
+/// package with its features in the demo: ask for those of the tests in `tests/Cargo.toml`,
+/// as is done for `getrandom`.
+#[test]
+fn the_demo_builds_what_the_tests_use() {
+    let packages = |edges: &str| {
+        let lines = cargo_tree(&[
+            "--workspace",
+            "--features",
+            "testkit/gpu",
+            "--format",
+            "{p} {f}",
+            "--edges",
+            edges,
+        ])?;
+        Some(lines.into_iter().collect::<BTreeSet<_>>())
+    };
+    let Some((demo, tests)) = packages("normal,build").zip(packages("normal,build,dev")) else {
+        return;
+    };
+    assert!(demo.len() > 100, "cargo tree lists the crates: {demo:#?}");
+    let twice: Vec<String> = demo.difference(&tests).cloned().collect();
+    assert_none(&twice);
+}
+
+/// The names of code that a folder's files begin paths with, tests and all.
+fn named_in(folders: &[String]) -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    for (file, text) in folders.iter().flat_map(|folder| sources(folder)) {
+        names.extend(first_segments(&text).unwrap_or_else(|error| panic!("{file}: {error}")));
+    }
+    names
+}
+
+/// The names in a manifest's tables of one kind, those for some systems too.
+fn asked_for(manifest: &Table, kind: &str) -> Vec<String> {
+    let targets = manifest.get("target").and_then(Value::as_table);
+    let targets = targets.into_iter().flat_map(Table::values).filter_map(Value::as_table);
+    std::iter::once(manifest)
+        .chain(targets)
+        .filter_map(|table| table.get(kind)?.as_table())
+        .flat_map(|table| table.keys().cloned())
+        .collect()
+}
+
+fn manifest(folder: &str) -> Option<Table> {
+    let path = workspace_root().join(folder).join("Cargo.toml");
+    let text = fs::read_to_string(&path).ok()?;
+    Some(text.parse().unwrap_or_else(|error| panic!("{}: {error}", path.display())))
+}
+
+/// Dependencies of one package that its code does not name.
+fn unused(
+    folder: &str,
+    asked: &[String],
+    named: &BTreeSet<String>,
+) -> impl Iterator<Item = String> {
+    asked.iter().filter_map(move |package| {
+        let library = RENAMED.iter().find(|known| known.0 == package).map(|known| known.1);
+        let library = library.unwrap_or(package).replace('-', "_");
+        let is_known = UNNAMED.iter().any(|&(of, name, _)| (of, name) == (folder, package));
+        (!is_known && !named.contains(&library)).then(|| format!("{folder}: {package}"))
+    })
+}
+
+#[test]
+fn every_dependency_is_used() {
+    let Some(workspace) = manifest("") else {
+        return eprintln!("left out the dependencies: no source");
+    };
+    let mut lines = Vec::new();
+    let mut asked_by_all = BTreeSet::new();
+    for (folder, code) in PACKAGES {
+        let manifest = manifest(folder).unwrap();
+        let in_folders = |names: &[&str]| -> Vec<String> {
+            names.iter().map(|name| format!("{folder}/{name}")).collect()
+        };
+        let of_code = named_in(&in_folders(code));
+        let of_all = named_in(&in_folders(&["src", "tests", "benches", "examples"]));
+        for (kind, named) in [("dependencies", &of_code), ("dev-dependencies", &of_all)] {
+            let asked = asked_for(&manifest, kind);
+            lines.extend(unused(folder, &asked, named));
+            asked_by_all.extend(asked);
+        }
+        let built = asked_for(&manifest, "build-dependencies");
+        assert!(built.is_empty(), "{folder}: add build.rs to this check for {built:?}");
+    }
+    let known = workspace["workspace"]["dependencies"].as_table().unwrap();
+    let nobodys = known.keys().filter(|name| !asked_by_all.contains(*name));
+    lines.extend(nobodys.map(|name| format!("the workspace: {name}")));
+    assert_none(&lines);
+}
+
+#[test]
+fn a_dependency_that_nothing_names_is_found() {
+    let named: BTreeSet<String> =
+        first_segments("use obj::Obj; fn of() { vec![ply_rs_bw::new()]; }")
+            .unwrap()
+            .into_iter()
+            .collect();
+    let asked = ["obj-rs", "ply-rs-bw", "criterion", "getrandom"].map(str::to_owned);
+    let lines: Vec<String> = unused("tests", &asked, &named).collect();
+    assert_eq!(lines, ["tests: criterion"]);
+}
