@@ -3,10 +3,16 @@
 //!
 //! - `library`: where techniques come from. `lighting`: the light, and what cuts the scene.
 //! - `picture`: everything that makes a picture but the models and its size.
+//! - `camera`, `words`: the camera, and whole pictures, as the words of a command line.
 
+mod camera;
 mod library;
 mod lighting;
 mod picture;
+mod words;
 
+pub(crate) use camera::{camera_words, read_camera};
+pub(crate) use edgemesh::arguments::CameraArguments;
 pub(crate) use library::LibraryArguments;
 pub(crate) use picture::PictureArguments;
+pub(crate) use words::{PictureWords, read_words, render_command, shell_line};

@@ -8,6 +8,7 @@ use super::marking::edge_under;
 use super::navigation::{Canvas, between, flown, looked_around, panned, rolled, turned, zoomed};
 use super::session::{Request, Session, Work};
 use super::viewpoint::{NamedView, Viewpoint};
+use crate::arguments::{camera_words, shell_line};
 
 /// How long it takes to go to a viewpoint, in seconds.
 const FLIGHT_SECONDS: f64 = 0.25;
@@ -229,7 +230,7 @@ impl Hands {
         if let (Some(text), Some(view)) = (pasted, session.recipe.viewpoint) {
             match view.pasted(&text) {
                 Ok(to) => session.ask(Request::GoTo(to)),
-                Err(what) => session.messages.note(format!("nothing was pasted: {what}")),
+                Err(error) => session.messages.note(format!("nothing was pasted: {error}")),
             }
         }
         let pressed: Vec<Command> = ui.input_mut(|input| {
@@ -318,7 +319,7 @@ pub fn run(command: Command, session: &mut Session, size: [u32; 2]) {
         },
         Command::CopyCamera => {
             if let Some(view) = view {
-                let line = super::recipe::shell_line(&view.options());
+                let line = shell_line(&camera_words(&view.arguments()));
                 session.ask(Request::Copy(line, "the camera is on the clipboard"));
             }
         }

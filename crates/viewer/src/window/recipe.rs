@@ -12,19 +12,17 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::Parser as _;
 use edgemesh::edge_mesh::MeshFrame;
 use edgemesh::load::{DEMO, LoadOptions};
 
 use super::viewpoint::Viewpoint;
-use crate::arguments::PictureArguments;
+use crate::arguments::{PictureArguments, PictureWords, read_words};
 use crate::error::Error;
 use crate::picture::renderer::PictureOptions;
-use crate::scene::lighting::{Light, Lighting};
+use crate::scene::lighting::Lighting;
 use crate::technique::Technique;
 use crate::technique::changes::changes;
 use crate::technique::library::Library;
-use crate::technique::value::color_text;
 
 /// Everything that makes a picture but its pixels.
 #[derive(Debug, Clone)]
@@ -52,14 +50,6 @@ pub struct Appearance {
     pub lighting: Lighting,
     /// Whether there is no paper behind the scene.
     pub is_transparent: bool,
-}
-
-#[derive(Debug, clap::Parser)]
-#[command(no_binary_name = true)]
-struct Words {
-    models: Vec<PathBuf>,
-    #[command(flatten)]
-    arguments: PictureArguments,
 }
 
 impl Recipe {
@@ -93,9 +83,8 @@ impl Recipe {
     /// [`Error::CommandLine`], and if something is wrong with the technique, its settings or
     /// the light.
     pub fn of_words(words: &[String], library: &Library) -> Result<Self, Error> {
-        let read = Words::try_parse_from(words);
-        let read = read.map_err(|error| Error::CommandLine(error.to_string().trim().to_owned()))?;
-        Self::new(&read.models, read.arguments, library)
+        let (models, arguments) = read_words(words)?;
+        Self::new(&models, arguments, library)
     }
 
     /// Takes the viewpoint of the command line for the models, which lie in `frame`.
@@ -122,22 +111,15 @@ impl Recipe {
     #[must_use]
     pub fn words(&self) -> Option<Vec<String>> {
         let appearance = &self.appearance;
-        let mut words: Vec<String> =
-            self.models.iter().map(|model| model.display().to_string()).collect();
-        let mut add = |name: &str, value: String| words.extend([name.to_owned(), value]);
-        add("--technique", appearance.technique_name.clone());
-        for setting in changes(&appearance.original, &appearance.technique)? {
-            add("--set", setting);
-        }
-        for (name, value) in lighting_options(&appearance.lighting) {
-            add(name, value);
-        }
-        if appearance.is_transparent {
-            words.push("--transparent".into());
-        }
-        words.extend(self.viewpoint.iter().flat_map(Viewpoint::options));
-        words.extend(self.arguments.fixed_words());
-        Some(words)
+        let words = PictureWords {
+            models: &self.models,
+            technique: &appearance.technique_name,
+            settings: changes(&appearance.original, &appearance.technique)?,
+            lighting: &appearance.lighting,
+            is_transparent: appearance.is_transparent,
+            camera: self.viewpoint.as_ref().map(Viewpoint::arguments),
+        };
+        Some(words.words(&self.arguments))
     }
 
     /// How the picture is drawn at a size in pixels.
@@ -249,46 +231,6 @@ fn technique(library: &Library, name: &str) -> Result<Technique, Error> {
     Ok(library.technique(name)?.0)
 }
 
-fn lighting_options(lighting: &Lighting) -> Vec<(&'static str, String)> {
-    let default = Lighting::default();
-    let mut options = Vec::new();
-    if lighting.light != default.light {
-        options.push(("--light", light_text(&lighting.light)));
-    }
-    if lighting.color != default.color {
-        options.push(("--light-color", color_text(&lighting.color).unwrap_or_default()));
-    }
-    for [x, y, z, d] in &lighting.clip_planes {
-        options.push(("--clip", format!("{x},{y},{z},{d}")));
-    }
-    options
-}
-
-/// A light as `--light` has it.
-#[must_use]
-pub fn light_text(light: &Light) -> String {
-    let (kind, at) = match light {
-        Light::Camera(direction) => ("", direction),
-        Light::World(direction) => ("world:", direction),
-        Light::Point(point) => ("point:", point),
-    };
-    format!("{kind}{},{},{}", at.x, at.y, at.z)
-}
-
-/// Words as a shell reads them.
-#[must_use]
-pub fn shell_line(words: &[String]) -> String {
-    let is_plain = |word: &str| {
-        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:,=+@%".contains(c);
-        !word.is_empty() && word.chars().all(plain)
-    };
-    let quoted = |word: &String| match is_plain(word) {
-        true => word.clone(),
-        false => format!("'{}'", word.replace('\'', r"'\''")),
-    };
-    words.iter().map(quoted).collect::<Vec<String>>().join(" ")
-}
-
 #[cfg(test)]
 mod tests {
     use edgemesh::edge_mesh::Bounds;
@@ -333,11 +275,5 @@ mod tests {
         );
         assert!(Recipe::of_words(&words("--technique inc"), &Library::shipped()).is_err());
         assert!(Recipe::of_words(&words("--output a.png"), &Library::shipped()).is_err());
-    }
-
-    #[test]
-    fn what_a_shell_would_read_otherwise_is_quoted() {
-        let words = ["a b.obj", "--set", "x.y=#fff", "it's", ""].map(str::to_owned);
-        assert_eq!(shell_line(&words), r"'a b.obj' --set 'x.y=#fff' 'it'\''s' ''");
     }
 }

@@ -13,9 +13,10 @@ use super::error_text::error_text;
 use super::inspection::Inspection;
 use super::marking::Marking;
 use super::messages::Messages;
-use super::recipe::{Appearance, Recipe, shell_line};
+use super::recipe::{Appearance, Recipe};
 use super::remembered::Remembered;
 use super::viewpoint::{NamedView, Viewpoint};
+use crate::arguments::render_command;
 use crate::error::Error;
 use crate::picture::renderer::FrameStatistics;
 use crate::scene::models::Scene;
@@ -397,11 +398,7 @@ impl Session {
     /// The command that draws this picture, at a size.
     #[must_use]
     pub fn command(&self, size: [u32; 2]) -> Option<String> {
-        let mut words: Vec<String> = ["viewer", "render"].map(str::to_owned).into();
-        words.extend(self.recipe.words()?);
-        words.extend(["--size".to_owned(), format!("{}x{}", size[0], size[1])]);
-        words.extend(["-o", "picture.png"].map(str::to_owned));
-        Some(shell_line(&words))
+        Some(render_command(self.recipe.words()?, size))
     }
 
     /// Sees what has changed since; to be called with every frame, at the window's time in

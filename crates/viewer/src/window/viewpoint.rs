@@ -1,13 +1,14 @@
 //! The camera of the window: in the units of the files, so that a copied command has the
 //! very numbers that the window draws with.
 
-use clap::Parser as _;
-use edgemesh::arguments::CameraArguments;
 use edgemesh::edge_mesh::{Bounds, MeshFrame};
 use edgemesh::view::camera::{
-    Camera, DEFAULT_DIRECTION, DEFAULT_DISTANCE_RADII, DEFAULT_FOV_Y_DEG,
+    Camera, CameraError, DEFAULT_DIRECTION, DEFAULT_DISTANCE_RADII, DEFAULT_FOV_Y_DEG,
 };
 use glam::DVec3;
+
+use crate::arguments::{CameraArguments, read_camera};
+use crate::error::Error;
 
 /// Where the eye is and where it looks, in the units of the files.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -193,42 +194,25 @@ impl Viewpoint {
         Self { eye, up: up.turned(above), ..*self }
     }
 
-    /// As options of a command line.
-    #[must_use]
-    pub fn options(&self) -> Vec<String> {
-        let vector = |v: DVec3| format!("{},{},{}", v.x, v.y, v.z);
-        let mut options = Vec::new();
-        for (name, value) in [
-            ("--eye", vector(self.eye)),
-            ("--target", vector(self.target)),
-            ("--up", vector(self.up)),
-            ("--fov", self.fov_y_deg.to_string()),
-        ] {
-            options.extend([name.to_owned(), value]);
+    /// As arguments of a command.
+    pub(crate) const fn arguments(&self) -> CameraArguments {
+        CameraArguments {
+            eye: Some(self.eye),
+            target: Some(self.target),
+            up: Some(self.up),
+            fov: Some(self.fov_y_deg),
+            ortho: self.is_orthographic,
         }
-        if self.is_orthographic {
-            options.push("--ortho".to_owned());
-        }
-        options
     }
 
-    /// Reads the camera options of a text, such as a copied command; other words are left
-    /// out. What is not said is as it is here.
+    /// Reads the camera in a text, such as a copied command; other words are left out. What
+    /// the text does not name stays.
     ///
     /// # Errors
-    /// Where there are none, or something is wrong with them.
-    pub fn pasted(&self, text: &str) -> Result<Self, String> {
-        #[derive(clap::Parser)]
-        #[command(no_binary_name = true, disable_help_flag = true)]
-        struct Pasted {
-            #[command(flatten)]
-            camera: CameraArguments,
-        }
-        let words = camera_words(text);
-        if words.is_empty() {
-            return Err("there are no camera options in it, as --eye 3,2,5 --target 0,0,0".into());
-        }
-        let read = Pasted::try_parse_from(words).map_err(|error| error.to_string())?.camera;
+    /// [`Error::CommandLine`], if there is none, or something is wrong with it;
+    /// [`Error::Camera`], if it sees nothing.
+    pub fn pasted(&self, text: &str) -> Result<Self, Error> {
+        let read = read_camera(text)?;
         let pasted = Self {
             eye: read.eye.unwrap_or(self.eye),
             target: read.target.unwrap_or(self.target),
@@ -236,38 +220,21 @@ impl Viewpoint {
             fov_y_deg: read.fov.unwrap_or(self.fov_y_deg),
             is_orthographic: read.ortho,
         };
-        if (pasted.target - pasted.eye).cross(pasted.up).length() <= 0.0 {
-            return Err("the camera looks nowhere: the eye lies on the target, or up lies along \
-                        the line of sight"
-                .into());
+        let sight = pasted.target - pasted.eye;
+        if sight == DVec3::ZERO {
+            return Err(CameraError::EyeOnTarget.into());
+        }
+        if sight.cross(pasted.up).length() <= 0.0 {
+            return Err(CameraError::UpAlongSight.into());
         }
         Ok(pasted)
     }
 }
 
-/// The words of a text that are camera options and their values.
-fn camera_words(text: &str) -> Vec<String> {
-    let mut words = text.split_whitespace();
-    let mut found = Vec::new();
-    while let Some(word) = words.next() {
-        let name = word.split_once('=').map_or(word, |(name, _)| name);
-        match name {
-            "--ortho" => found.push(word.to_owned()),
-            "--eye" | "--target" | "--up" | "--fov" => {
-                found.push(word.to_owned());
-                if name == word {
-                    found.extend(words.next().map(|value| value.trim_matches('\'').to_owned()));
-                }
-            }
-            _ => {}
-        }
-    }
-    found
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::arguments::camera_words;
 
     const BOUNDS: Bounds = Bounds { min: [-1.0, -2.0, -3.0], max: [3.0, 2.0, 1.0] };
 
@@ -289,8 +256,11 @@ mod tests {
             is_orthographic: true,
             ..first
         };
-        let text = format!("viewer render 'a b.obj' {} -o out.png", copied.options().join(" "));
-        assert_eq!(first.pasted(&text), Ok(copied));
+        let text = format!(
+            "viewer render 'a b.obj' {} -o out.png",
+            camera_words(&copied.arguments()).join(" ")
+        );
+        assert_eq!(first.pasted(&text).unwrap(), copied);
         assert_eq!(first.pasted("--fov=20").unwrap().fov_y_deg.to_bits(), 20_f64.to_bits());
         for wrong in ["", "viewer render a.obj", "--eye 1,2", "--eye 0,0,1 --target 0,0,1"] {
             assert!(first.pasted(wrong).is_err(), "{wrong}");

@@ -1,0 +1,100 @@
+//! A picture as the words of a command line of `viewer render`, written and read back.
+
+use std::path::PathBuf;
+
+use clap::Parser as _;
+use edgemesh::arguments::CameraArguments;
+
+use super::camera::camera_words;
+use super::lighting::lighting_words;
+use super::picture::PictureArguments;
+use crate::error::Error;
+use crate::scene::lighting::Lighting;
+
+/// What a picture shows, as far as it changes while the arguments that it was read with stay.
+#[derive(Debug)]
+pub(crate) struct PictureWords<'a> {
+    /// The files.
+    pub(crate) models: &'a [PathBuf],
+    /// The technique's name, or its file.
+    pub(crate) technique: &'a str,
+    /// What is set in the technique.
+    pub(crate) settings: Vec<String>,
+    /// The light, and what cuts the scene.
+    pub(crate) lighting: &'a Lighting,
+    /// Whether there is no paper behind the scene.
+    pub(crate) is_transparent: bool,
+    /// The camera, if there is one.
+    pub(crate) camera: Option<CameraArguments>,
+}
+
+impl PictureWords<'_> {
+    /// The words, with those of `arguments` that stay: how models are read and how edges lie
+    /// in memory. Size and name of the picture are not among them.
+    pub(crate) fn words(&self, arguments: &PictureArguments) -> Vec<String> {
+        let mut words: Vec<String> =
+            self.models.iter().map(|model| model.display().to_string()).collect();
+        words.extend(["--technique".to_owned(), self.technique.to_owned()]);
+        for setting in &self.settings {
+            words.extend(["--set".to_owned(), setting.clone()]);
+        }
+        words.extend(lighting_words(self.lighting));
+        if self.is_transparent {
+            words.push("--transparent".to_owned());
+        }
+        words.extend(self.camera.iter().flat_map(camera_words));
+        words.extend(arguments.fixed_words());
+        words
+    }
+}
+
+/// Reads the files and the arguments in words.
+///
+/// # Errors
+/// [`Error::CommandLine`], if they are not those of a picture.
+pub(crate) fn read_words(words: &[String]) -> Result<(Vec<PathBuf>, PictureArguments), Error> {
+    #[derive(clap::Parser)]
+    #[command(no_binary_name = true)]
+    struct Words {
+        models: Vec<PathBuf>,
+        #[command(flatten)]
+        arguments: PictureArguments,
+    }
+    let read = Words::try_parse_from(words);
+    let read = read.map_err(|error| Error::CommandLine(error.to_string().trim().to_owned()))?;
+    Ok((read.models, read.arguments))
+}
+
+/// The command that draws the picture of `words` at a size in pixels.
+pub(crate) fn render_command(words: Vec<String>, [width, height]: [u32; 2]) -> String {
+    let size = format!("{width}x{height}");
+    let ahead = ["viewer", "render"].map(str::to_owned).into_iter();
+    let behind = ["--size", &size, "-o", "picture.png"].map(str::to_owned);
+    shell_line(&ahead.chain(words).chain(behind).collect::<Vec<String>>())
+}
+
+/// Words as a shell reads them.
+pub(crate) fn shell_line(words: &[String]) -> String {
+    let is_plain = |word: &str| {
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:,=+@%".contains(c);
+        !word.is_empty() && word.chars().all(plain)
+    };
+    let quoted = |word: &String| match is_plain(word) {
+        true => word.clone(),
+        false => format!("'{}'", word.replace('\'', r"'\''")),
+    };
+    words.iter().map(quoted).collect::<Vec<String>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_shell_would_read_otherwise_is_quoted() {
+        let words = ["a b.obj", "--set", "x.y=#fff", "it's", ""].map(str::to_owned);
+        assert_eq!(shell_line(&words), r"'a b.obj' --set 'x.y=#fff' 'it'\''s' ''");
+        let line = render_command(vec!["a.obj".into()], [640, 480]);
+        assert_eq!(line, "viewer render a.obj --size 640x480 -o picture.png");
+    }
+}
