@@ -3,9 +3,9 @@
 
 use std::process::Command;
 
+use crate::adapter;
 use crate::failure::Failure;
 use crate::programs::{self, Programs};
-use crate::adapter;
 
 /// Runs the tests. With `args`, which go to the test programs, only `cargo test` runs, and
 /// no bench.

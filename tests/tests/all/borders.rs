@@ -390,13 +390,31 @@ fn a_folder_may_share_what_its_mod_rs_defines() {
 #[test]
 fn a_room_that_looks_up_or_aside_is_found() {
     let cases = [
-        ("use crate::view::View;", "names View of crates/strokes/src/view.rs, but strokes/view is above it"),
-        ("use crate::view;", "names the module of crates/strokes/src/view.rs, but strokes/view is above it"),
-        ("pub use crate::view::View;", "names View of crates/strokes/src/view.rs, but strokes/view is above it"),
-        ("fn of(_: super::style::Style) {}", "names Style of crates/strokes/src/style.rs, but strokes/style is beside it"),
+        (
+            "use crate::view::View;",
+            "names View of crates/strokes/src/view.rs, but strokes/view is above it",
+        ),
+        (
+            "use crate::view;",
+            "names the module of crates/strokes/src/view.rs, but strokes/view is above it",
+        ),
+        (
+            "pub use crate::view::View;",
+            "names View of crates/strokes/src/view.rs, but strokes/view is above it",
+        ),
+        (
+            "fn of(_: super::style::Style) {}",
+            "names Style of crates/strokes/src/style.rs, but strokes/style is beside it",
+        ),
         ("use std::fs;", "names std::fs of std::fs, which is closed to strokes/mesh"),
-        ("use std::{fs::File, io};", "names std::fs::File of std::fs, which is closed to strokes/mesh"),
-        ("fn of() { let _ = image::open(\"a\"); }", "names image::open of image::open, which is closed to strokes/mesh"),
+        (
+            "use std::{fs::File, io};",
+            "names std::fs::File of std::fs, which is closed to strokes/mesh",
+        ),
+        (
+            "fn of() { let _ = image::open(\"a\"); }",
+            "names image::open of image::open, which is closed to strokes/mesh",
+        ),
         ("use egui::Color32;", "names egui::Color32 of egui, which is closed to strokes/mesh"),
         ("use crate::gpu::Gpu; use image::GrayImage; use wgpu::Buffer;", ""),
     ];
@@ -411,7 +429,8 @@ fn a_room_that_looks_up_or_aside_is_found() {
         let lines = crossings(&uses);
         let file = "crates/strokes/src/mesh.rs ";
         let lines: Vec<&str> = lines.iter().map(|line| line.trim_start_matches(file)).collect();
-        let expected: Vec<&str> = Some(expected).filter(|line| !line.is_empty()).into_iter().collect();
+        let expected: Vec<&str> =
+            Some(expected).filter(|line| !line.is_empty()).into_iter().collect();
         assert_eq!(lines, expected, "{text}");
     }
 }

@@ -127,10 +127,10 @@ fn sixteen_bits_draw_their_own_positions() {
             *plane = FacePlane { normal, point };
         }
         let look = technique("ink", &[]);
-        let exact = Drawn::on(gpu(), &rounded)
-            .picture(&look, (Layout::Indexed, DetectionStage::Compute));
-        let sixteen = Drawn::on(gpu(), &mesh)
-            .picture(&look, (Layout::Replicated16, DetectionStage::Compute));
+        let exact =
+            Drawn::on(gpu(), &rounded).picture(&look, (Layout::Indexed, DetectionStage::Compute));
+        let sixteen =
+            Drawn::on(gpu(), &mesh).picture(&look, (Layout::Replicated16, DetectionStage::Compute));
         let wrong = exact
             .pixels()
             .zip(sixteen.pixels())

@@ -211,8 +211,8 @@ impl Mistakes {
         Self { list: warnings }
     }
 
-    /// All of them as text, without the word `error:` before the first one and without the
-    /// last line end.
+    /// The text of all mistakes, without the word `error:` before the first one and without
+    /// the last line break.
     #[must_use]
     pub fn text(&self) -> String {
         let text = self.to_string();

@@ -79,7 +79,7 @@ impl Technique {
     /// strokes that draws it is split, and the new pass for this class alone is changed.
     ///
     /// # Errors
-    /// [`SettingError`], with the names that exist.
+    /// The first mistake, with the names that are possible.
     pub fn set(&mut self, assignment: &str) -> Result<Mistakes, SettingError> {
         self.assign(assignment)
             .map_err(|what| SettingError { assignment: assignment.to_owned(), what })
@@ -118,7 +118,7 @@ impl Technique {
     /// with any ending.
     ///
     /// # Errors
-    /// [`SettingError`], if no pass has visible strokes.
+    /// If there is no such pass.
     pub fn set_brush_file(&mut self, path: &str) -> Result<(), SettingError> {
         let wrong = |what| SettingError { assignment: format!("strokes.brush={path}"), what };
         let source = texture_name::TextureSource::File(path.to_owned());

@@ -12,15 +12,15 @@ use super::descriptor::VariableDescriptor;
 use super::pass::Pass;
 use super::value::{Value, VariableType, color_text};
 
-/// Why a technique cannot be written: the file that it came from cannot be read again.
+/// A changed technique cannot be saved: the text of its original file does not parse.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WriteTechniqueError {
     /// It is not TOML.
-    #[error("the technique cannot be written: {0}")]
+    #[error("the technique cannot be saved: {0}")]
     Syntax(#[from] TomlError),
     /// Its passes are not an array of tables.
-    #[error("the technique cannot be written: its passes are no tables")]
+    #[error("the technique cannot be saved: its passes are not [[pass]] tables")]
     Passes,
 }
 
@@ -28,7 +28,7 @@ pub enum WriteTechniqueError {
 /// becomes its description.
 ///
 /// # Errors
-/// [`WriteTechniqueError`].
+/// If the text of the original file cannot be parsed again.
 pub fn file_text(technique: &Technique, about: &str) -> Result<String, WriteTechniqueError> {
     let source = technique.passes.first().map_or("", |pass| &pass.place.source.text);
     let mut document: DocumentMut = source.parse()?;

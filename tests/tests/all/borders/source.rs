@@ -101,7 +101,8 @@ impl<'ast> Visit<'ast> for Reader<'_> {
             Item::Mod(module) => self.read_module(module),
             Item::Use(import) => {
                 let is_door = !matches!(import.vis, Visibility::Inherited);
-                let start = if import.leading_colon.is_some() { vec![String::new()] } else { vec![] };
+                let start =
+                    if import.leading_colon.is_some() { vec![String::new()] } else { vec![] };
                 imports_of_tree(&import.tree, &start, is_door, &mut self.here().imports);
             }
             _ => visit::visit_item(self, item),
@@ -204,13 +205,15 @@ fn finish_path(path: &mut Path, paths: &mut Vec<Path>) {
 /// Whether a `cfg` leaves code out of everything but tests.
 fn is_for_tests(attributes: &[Attribute]) -> bool {
     attributes.iter().any(|attribute| {
-        attribute.path().is_ident("test") || attribute.path().is_ident("cfg") && {
-            let Meta::List(list) = &attribute.meta else { return false };
-            let mut words = Vec::new();
-            paths_of_tokens(list.tokens.clone(), &mut words);
-            let has = |wanted: &str| words.iter().any(|word| word.len() == 1 && word[0] == wanted);
-            has("test") && !has("not") && !has("any")
-        }
+        attribute.path().is_ident("test")
+            || attribute.path().is_ident("cfg") && {
+                let Meta::List(list) = &attribute.meta else { return false };
+                let mut words = Vec::new();
+                paths_of_tokens(list.tokens.clone(), &mut words);
+                let has =
+                    |wanted: &str| words.iter().any(|word| word.len() == 1 && word[0] == wanted);
+                has("test") && !has("not") && !has("any")
+            }
     })
 }
 

@@ -183,7 +183,9 @@ impl Tree {
             "crate" => self.root(module),
             "self" => module,
             "super" => self.modules[module].parent?,
-            name => *self.modules[module].children.get(name).or_else(|| self.libraries.get(name))?,
+            name => {
+                *self.modules[module].children.get(name).or_else(|| self.libraries.get(name))?
+            }
         };
         for name in rest {
             at = match name.as_str() {
