@@ -1,5 +1,5 @@
 // Which edges are features of a view (McGuire and Hughes, Equation 1).
-// Rust twins: EdgeFlags in crates/edgemesh/src/edge_mesh/record.rs, the crease's angle in
+// Rust twins: EdgeFlags in crates/edgemesh/src/edge_mesh/edge_flags.rs, the crease's angle in
 // edge_word.rs, the rest in crates/edgemesh/src/view/feature.rs.
 #import <common/line_class.wgsl>
 

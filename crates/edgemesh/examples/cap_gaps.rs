@@ -22,7 +22,7 @@ use std::path::Path;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_mesh::edge_word::edge_words;
+use edgemesh::edge_mesh::edge_words::edge_words;
 use edgemesh::edge_mesh::record::EdgeRecord;
 use edgemesh::format::read::read_model;
 use edgemesh::line::class::{ClassTable, LineClass};

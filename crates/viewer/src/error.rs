@@ -16,7 +16,6 @@ use strokes::render::error::RenderError;
 use strokes::view::frame::MAX_CLIP_PLANES;
 use thiserror::Error;
 
-use crate::scene::scene_file::SceneFileError;
 use crate::technique::brush_file::BrushFileError;
 use crate::technique::error::{SettingError, TechniqueError};
 use crate::technique::mistake::Mistakes;
@@ -234,4 +233,28 @@ pub enum ImageError {
     /// It is not a picture of a known format, or is too large.
     #[error("is not a picture that can be read: {0}")]
     Decode(#[from] image::ImageError),
+}
+
+/// Why a scene file was not read.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SceneFileError {
+    /// The operating system does not hand it out, or it is not UTF-8.
+    #[error("{}: cannot be read: {reason}", path.display())]
+    Io {
+        /// The scene file.
+        path: PathBuf,
+        /// What the operating system said.
+        reason: std::io::Error,
+    },
+    /// A line of it is wrong.
+    #[error("{}:{line}: {what}", path.display())]
+    Line {
+        /// The scene file.
+        path: PathBuf,
+        /// The line, counted from 1.
+        line: usize,
+        /// What is wrong with it.
+        what: String,
+    },
 }

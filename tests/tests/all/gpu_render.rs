@@ -318,7 +318,7 @@ fn marked_around(picture: &GrayImage, [x, y]: [u32; 2], reach: u32) -> usize {
 }
 
 fn without_creases(mesh: &EdgeMesh) -> EdgeMesh {
-    use edgemesh::edge_mesh::record::EdgeFlags;
+    use edgemesh::edge_mesh::edge_flags::EdgeFlags;
     let mut mesh = mesh.clone();
     for record in &mut mesh.records {
         record.flags -= EdgeFlags::RIDGE | EdgeFlags::VALLEY | EdgeFlags::MATERIAL;

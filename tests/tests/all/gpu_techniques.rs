@@ -172,7 +172,7 @@ fn a_technique_that_cannot_be_built_leaves_the_last_picture() {
         let mut renderer = PictureRenderer::new(gpu(), &scene, &ink, &[], &options).unwrap();
         let picture = renderer.render(&camera).unwrap().0;
         let failure = renderer.reload(&scene, &broken, &[], &options).unwrap_err();
-        assert!(failure.message.contains("do not fit together"), "{}", failure.message);
+        assert!(failure.to_string().contains("do not fit together"), "{}", failure);
         assert!(renderer.render(&camera).unwrap().0 == picture, "{settings:?}");
         renderer.reload(&scene, &ink, &[], &options).unwrap();
         assert!(renderer.render(&camera).unwrap().0 == picture, "{settings:?}, built again");

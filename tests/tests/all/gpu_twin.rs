@@ -4,9 +4,11 @@ use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::edge_mesh::edge_word::{EdgeWord, edge_words};
+use edgemesh::edge_mesh::edge_flags::EdgeFlags;
+use edgemesh::edge_mesh::edge_word::EdgeWord;
+use edgemesh::edge_mesh::edge_words::edge_words;
 use edgemesh::edge_mesh::normal_cone::{NormalCone, cone_facing};
-use edgemesh::edge_mesh::record::{EdgeFlags, edge_random};
+use edgemesh::edge_mesh::record::edge_random;
 use edgemesh::edge_mesh::{EdgeMesh, FacePlane};
 use edgemesh::index::NONE;
 use edgemesh::line::class::{ClassTable, LineClass};

@@ -3,9 +3,9 @@
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_mesh::edge_word::edge_words;
+use edgemesh::edge_mesh::edge_flags::EdgeFlags;
+use edgemesh::edge_mesh::edge_words::edge_words;
 use edgemesh::edge_mesh::face_edges::FaceEdges;
-use edgemesh::edge_mesh::record::EdgeFlags;
 use edgemesh::edge_mesh::static_links::StaticLinks;
 use edgemesh::format::read::read_model;
 use edgemesh::index::NONE;

@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::mem::offset_of;
 
 use edgemesh::edge_mesh::FacePlane;
+use edgemesh::edge_mesh::edge_flags::EdgeFlags;
 use edgemesh::edge_mesh::edge_word::{CONCAVE, CREASE_SHIFT, CREASE_STEPS};
 use edgemesh::edge_mesh::normal_cone::{CONE_MARGIN, ConeFacing, NormalCone};
-use edgemesh::edge_mesh::record::{EdgeFlags, EdgeVertex, EdgeVertex16};
+use edgemesh::edge_mesh::record::{EdgeVertex, EdgeVertex16};
 use edgemesh::line::class::{LineClass, MAX_LINE_CLASSES, NO_LAYER};
 use edgemesh::line::kind::{CAP_VERTICES, DISK_STEPS, DISK_VERTICES, LineKind};
 use edgemesh::line::placement::{Parameterization, Placement};

@@ -6,7 +6,7 @@
 //! first record) lists a chain. Chains come in the order of their first
 //! records, links in the order of the line.
 //!
-//! An edge that has several classes is chained by the first of [`CLASSES`], so
+//! An edge that has several classes is chained by the first of [`CHAIN_CLASSES`], so
 //! that it lies in one chain only.
 //!
 //! ```text
@@ -21,7 +21,8 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::edge_mesh::record::{EdgeFlags, EdgeRecord};
+use crate::edge_mesh::edge_flags::{CHAIN_CLASSES, EdgeFlags, chain_class_of};
+use crate::edge_mesh::record::EdgeRecord;
 use crate::edge_mesh::{Chain, ChainLink, Chains};
 use crate::index::{NONE, to_u32};
 
@@ -29,23 +30,6 @@ use crate::index::{NONE, to_u32};
 /// it, above which a line ends: 60 degrees. The corners of a hexagon are rounded
 /// by a stroke, those of a square are not.
 pub const DEFAULT_CHAIN_TURN_RAD: f64 = std::f64::consts::FRAC_PI_3;
-
-/// The classes by which edges are chained, the strongest first.
-pub const CLASSES: [EdgeFlags; 7] = [
-    EdgeFlags::MARKED,
-    EdgeFlags::BOUNDARY,
-    EdgeFlags::NON_MANIFOLD,
-    EdgeFlags::MATERIAL,
-    EdgeFlags::SMOOTHING,
-    EdgeFlags::RIDGE,
-    EdgeFlags::VALLEY,
-];
-
-/// The number of the first class in [`CLASSES`] that `flags` have.
-#[must_use]
-pub fn class_of(flags: EdgeFlags) -> Option<usize> {
-    CLASSES.iter().position(|class| flags.intersects(*class))
-}
 
 /// Chains the records; `turn_rad` is the largest turn within a chain.
 pub(crate) fn chain(positions: &[[f32; 3]], records: &[EdgeRecord], turn_rad: f64) -> Chains {
@@ -90,7 +74,8 @@ impl ChainInput<'_> {
         let mut ends: Vec<(u32, u32, u32)> = (0..2 * to_u32(self.features.len()))
             .into_par_iter()
             .map(|end| {
-                let class = class_of(self.record(end / 2).flags).unwrap_or(CLASSES.len());
+                let class =
+                    chain_class_of(self.record(end / 2).flags).unwrap_or(CHAIN_CLASSES.len());
                 (self.vertex(end), to_u32(class), end)
             })
             .collect();
@@ -158,7 +143,7 @@ impl ChainInput<'_> {
             link_count: to_u32(chains.links.len()) - first_link,
             length: rounded(arc),
             is_loop: u32::from(is_loop),
-            class: class_of(flags).map_or(EdgeFlags::empty(), |class| CLASSES[class]),
+            class: chain_class_of(flags).map_or(EdgeFlags::empty(), |class| CHAIN_CLASSES[class]),
         });
     }
 }

@@ -13,8 +13,9 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
+use crate::edge_mesh::edge_flags::EdgeFlags;
 use crate::edge_mesh::face_normal::corners_of;
-use crate::edge_mesh::record::{EdgeFlags, EdgeRecord};
+use crate::edge_mesh::record::EdgeRecord;
 use crate::edge_mesh::topology::EdgeTable;
 use crate::index::{NONE, to_u32};
 

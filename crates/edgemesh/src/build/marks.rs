@@ -5,7 +5,8 @@
 use std::collections::BTreeSet;
 
 use super::BuildOptions;
-use crate::edge_mesh::record::{EdgeFlags, EdgeRecord};
+use crate::edge_mesh::edge_flags::EdgeFlags;
+use crate::edge_mesh::record::EdgeRecord;
 use crate::edge_mesh::topology::EdgeTable;
 use crate::index::{NONE, to_u32};
 use crate::model::Model;

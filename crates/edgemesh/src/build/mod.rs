@@ -35,7 +35,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 pub(crate) use self::attributes::FaceAttributes;
-pub use self::chains::{CLASSES, DEFAULT_CHAIN_TURN_RAD, class_of};
+pub use self::chains::DEFAULT_CHAIN_TURN_RAD;
 use self::components::Components;
 use self::corners::{CornerInput, build_fill};
 use self::faces::{FaceSources, keep_items};
@@ -44,8 +44,8 @@ use self::marks::Marks;
 use self::records::{RecordInput, Surface, build_records};
 pub use self::weld::Welding;
 use self::weld::{Weld, weld};
+use crate::edge_mesh::edge_flags::EdgeFlags;
 use crate::edge_mesh::mesh_frame::MeshFrame;
-use crate::edge_mesh::record::EdgeFlags;
 use crate::edge_mesh::topology::{EdgeCounts, EdgePart, EdgeTable, triangle_side};
 use crate::edge_mesh::{Bounds, EdgeMesh, MeshCounts, SourceCounts};
 use crate::index::{NONE, to_u32};

@@ -3,8 +3,9 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec3, Vec3};
 
+use crate::edge_mesh::edge_flags::EdgeFlags;
 use crate::edge_mesh::mesh_frame::MeshFrame;
-use crate::edge_mesh::record::{EdgeFlags, EdgeRecord, EdgeVertex, EdgeVertex16};
+use crate::edge_mesh::record::{EdgeRecord, EdgeVertex, EdgeVertex16};
 use crate::edge_mesh::topology::EdgeCounts;
 use crate::index::NONE;
 use crate::model::Material;

@@ -2,12 +2,16 @@
 //!
 //! - [`mesh`]: the mesh with all of its records, chains and triangles.
 //! - [`record`], [`replicate`]: an edge in each of the layouts.
-//! - [`edge_word`]: the classes of an edge and the angle of its crease, in 24 bits.
+//! - [`edge_flags`]: the classes of an edge.
+//! - [`edge_word`], [`edge_words`]: the classes and the angle of the crease, in 24 bits, of an
+//!   edge and of all edges.
 //! - [`topology`], [`face_edges`], [`static_links`]: which face, edge or line follows which.
 //! - [`normal_cone`]: faces that all look one way.
 //! - [`mesh_frame`]: where the mesh lies in its file.
 
+pub mod edge_flags;
 pub mod edge_word;
+pub mod edge_words;
 pub mod face_edges;
 pub mod face_normal;
 pub mod mesh;

@@ -20,11 +20,11 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::edge_mesh::edge_word::{EdgeWord, edge_words};
+use crate::edge_mesh::edge_flags::EdgeFlags;
+use crate::edge_mesh::edge_word::EdgeWord;
+use crate::edge_mesh::edge_words::edge_words;
 use crate::edge_mesh::face_normal::{corners_of, face_normal};
-use crate::edge_mesh::record::{
-    EdgeFlags, EdgeRecord, EdgeVertex, EdgeVertex16, FinVertex, edge_random,
-};
+use crate::edge_mesh::record::{EdgeRecord, EdgeVertex, EdgeVertex16, FinVertex, edge_random};
 use crate::edge_mesh::{Bounds, EdgeMesh};
 use crate::index::NONE;
 

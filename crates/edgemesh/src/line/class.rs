@@ -9,7 +9,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::edge_mesh::record::EdgeFlags;
+use crate::edge_mesh::edge_flags::EdgeFlags;
 
 /// A class of lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

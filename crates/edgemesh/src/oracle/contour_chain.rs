@@ -24,8 +24,8 @@
 //! on rough meshes four and more meet at many vertices.
 
 use crate::edge_mesh::EdgeMesh;
+use crate::edge_mesh::edge_flags::EdgeFlags;
 use crate::edge_mesh::face_edges::FaceEdges;
-use crate::edge_mesh::record::EdgeFlags;
 use crate::index::NONE;
 use crate::view::feature::{Line, LineBits};
 

@@ -140,8 +140,8 @@ mod tests {
 
     use super::*;
     use crate::build::{BuildOptions, build_edge_mesh};
-    use crate::edge_mesh::edge_word::edge_words;
-    use crate::edge_mesh::record::EdgeFlags;
+    use crate::edge_mesh::edge_flags::EdgeFlags;
+    use crate::edge_mesh::edge_words::edge_words;
     use crate::line::class::{ClassTable, LineClass};
     use crate::model::Model;
     use crate::report::Report;

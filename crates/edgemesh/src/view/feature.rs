@@ -10,8 +10,8 @@
 
 use glam::{Vec3, Vec4};
 
+use crate::edge_mesh::edge_flags::EdgeFlags;
 use crate::edge_mesh::edge_word::{EdgeWord, STEPS_PER_DEGREE};
-use crate::edge_mesh::record::EdgeFlags;
 use crate::line::class::{ClassTable, LineClass, NO_LAYER};
 
 bitflags::bitflags! {

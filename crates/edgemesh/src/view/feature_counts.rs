@@ -6,8 +6,10 @@ use glam::Vec4;
 use serde::{Serialize, Serializer};
 
 use crate::edge_mesh::EdgeMesh;
-use crate::edge_mesh::edge_word::{EdgeWord, edge_words};
-use crate::edge_mesh::record::{EdgeFlags, EdgeRecord};
+use crate::edge_mesh::edge_flags::EdgeFlags;
+use crate::edge_mesh::edge_word::EdgeWord;
+use crate::edge_mesh::edge_words::edge_words;
+use crate::edge_mesh::record::EdgeRecord;
 use crate::index::NONE;
 use crate::line::class::{ClassTable, LineClass};
 use crate::view::facing::faces_eye;

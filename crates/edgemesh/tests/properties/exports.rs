@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_mesh::record::{EdgeFlags, class_names};
+use edgemesh::edge_mesh::edge_flags::{EdgeFlags, class_names};
 use edgemesh::format::export::{ExportFormat, to_bytes};
 use edgemesh::format::read::{Format, read_model_bytes};
 use edgemesh::index::NONE;

@@ -2,9 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use edgemesh::build::{BuildOptions, Welding, class_of};
+use edgemesh::build::{BuildOptions, Welding};
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_mesh::record::{EdgeFlags, EdgeRecord};
+use edgemesh::edge_mesh::edge_flags::{CHAIN_CLASSES, EdgeFlags, chain_class_of};
+use edgemesh::edge_mesh::record::EdgeRecord;
 use edgemesh::edge_mesh::replicate::{Quantization, replicate_16};
 use edgemesh::index::NONE;
 use edgemesh::report::{RepairKind, Report};
@@ -79,7 +80,7 @@ proptest! {
                 prop_assert!(seen.insert(link.record), "twice: {:?}", link);
                 prop_assert_eq!(link.chain, number);
                 let flags = built.records[link.record as usize].flags;
-                let class = class_of(flags).map(|class| edgemesh::build::CLASSES[class]);
+                let class = chain_class_of(flags).map(|class| CHAIN_CLASSES[class]);
                 prop_assert_eq!(class, Some(chain.class));
                 prop_assert!((f64::from(link.arc_start) - arc).abs() <= 1e-5 * (1.0 + arc));
                 let (start, end) = link_ends(&built, link);

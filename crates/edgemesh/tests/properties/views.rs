@@ -4,7 +4,8 @@
 use std::collections::BTreeMap;
 
 use edgemesh::build::BuildOptions;
-use edgemesh::edge_mesh::record::{EdgeFlags, EdgeRecord};
+use edgemesh::edge_mesh::edge_flags::EdgeFlags;
+use edgemesh::edge_mesh::record::EdgeRecord;
 use edgemesh::edge_mesh::replicate::replicate;
 use edgemesh::edge_mesh::{Bounds, EdgeMesh};
 use edgemesh::index::NONE;

@@ -20,7 +20,7 @@ use std::cell::Cell;
 use std::sync::Arc;
 
 use bytemuck::Pod;
-use edgemesh::edge_mesh::edge_word::edge_words;
+use edgemesh::edge_mesh::edge_words::edge_words;
 use edgemesh::edge_mesh::normal_cone::NormalCone;
 use edgemesh::edge_mesh::record::{EdgeVertex, EdgeVertex16, FinVertex};
 use edgemesh::edge_mesh::replicate::{Quantization, fins, replicate, replicate_16};

@@ -208,7 +208,7 @@ impl<'a> Cutter<'a> {
 #[cfg(test)]
 mod tests {
     use edgemesh::build::{BuildOptions, build_edge_mesh};
-    use edgemesh::edge_mesh::edge_word::edge_words;
+    use edgemesh::edge_mesh::edge_words::edge_words;
     use edgemesh::model::Model;
     use edgemesh::report::Report;
 

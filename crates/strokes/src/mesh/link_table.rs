@@ -24,8 +24,8 @@
 use std::ops::Range;
 
 use edgemesh::edge_mesh::EdgeMesh;
+use edgemesh::edge_mesh::edge_flags::EdgeFlags;
 use edgemesh::edge_mesh::face_edges::FaceEdges;
-use edgemesh::edge_mesh::record::EdgeFlags;
 use edgemesh::edge_mesh::static_links::StaticLinks;
 use edgemesh::index::{NONE, to_u32};
 

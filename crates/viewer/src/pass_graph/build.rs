@@ -13,23 +13,23 @@ use strokes::view::frame::frame_layout;
 use strokes::view::view_state::ViewState;
 
 use super::bindings::{Samplers, Sources};
+use super::builder::Builder;
 use super::copy_pass::CopyPass;
 use super::ping_pong::PingPong;
-use super::pipeline::{Geometry, GraphLayouts, PassPipeline, PipelineTarget, Programs};
 use super::pipeline_cache::PipelineCache;
 use super::scene_buffers::SceneBuffers;
 use super::scene_pass::ScenePass;
 use super::screen_pass::ScreenPass;
 use super::stroke_pass::{self, StrokeGroup, StrokeRenderers};
 use super::surface::{SurfaceInput, Surfaces};
-use super::textures::{GeneratedTexture, Images, wgpu_format};
-use super::{GraphInput, PassGraph, Schedule, Step, StepKind, blend};
+use super::textures::{GeneratedTexture, Images};
+use super::{GraphInput, PassGraph, Schedule, Step, StepKind};
 use crate::error::Error;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
 use crate::technique::core_view::CoreView;
 use crate::technique::pass::Pass;
-use crate::technique::plan::{PassPlan, Plan, Target, TexturePlan};
+use crate::technique::plan::{PassPlan, Plan, TexturePlan};
 
 /// The difference between a graph and the one for another input.
 #[derive(Debug)]
@@ -282,29 +282,7 @@ fn groups_of(technique: &Technique, overrides: &[Technique]) -> Vec<Vec<usize>> 
     groups
 }
 
-/// Builds steps.
-pub(super) struct Builder<'a> {
-    pub(super) gpu: &'a Gpu,
-    pub(super) input: &'a GraphInput<'a>,
-    pub(super) formats: TargetFormats,
-    /// The layout of `@group(0)`.
-    pub(super) frame: &'a wgpu::BindGroupLayout,
-    pipelines: RefCell<PipelineCache>,
-}
-
 impl Builder<'_> {
-    /// A pipeline, built if it is not in the cache.
-    pub(super) fn pipeline(
-        &self,
-        layouts: GraphLayouts,
-        programs: Programs,
-        geometry: Geometry,
-        target: &PipelineTarget,
-    ) -> Result<PassPipeline, Error> {
-        let mut pipelines = self.pipelines.borrow_mut();
-        pipelines.pipeline(self.gpu, layouts, programs, geometry, target)
-    }
-
     fn step(
         &self,
         group: &[usize],
@@ -328,24 +306,5 @@ impl Builder<'_> {
         };
         let schedule = Schedule::new(pass, plan);
         Ok(Step { name: pass.name.clone(), kind, plan: plan.clone(), schedule })
-    }
-
-    /// Formats and blending of the target of a pass.
-    pub(super) fn target(&self, plan: &PassPlan) -> PipelineTarget {
-        let blend = blend::blend_state(plan.core.blend());
-        let clips = self.input.options.clips;
-        let format = |&at: &usize| wgpu_format(self.input.plan.textures[at].format);
-        match &plan.target {
-            Target::Framebuffer => PipelineTarget::framebuffer(&self.formats, blend, clips),
-            Target::Textures { colors, depth } => PipelineTarget {
-                colors: colors.iter().map(format).collect(),
-                depth: depth.as_ref().map(format),
-                samples: 1,
-                blend,
-                is_pushed: false,
-                writes_depth: false,
-                clips,
-            },
-        }
     }
 }

@@ -15,11 +15,13 @@
 //! - `surface`, `material`, `textures`: what they draw and read.
 //! - `bindings`, `params`, `pipeline`, `blend`: parameters, textures and targets of
 //!   programs; `pipeline_cache`: pipelines that were built before.
-//! - `build`: a graph for a plan, with all that an earlier graph had.
+//! - `build`: a graph for a plan, with all that an earlier graph had; `builder`: what every
+//!   pass is built with.
 
 mod bindings;
 mod blend;
 mod build;
+mod builder;
 mod copy_pass;
 pub mod material;
 mod params;

@@ -9,7 +9,7 @@ use strokes::gpu::timer::TimedPasses;
 
 use super::Encoding;
 use super::bindings::{Replacement, Sources};
-use super::build::Builder;
+use super::builder::Builder;
 use super::params::Iteration;
 use super::pipeline::{GroupBuffers, PassPipeline, PipelineTarget};
 use super::screen_pass::{color_attachment, draw, own_program, screen_pipeline};

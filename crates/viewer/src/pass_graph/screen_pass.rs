@@ -5,7 +5,7 @@ use strokes::gpu::timer::TimedPasses;
 
 use super::Encoding;
 use super::bindings::Sources;
-use super::build::Builder;
+use super::builder::Builder;
 use super::params::Iteration;
 use super::pipeline::{Geometry, GraphLayouts, GroupBuffers, PassPipeline, Programs};
 use crate::error::Error;

@@ -18,32 +18,9 @@ use std::path::{Path, PathBuf};
 
 use glam::{DMat4, DQuat, DVec3, EulerRot};
 use serde::Deserialize;
-use thiserror::Error;
 use toml::Spanned;
 
-/// Why a scene file was not read.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum SceneFileError {
-    /// The operating system does not hand it out, or it is not UTF-8.
-    #[error("{}: cannot be read: {reason}", path.display())]
-    Io {
-        /// The scene file.
-        path: PathBuf,
-        /// What the operating system said.
-        reason: std::io::Error,
-    },
-    /// A line of it is wrong.
-    #[error("{}:{line}: {what}", path.display())]
-    Line {
-        /// The scene file.
-        path: PathBuf,
-        /// The line, counted from 1.
-        line: usize,
-        /// What is wrong with it.
-        what: String,
-    },
-}
+use crate::error::SceneFileError;
 
 /// An object as its scene file has it.
 #[derive(Debug, Clone, PartialEq)]

@@ -12,10 +12,10 @@ use egui::{CentralPanel, Panel, Sense, Ui};
 
 use super::background::{Background, Tell};
 use super::canvas::Canvas;
+use super::device_loss::{Kept, Lost, watch_device};
 use super::error_text::{error_text, saving_text};
 use super::hands::Hands;
 use super::loading::{self, Built, LoadedScene, Loading, ToLoad};
-use super::opening::{Kept, Lost, watch_device};
 use super::saving::{self, Order};
 use super::session::{Request, Session, Work};
 use super::thumbnails::{self, Thumbnail};

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use edgemesh::build::{BuildOptions, set_marks};
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_mesh::record::EdgeFlags;
+use edgemesh::edge_mesh::edge_flags::EdgeFlags;
 use edgemesh::format::whole_file::write_file;
 use edgemesh::load::LoadError;
 use edgemesh::load::marks::{SideMarks, marks_text, read_marks, side_file};

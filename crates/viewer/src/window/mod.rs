@@ -14,7 +14,8 @@
 //!   pixels on the window.
 //! - `inspection`: what passes draw for each other, shown. `marking`: edges marked by hand.
 //!   `saving`, `thumbnails`: pictures drawn on the side.
-//! - `opening`: the window opens, and again where its device was lost.
+//! - `opening`: the window opens, and again where its device was lost;
+//!   `device_loss`: what it learns then and takes over.
 //! - `style`: what the window looks like. `desktop`: light or dark as the desktop is, and its
 //!   dialogs. `error_text`: errors as the window words them.
 //! - `app`: one frame of the window. `hands`: pointer and keys. `panels`: what is beside the picture.
@@ -23,6 +24,7 @@ mod app;
 pub mod background;
 mod canvas;
 mod desktop;
+mod device_loss;
 mod error_text;
 pub mod hands;
 pub mod inspection;

@@ -81,7 +81,7 @@ fn reverse_numbers<T: Element>(bytes: &mut [u8]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edge_mesh::record::EdgeFlags;
+    use crate::edge_mesh::edge_flags::EdgeFlags;
 
     #[test]
     fn lists_are_little_endian_wherever_they_lie() {

@@ -83,7 +83,8 @@ fn materials(sections: &Sections, names: Vec<MaterialNames>) -> Result<Vec<Mater
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edge_mesh::record::{EdgeFlags, EdgeRecord};
+    use crate::edge_mesh::edge_flags::EdgeFlags;
+    use crate::edge_mesh::record::EdgeRecord;
     use crate::edge_mesh::topology::EdgeCounts;
     use crate::edge_mesh::{
         Chain, ChainLink, Chains, EdgeMesh, FacePlane, FillMesh, FillVertex, MeshCounts, MeshFrame,

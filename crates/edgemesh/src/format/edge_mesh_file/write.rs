@@ -135,7 +135,7 @@ fn assemble(contents: &[SectionContent<'_>]) -> Result<Vec<u8>, FileError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edge_mesh::record::EdgeFlags;
+    use crate::edge_mesh::edge_flags::EdgeFlags;
     use crate::format::edge_mesh_file::parse;
     use crate::format::edge_mesh_file::samples::{Sample, samples, sheet, textured, triangle};
     use crate::model::{Texture, TextureSource};

@@ -1,6 +1,7 @@
 //! The edges and chains of a mesh, from its records.
 
-use crate::edge_mesh::record::{EdgeFlags, EdgeRecord};
+use crate::edge_mesh::edge_flags::EdgeFlags;
+use crate::edge_mesh::record::EdgeRecord;
 use crate::edge_mesh::{Chain, ChainLink, EdgeMesh};
 
 /// The records of each edge: one, or several for an edge of more than two faces. Lines

@@ -24,9 +24,9 @@
 use glam::{Vec3, Vec4Swizzles as _};
 
 use super::edge_records::{edges, hard_classes, link_ends, welded_ends};
-use crate::build::{CLASSES, class_of};
+use crate::edge_mesh::edge_flags::{CHAIN_CLASSES, EdgeFlags, chain_class_of};
 use crate::edge_mesh::face_edges::side_on;
-use crate::edge_mesh::record::{EdgeFlags, EdgeRecord};
+use crate::edge_mesh::record::EdgeRecord;
 use crate::edge_mesh::{ChainLink, EdgeMesh};
 use crate::index::NONE;
 
@@ -154,9 +154,9 @@ fn contour_normals(mesh: &EdgeMesh, record: &EdgeRecord, side: usize) -> Option<
 /// The line strings of a mesh for each class, and whether each record is in one.
 fn line_strings(mesh: &EdgeMesh) -> (Vec<LineStrings>, Vec<bool>) {
     let mut is_in_line = vec![false; mesh.records.len()];
-    let mut by_class = CLASSES.map(|class| LineStrings { class, ..LineStrings::default() });
+    let mut by_class = CHAIN_CLASSES.map(|class| LineStrings { class, ..LineStrings::default() });
     for chain in &mesh.chains.chains {
-        let Some(class) = class_of(chain.class) else { continue };
+        let Some(class) = chain_class_of(chain.class) else { continue };
         let links = &mesh.chains.links[chain.link_range()];
         let is_joined =
             |a: &ChainLink, b: &ChainLink| may_be_in_line(mesh, a) && may_be_in_line(mesh, b);

@@ -21,9 +21,8 @@ use std::io::{self, Write};
 use super::edge_records::chain_vertices;
 use super::file_number::in_file;
 use super::one_line::one_line;
-use crate::build::CLASSES;
 use crate::edge_mesh::EdgeMesh;
-use crate::edge_mesh::record::class_names;
+use crate::edge_mesh::edge_flags::{CHAIN_CLASSES, class_names};
 
 /// Writes a mesh with its chains.
 ///
@@ -49,7 +48,7 @@ pub(super) fn write_obj(mesh: &EdgeMesh, name: &str, out: &mut impl Write) -> io
 }
 
 fn write_chains(mesh: &EdgeMesh, out: &mut impl Write) -> io::Result<()> {
-    for class in CLASSES {
+    for class in CHAIN_CLASSES {
         let mut chains = mesh.chains.chains.iter().filter(|chain| chain.class == class).peekable();
         if chains.peek().is_some() {
             writeln!(out, "g {}", class_names(class).next().unwrap_or_default())?;

@@ -15,11 +15,10 @@ use std::io::{self, Write};
 use super::edge_records::{edges, hard_classes};
 use super::file_number::{FileNumber, in_file};
 use super::one_line::one_line;
-use crate::build::{CLASSES, class_of};
 use crate::edge_mesh::EdgeMesh;
-use crate::edge_mesh::record::{EdgeFlags, class_names};
+use crate::edge_mesh::edge_flags::{CHAIN_CLASSES, EdgeFlags, chain_class_of, class_names};
 
-/// The colors of [`CLASSES`].
+/// The colors of [`CHAIN_CLASSES`].
 const COLORS: [[u8; 3]; 7] = [
     [214, 39, 40],
     [31, 119, 180],
@@ -51,7 +50,7 @@ pub(super) fn write_ply(mesh: &EdgeMesh, name: &str, out: &mut impl Write) -> io
     }
     for ([start, end], flags) in hard_edges(mesh) {
         out.write_all([start, end].map(u32::to_le_bytes).as_flattened())?;
-        out.write_all(&class_of(flags).map_or([0; 3], |class| COLORS[class]))?;
+        out.write_all(&chain_class_of(flags).map_or([0; 3], |class| COLORS[class]))?;
         out.write_all(&flags.bits().to_le_bytes())?;
     }
     Ok(())
@@ -61,7 +60,7 @@ fn write_header(mesh: &EdgeMesh, name: &str, out: &mut impl Write) -> io::Result
     writeln!(out, "ply\nformat binary_little_endian 1.0")?;
     writeln!(out, "comment {}", one_line(name))?;
     writeln!(out, "comment Edgemesh {}: a mesh and its hard edges", env!("CARGO_PKG_VERSION"))?;
-    for (class, [red, green, blue]) in CLASSES.into_iter().zip(COLORS) {
+    for (class, [red, green, blue]) in CHAIN_CLASSES.into_iter().zip(COLORS) {
         let bit = class.bits();
         let word = class_names(class).next().unwrap_or_default();
         writeln!(out, "comment edge flag {bit}, color {red} {green} {blue}: {word}")?;

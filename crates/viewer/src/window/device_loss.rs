@@ -1,0 +1,75 @@
+//! A graphics device that is lost: how the window learns of it, and what the next window
+//! takes over.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::loading::ToLoad;
+use super::session::Session;
+
+/// What goes on from one window to the next.
+#[derive(Debug)]
+pub(super) struct Kept {
+    pub(super) session: Session,
+    /// What is not loaded yet.
+    pub(super) to_load: Option<ToLoad>,
+    /// Whether there was no window before.
+    pub(super) is_new: bool,
+}
+
+/// What is known of a device that may be lost.
+#[derive(Debug, Default)]
+pub(super) struct Lost {
+    pub(super) is_lost: AtomicBool,
+    device: Mutex<Option<wgpu::Device>>,
+    /// Whether the window had a frame.
+    pub(super) is_shown: AtomicBool,
+}
+
+impl Lost {
+    /// Destroys the device. It tells so later than one that is really lost, so it is noted
+    /// here.
+    pub(super) fn lose(&self) {
+        self.is_lost.store(true, Ordering::Relaxed);
+        if let Some(device) = &*self.device.lock().unwrap_or_else(PoisonError::into_inner) {
+            device.destroy();
+        }
+    }
+
+    /// Whether it is lost. A device says so when it is asked.
+    pub(super) fn is_lost(&self) -> bool {
+        if let Some(device) = &*self.device.lock().unwrap_or_else(PoisonError::into_inner) {
+            let _ = device.poll(wgpu::PollType::Poll);
+        }
+        self.is_lost.load(Ordering::Relaxed)
+    }
+}
+
+/// Has a lost device and faults of ours told instead of ending the program.
+pub(super) fn watch_device(
+    device: &wgpu::Device,
+    context: &egui::Context,
+    lost: &Arc<Lost>,
+    faults: &Arc<Mutex<Vec<String>>>,
+) {
+    *lost.device.lock().unwrap_or_else(PoisonError::into_inner) = Some(device.clone());
+    let (told, repaint) = (lost.clone(), context.clone());
+    device.set_device_lost_callback(move |reason, what| {
+        log::error!("the graphics adapter was lost ({reason:?}): {what}");
+        told.is_lost.store(true, Ordering::Relaxed);
+        repaint.request_repaint();
+    });
+    let (lost, faults) = (lost.clone(), faults.clone());
+    device.on_uncaptured_error(Arc::new(move |error| {
+        // A lost device has more to say than anyone wants to hear.
+        if lost.is_lost.load(Ordering::Relaxed) {
+            return;
+        }
+        let text = format!("a fault in the use of the graphics adapter, please report it: {error}");
+        log::error!("{text}");
+        let mut faults = faults.lock().unwrap_or_else(PoisonError::into_inner);
+        if !faults.contains(&text) {
+            faults.push(text);
+        }
+    }));
+}
