@@ -10,11 +10,11 @@
 //! | room | what is done there |
 //! |---|---|
 //! | [`model`] | what a file says: polygons, materials, rigs |
-//! | [`format`] | files in and out |
+//! | [`format`](mod@format) | files in and out |
 //! | [`build`] | a model becomes an edge mesh, one stage per file |
 //! | [`edge_mesh`] | the edge mesh, its records and layouts |
 //! | [`load`] | a file becomes an edge mesh in one call, with the marks beside it |
-//! | [`line`] | line classes, kinds of lines, where they lie |
+//! | [`line`](mod@line) | line classes, kinds of lines, where they lie |
 //! | [`view`] | what one view makes of it: cameras, facing, features |
 //! | [`oracle`] | CPU twins of the shaders, which tests hold them to |
 //!

@@ -1,21 +1,25 @@
-//! Draws 3D models as line art: looks, pictures, the window, and the `viewer` command.
+//! Draws 3D models as line art: techniques, pictures, the window, and the `viewer` command.
 //!
 //! ```text
 //! MODEL... --read, build (edgemesh)--> edge meshes --upload (strokes)--+
-//! technique + --set --> Look --> pipelines ----------------------------+--> frame --> PNG, statistics
+//! technique + --set --> Plan --> PassGraph ----------------------------+--> frame --> PNG, statistics
 //! camera options --> View ---------------------------------------------+
 //! ```
 //!
-//! - [`technique`]: what a picture looks like, by name, with its variables.
-//! - [`render`]: a scene of edge meshes to pictures, without any window.
-//! - [`parts`]: pictures of any size, in parts where they are too large.
-//! - [`picture`]: PNG in and out, and the comparison with a reference.
-//! - [`animation`]: several pictures as a GIF or an animated PNG.
-//! - [`comparison`]: stroke textures, measured along camera paths.
-//! - [`turntable`]: a camera that goes around.
-//! - [`Error`]: what can go wrong.
-//! - [`window`]: the window.
-//! - [`command`]: the command line; `main.rs` only calls it.
+//! The rooms, in the order in which a picture goes through them:
+//!
+//! | room | what is done there |
+//! |---|---|
+//! | [`technique`] | text files become passes with values, and a plan; no GPU |
+//! | [`scene`] | models in their places, light and cuts |
+//! | [`pass_graph`] | a plan on the GPU: pipelines, textures, steps |
+//! | [`picture`] | a picture of any size, PNG files, turntables |
+//! | [`comparison`] | stroke textures, measured along camera paths |
+//! | `arguments` | a picture as the words of a command line |
+//! | [`window`] | the window |
+//! | [`command`] | the verbs of `viewer`; `main.rs` only calls it |
+//!
+//! [`Error`] lists what can go wrong; [`watch`] reports files that change.
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 

@@ -3,7 +3,7 @@
 //! The number of a class is its place in [`LineClass::ALL`], the strongest first: a line of
 //! several classes is drawn as the strongest that is drawn at all. Counts, layers and bit
 //! masks are indexed by it, in Rust and in WGSL, so a class is added in two places: a row of
-//! [`CLASSES`] with its variant, and its constant in the WGSL twin.
+//! the table below with its variant, and its constant in the WGSL twin.
 //!
 //! WGSL twin: `shaders/common/line_class.wgsl`.
 

@@ -2,7 +2,7 @@
 //!
 //! The indexed layout decides from facing bits and static flags
 //! ([`classify_edge`]); the paper's replicated layout decides from the edge
-//! vertex alone ([`equation_1`]). A property test holds them to each other.
+//! vertex alone ([`equation_1`](crate::oracle::equation_1)). A property test holds them to each other.
 //! Which of the classes of an edge counts, and in which layer it is drawn, says a
 //! [`ClassTable`].
 //!

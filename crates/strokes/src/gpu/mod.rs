@@ -1,7 +1,7 @@
 //! The device, and what every part of the crate does with it.
 //!
 //! - [`device`]: the adapter and the device.
-//! - [`bind`]: buffers, bind groups and compute pipelines.
+//! - `bind`: buffers, bind groups and compute pipelines.
 //! - [`shader`]: WGSL with imports.
 //! - [`target_formats`]: what pipelines and targets must agree on.
 //! - [`readback`], [`timer`]: from the GPU back to memory.
