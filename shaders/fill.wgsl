@@ -1,5 +1,5 @@
 // The surface itself: depth for the strokes to be tested against, and one flat
-// colour. Both sides of a face are filled.
+// color. Both sides of a face are filled.
 #import <common/frame.wgsl>
 
 // Rust twin: FillUniform in crates/strokes/src/draw/fill.rs.

@@ -1,4 +1,4 @@
-// The fragments of contours that lie inside of their edge, or centred on it: over
+// The fragments of contours that lie inside of their edge, or centerd on it: over
 // the surface that they bound.
 //
 // That surface turns toward the eye faster than any one face tells, and would

@@ -14,7 +14,7 @@ fn distance_at(depths: texture_depth_2d, texel: vec2i) -> f32 {
 }
 
 // Thesis, Equations 3.7 and 3.8: the least dot product of the normal with those of the
-// four neighbours, and their sum.
+// four neighbors, and their sum.
 fn dot_products(normals: texture_2d<f32>, texel: vec2i) -> vec2f {
     let center = normal_at(normals, texel);
     var least = 1.0e9;
@@ -27,7 +27,7 @@ fn dot_products(normals: texture_2d<f32>, texel: vec2i) -> vec2f {
     return vec2f(least, sum);
 }
 
-// Thesis, Equation 3.12: the largest difference of depth to a neighbour.
+// Thesis, Equation 3.12: the largest difference of depth to a neighbor.
 fn depth_delta(depths: texture_depth_2d, texel: vec2i) -> f32 {
     let center = distance_at(depths, texel);
     var most = 0.0;
@@ -46,7 +46,7 @@ fn depth_laplacian(depths: texture_depth_2d, texel: vec2i) -> f32 {
     return abs(sum);
 }
 
-// Whether a neighbour is of another region.
+// Whether a neighbor is of another region.
 fn regions_differ(ids: texture_2d<f32>, texel: vec2i) -> bool {
     let size = textureDimensions(ids);
     let center = textureLoad(ids, within(texel, size), 0).rgb;
@@ -66,7 +66,7 @@ fn world_at(depths: texture_depth_2d, texel: vec2i) -> vec3f {
     return world_of(place_px, depth);
 }
 
-// How far neighbours are from the plane through a texel, in pixels: no more than rounding
+// How far neighbors are from the plane through a texel, in pixels: no more than rounding
 // on a plane, however steep it is seen. Of a pair the smaller distance counts, of either
 // from the other's plane, so that both sides of a step are edges and a smooth bend is
 // none. Against the background there is an edge in any case.
@@ -102,7 +102,7 @@ fn unit_normal_at(normals: texture_2d<f32>, texel: vec2i) -> vec3f {
     return select(vec3f(0.0), normal / length, length > 0.0);
 }
 
-// A mixture of two colours with straight alpha, premultiplied.
+// A mixture of two colors with straight alpha, premultiplied.
 fn line_color(strength: f32, line: vec4f, background: vec4f) -> vec4f {
     let color = mix(background, line, clamp(strength, 0.0, 1.0));
     return vec4f(color.rgb * color.a, color.a);

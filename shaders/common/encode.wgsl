@@ -1,6 +1,6 @@
-// Normals, depths and ids as colours, and back.
+// Normals, depths and ids as colors, and back.
 
-// A direction as a colour: each axis from -1..1 to 0..1 (NPRView thesis, section 3.3.1).
+// A direction as a color: each axis from -1..1 to 0..1 (NPRView thesis, section 3.3.1).
 fn rgb_of_normal(normal: vec3f) -> vec3f {
     return 0.5 * normal + 0.5;
 }
@@ -9,7 +9,7 @@ fn normal_of_rgb(rgb: vec3f) -> vec3f {
     return 2.0 * rgb - 1.0;
 }
 
-// A colour of 24 bits for each whole number from 1 to 2^24 - 1, no two alike: the
+// A color of 24 bits for each whole number from 1 to 2^24 - 1, no two alike: the
 // factor is odd, so that the product can be undone. 0 is black.
 fn rgb_of_id(id: u32) -> vec3f {
     let bits = (id * 0x9e3779u) & 0xffffffu;

@@ -12,7 +12,7 @@
 const CENTRED: u32 = 0u;
 const OUTSIDE: u32 = 1u;
 const INSIDE: u32 = 2u;
-// Contours outside, everything else centred.
+// Contours outside, everything else centerd.
 const AUTOMATIC: u32 = 3u;
 
 // How far the near side (corners 0 and 1) and the far side (2 and 3) lie from

@@ -1,4 +1,4 @@
-// Neighbours of a texel, those of the rim standing for what lies beyond.
+// Neighbors of a texel, those of the rim standing for what lies beyond.
 
 // The cross of the thesis (Figure 3.5): left, right, below, above.
 const CROSS: array<vec2i, 4> = array(vec2i(-1, 0), vec2i(1, 0), vec2i(0, 1), vec2i(0, -1));

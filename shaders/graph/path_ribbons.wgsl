@@ -1,5 +1,5 @@
 // Segments of strokes, ready to be drawn: with their width, their place along the
-// brush, and how they join their neighbours.
+// brush, and how they join their neighbors.
 //
 // A join belongs to each of its segments up to the line that halves its angle. Where one
 // of them is too short to reach that line, both are round there and overlap: the larger
@@ -46,7 +46,7 @@ fn ribbon_of(index: u32) -> Ribbon {
     let whole_px = px_of_arc(next.arc - here.arc);
     var arcs = from_start + here.cut * whole_px;
 
-    let other = neighbours_of(style, extent, part, index);
+    let other = neighbors_of(style, extent, part, index);
     let is_ring = extent.is_closed && part.count == 1.0;
     let side = side_of(style, here.flags);
     let start = meeting_of(style, index, direction, length_px, widest_px, 0u, other.x);
@@ -114,7 +114,7 @@ fn ribbon_of(index: u32) -> Ribbon {
 
 // The segments before and behind one, or NONE where its stroke, or its part of a long
 // one, begins and ends.
-fn neighbours_of(style: LinkStyleUniform, extent: Extent, part: Piece, index: u32) -> vec2u {
+fn neighbors_of(style: LinkStyleUniform, extent: Extent, part: Piece, index: u32) -> vec2u {
     var other = vec2u(
         select(index - 1u, extent.before_first, index == extent.first),
         select(index + 1u, extent.behind_last, index == extent.last),
@@ -274,7 +274,7 @@ fn brush_of(
     return (arcs - 0.5 * (range.x + range.y)) * repeats / total_px;
 }
 
-// 0 for centred, 1 for right of its direction, 2 for left; and where it is inside.
+// 0 for centerd, 1 for right of its direction, 2 for left; and where it is inside.
 fn side_of(style: LinkStyleUniform, flags: u32) -> u32 {
     let on_contour = (flags & POINT_ON_CONTOUR) != 0u;
     let is_outside = style.placement == OUTSIDE || (style.placement == AUTOMATIC && on_contour);

@@ -1,6 +1,6 @@
 // Segments of strokes as coverage.
 //
-// Each is a box around its centre line; a fragment's coverage follows from its
+// Each is a box around its center line; a fragment's coverage follows from its
 // distance to that line, so that sides, joins and ends are smooth without samples.
 // Where segments of a layer overlap the larger coverage counts (the blend is a
 // maximum): no pixel is covered twice, at any width and any turn.

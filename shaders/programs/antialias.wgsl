@@ -1,5 +1,5 @@
 // Smooth rims for lines of whole texels: along each step of a rim the two ends of the run
-// are looked for, and the texel takes as much of its neighbour as a straight rim through
+// are looked for, and the texel takes as much of its neighbor as a straight rim through
 // the middles of the steps would cover.
 #import <common/screen.wgsl>
 #import <common/taps.wgsl>
@@ -41,7 +41,7 @@ fn run(texel: vec2i, along: vec2i, across: vec2i, own: f32, other: f32) -> vec2f
     return vec2f(f32(params.reach), 0.0);
 }
 
-// How much of the neighbour a texel takes over one of its four rims.
+// How much of the neighbor a texel takes over one of its four rims.
 fn share(texel: vec2i, across: vec2i, own: f32) -> f32 {
     let other = brightness(texel + across);
     if abs(own - other) < params.threshold {

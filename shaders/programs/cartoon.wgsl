@@ -11,7 +11,7 @@ struct Params {
     has_specular: u32,
     // How many bands there are where it is lit.
     band_count: i32,
-    // The colours times those of the material, or alone.
+    // The colors times those of the material, or alone.
     from_material: u32,
     dark: vec3f,
     average: vec3f,
@@ -54,7 +54,7 @@ fn cartoon(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @locati
     }
     let is_own = params.from_material == 1u;
     let own = select(vec3f(1.0), material.diffuse.rgb, is_own);
-    // A highlight is as white as the material's specular colour is strong.
+    // A highlight is as white as the material's specular color is strong.
     let white = mix(own, vec3f(1.0), clamp(intensity(material.specular.rgb), 0.0, 1.0));
     let bright = params.bright * select(vec3f(1.0), white, is_own);
     let color = mix(lit * own, bright, highlight * f32(params.has_specular));

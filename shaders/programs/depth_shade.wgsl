@@ -1,4 +1,4 @@
-// Depths as greys: bright near, dark far, over the box around the scene.
+// Depths as grays: bright near, dark far, over the box around the scene.
 #import <common/screen.wgsl>
 #import <common/edges.wgsl>
 

@@ -1,5 +1,5 @@
 // Chiang, Hsueh and Liu: the Sobel operator on the normal map and on the depth map, and an
-// extra filter that keeps only edges whose depth differs from that of their neighbours
+// extra filter that keeps only edges whose depth differs from that of their neighbors
 // (section III.C.1).
 #import <common/edges.wgsl>
 #import <common/screen.wgsl>
@@ -46,7 +46,7 @@ fn chiang(at: ScreenVarying) -> @location(0) vec4f {
         for (var dx = -1; dx <= 1; dx++) {
             let depth = map_depth(texel + vec2i(dx, dy));
             along += vec2f(f32(dx * (2 - abs(dy))), f32(dy * (2 - abs(dx)))) * depth;
-            // I_z: neighbours beside the centre count twice.
+            // I_z: neighbors beside the center count twice.
             around += f32(3 - abs(dx) - abs(dy)) * abs(depth - center);
         }
     }

@@ -1,4 +1,4 @@
-// Normals, depths and region ids at once, a colour for each kind of edge (NPRView thesis,
+// Normals, depths and region ids at once, a color for each kind of edge (NPRView thesis,
 // section 3.3.4, Figures 3.16 and 3.19).
 #import <common/edges.wgsl>
 #import <common/screen.wgsl>

@@ -1,4 +1,4 @@
-// Edges where a neighbour leaves the plane through a texel: a depth detector that needs no
+// Edges where a neighbor leaves the plane through a texel: a depth detector that needs no
 // tuning, since a plane has no edges however steep it is seen (compare Figure 3.11 of the
 // thesis). Distances are in pixels as large as they are there.
 #import <common/edges.wgsl>

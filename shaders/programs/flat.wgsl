@@ -1,4 +1,4 @@
-// The scene in one colour.
+// The scene in one color.
 #import <common/frame.wgsl>
 
 struct Params {

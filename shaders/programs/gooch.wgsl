@@ -3,7 +3,7 @@
 #import <common/light.wgsl>
 
 struct Params {
-    // How much of the diffuse colour is in the cool one, and in the warm one.
+    // How much of the diffuse color is in the cool one, and in the warm one.
     alpha: f32,
     beta: f32,
     yellow: vec3f,

@@ -11,7 +11,7 @@ struct Params {
     brightness: f32,
     // Tiles over the texture coordinates, or over a radius of the scene.
     scale: f32,
-    // Ink of the material's colour, or of one colour.
+    // Ink of the material's color, or of one color.
     from_material: u32,
     ink_color: vec3f,
     paper_color: vec3f,

@@ -1,4 +1,4 @@
-// Region ids of the scene, as colours (NPRView thesis, section 3.3.3).
+// Region ids of the scene, as colors (NPRView thesis, section 3.3.3).
 #import <common/encode.wgsl>
 #import <common/surface.wgsl>
 

@@ -4,14 +4,14 @@
 #import <common/taps.wgsl>
 
 struct Params {
-    // Eight neighbours, or four.
+    // Eight neighbors, or four.
     shape: u32,
 }
 
 @group(1) @binding(0) var<uniform> params: Params;
 @group(1) @binding(1) var texture: texture_2d<f32>;
 
-// How bright a premultiplied colour is on white paper.
+// How bright a premultiplied color is on white paper.
 fn brightness(color: vec4f) -> f32 {
     return dot(color.rgb, vec3f(0.3, 0.6, 0.1)) + 1.0 - color.a;
 }

@@ -1,4 +1,4 @@
-// Normals of the scene in the world, as colours (NPRView thesis, section 3.3.1), and with
+// Normals of the scene in the world, as colors (NPRView thesis, section 3.3.1), and with
 // the depth in the opacity (Card and Mitchell, Listing 8).
 #import <common/encode.wgsl>
 #import <common/screen.wgsl>
@@ -24,7 +24,7 @@ fn background(at: ScreenVarying) -> @location(0) vec4f {
     return vec4f(rgb_of_normal(normals[min(params.background, 2u)]), 1.0);
 }
 
-// Normals as colours, and the depth from 0 at the near plane to 1 at the far one in
+// Normals as colors, and the depth from 0 at the near plane to 1 at the far one in
 // the opacity (Card and Mitchell, Listing 8).
 @fragment
 fn normals_and_depth(

@@ -1,4 +1,4 @@
-// Paper: a texture that repeats over the picture, times a colour.
+// Paper: a texture that repeats over the picture, times a color.
 #import <common/screen.wgsl>
 #import <common/surface.wgsl>
 

@@ -1,4 +1,4 @@
-// Colours, normals and region ids of the scene in one pass with several targets, which
+// Colors, normals and region ids of the scene in one pass with several targets, which
 // the thesis names as future work (section 3.4); the depth is there in any case.
 #import <common/encode.wgsl>
 #import <common/light.wgsl>

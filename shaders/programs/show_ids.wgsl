@@ -1,4 +1,4 @@
-// The whole numbers of a texture as colours, no two near each other alike.
+// The whole numbers of a texture as colors, no two near each other alike.
 #import <common/screen.wgsl>
 #import <common/encode.wgsl>
 

@@ -1,10 +1,10 @@
-// The numbers of a texture as colours, from one that is black to one that is white.
+// The numbers of a texture as colors, from one that is black to one that is white.
 #import <common/screen.wgsl>
 
 struct Params {
     low: f32,
     high: f32,
-    // How many numbers a texel has: one is shown as a grey.
+    // How many numbers a texel has: one is shown as a gray.
     number_count: i32,
 }
 

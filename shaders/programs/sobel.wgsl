@@ -8,9 +8,9 @@ struct Params {
     threshold: f32,
     // Equation 3.1, or the faster Equation 3.2.
     magnitude: u32,
-    // The intensity of colours, or the channel with the largest gradient.
+    // The intensity of colors, or the channel with the largest gradient.
     channels: u32,
-    // Lines, intensities, or the orientation as a colour.
+    // Lines, intensities, or the orientation as a color.
     show: u32,
     edge_color: vec4f,
     background_color: vec4f,

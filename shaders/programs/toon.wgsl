@@ -3,7 +3,7 @@
 #import <common/light.wgsl>
 
 struct Params {
-    // How much of the ambient colour there is.
+    // How much of the ambient color there is.
     ambient: f32,
     // Over how many pixels the borders of steps go.
     smoothness: f32,
@@ -50,7 +50,7 @@ fn stepped(light: f32, light_a_pixel: f32, material: MaterialUniform) -> vec4f {
 @fragment
 fn per_pixel(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
     let texel = textureSample(base_texture, base_sampler, at.texcoord);
-    // Not fwidth of the light: of neighbours beside a triangle the material is undefined.
+    // Not fwidth of the light: of neighbors beside a triangle the material is undefined.
     let point_x = dpdx(at.point_in_world);
     let point_y = dpdy(at.point_in_world);
     let normal_x = dpdx(at.normal_in_world);

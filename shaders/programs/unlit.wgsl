@@ -1,4 +1,4 @@
-// The scene in the colours of its materials, without any light, and with a texture of the
+// The scene in the colors of its materials, without any light, and with a texture of the
 // pass laid on.
 #import <common/light.wgsl>
 

@@ -1,5 +1,5 @@
 // Edges where a second derivative goes through zero (NPRView thesis, section 3.2): a
-// neighbour has the other sign, and the step is at least the threshold. The texels of
+// neighbor has the other sign, and the step is at least the threshold. The texels of
 // both sides are edges.
 #import <common/edges.wgsl>
 #import <common/screen.wgsl>

@@ -2,7 +2,7 @@
 //! models and corpus that are shared between projects and not kept here.
 
 use std::env;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The folder of this package, which holds the goldens: `TESTKIT_ROOT`, else
 /// where the package was built.
@@ -25,13 +25,26 @@ pub fn workspace_root() -> PathBuf {
 /// Where it has not been built; the message says how to.
 #[must_use]
 pub fn program(name: &str) -> PathBuf {
+    built(Path::new(""), name)
+}
+
+/// The example `name` of any crate, in the folder `examples` beside the programs.
+///
+/// # Panics
+/// Where it has not been built; the message says how to.
+#[must_use]
+pub fn example(name: &str) -> PathBuf {
+    built(Path::new("examples"), name)
+}
+
+fn built(below: &Path, name: &str) -> PathBuf {
     let folder = env::var_os("TESTKIT_BIN")
         .map_or_else(|| workspace_root().join("target").join("debug"), PathBuf::from);
-    let path = folder.join(format!("{name}{}", env::consts::EXE_SUFFIX));
+    let path = folder.join(below).join(format!("{name}{}", env::consts::EXE_SUFFIX));
     assert!(
         path.is_file(),
-        "{}: no such program; build it with `cargo build -p {name}`, or run all tests with \
-         `cargo xtask test`, or set TESTKIT_BIN to its folder",
+        "{}: no such program; build it with `cargo build --workspace --bins --examples`, or run \
+         all tests with `cargo xtask test`, or set TESTKIT_BIN to its folder",
         path.display()
     );
     path

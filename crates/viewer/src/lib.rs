@@ -16,7 +16,7 @@
 //! | [`picture`] | a picture of any size, PNG files, turntables |
 //! | [`comparison`] | stroke textures, measured along camera paths |
 //! | `arguments` | a picture as the words of a command line |
-//! | [`window`] | the window |
+//! | `window` | the window, a feature that is on by default |
 //! | [`command`] | the verbs of `viewer`; `main.rs` only calls it |
 //!
 //! [`Error`] lists what can go wrong; [`watch`] reports files that change.
@@ -32,6 +32,7 @@ pub mod picture;
 pub mod scene;
 pub mod technique;
 pub mod watch;
+#[cfg(feature = "window")]
 pub mod window;
 
 pub use error::Error;

@@ -26,7 +26,7 @@ struct House {
     stairs: &'static [&'static [&'static str]],
 }
 
-const HOUSES: [House; 5] = [
+const HOUSES: [House; 7] = [
     House {
         name: "edgemesh_shaders",
         source: "shaders/src",
@@ -36,6 +36,8 @@ const HOUSES: [House; 5] = [
         ],
     },
     House { name: "edgemesh_brushes", source: "brushes/src", stairs: &[] },
+    House { name: "edgemesh_models", source: "models/src", stairs: &[] },
+    House { name: "edgemesh_techniques", source: "techniques/src", stairs: &[] },
     House {
         name: "edgemesh",
         source: "crates/edgemesh/src",
@@ -90,7 +92,10 @@ const DOORS: &[(&str, &[&str])] = &[
     ("edgemesh/format", &["edgemesh", "viewer"]),
     ("edgemesh/load", &["edgemesh", "viewer"]),
     ("edgemesh/build", &["edgemesh", "viewer"]),
+    // What is embedded has one reader.
     ("edgemesh_brushes", &["viewer"]),
+    ("edgemesh_models", &["edgemesh/load"]),
+    ("edgemesh_techniques", &["viewer/technique"]),
 ];
 
 /// The rooms that know the options of commands.

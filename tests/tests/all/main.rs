@@ -14,6 +14,7 @@ mod display;
 mod drop_file;
 #[cfg(feature = "gpu")]
 mod easel;
+mod examples;
 mod expectations;
 #[cfg(feature = "gpu")]
 mod gpu_detectors;
@@ -51,6 +52,7 @@ mod layouts;
 mod models;
 mod noop;
 mod own_models;
+mod packages;
 mod preprocess_commands;
 #[cfg(feature = "gpu")]
 mod random;

@@ -28,6 +28,7 @@ fn names_in(folder: &str) -> Vec<String> {
     let mut names: Vec<String> = paths
         .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
         .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
+        .filter(|name| name != "Cargo")
         .collect();
     names.sort();
     names

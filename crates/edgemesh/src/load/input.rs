@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use edgemesh_models::TORUS_KNOT;
 use glam::DVec3;
 
 use super::error::LoadError;
@@ -23,8 +24,6 @@ pub const DEMO: &str = "demo:";
 
 /// The path that stands for standard input.
 pub const STANDARD_INPUT: &str = "-";
-
-const DEMO_MODEL: &[u8] = include_bytes!("../../../../models/torus_knot.obj");
 
 /// An input before it is built.
 enum Input {
@@ -81,7 +80,7 @@ fn read(path: &Path, options: &LoadOptions, progress: &dyn Progress) -> Result<I
         return read_standard_input(options);
     }
     if path == Path::new(DEMO) {
-        let (model, report) = read_model_stream(DEMO_MODEL, path, Some(Format::Obj))?;
+        let (model, report) = read_model_stream(TORUS_KNOT, path, Some(Format::Obj))?;
         return Ok(Input::Model(Box::new(model), report, None));
     }
     let format = match options.format {

@@ -5,7 +5,7 @@ use strokes::view::frame::MAX_CLIP_PLANES;
 
 use crate::error::Error;
 use crate::scene::lighting::{Light, Lighting, parse_clip_plane, parse_light};
-use crate::technique::value::{VariableType, color_text, parse_color};
+use crate::technique::value::{VariableType, parse_color};
 
 /// The light, and what cuts the scene.
 #[derive(Debug, Clone, Default, Args)]
@@ -47,33 +47,6 @@ impl LightingArguments {
             clip_planes: self.clip.iter().map(|plane| plane.0).collect(),
         })
     }
-}
-
-/// The words of what differs from the default light, and of the planes.
-pub(crate) fn lighting_words(lighting: &Lighting) -> Vec<String> {
-    let default = Lighting::default();
-    let mut words = Vec::new();
-    let mut add = |name: &str, value: String| words.extend([name.to_owned(), value]);
-    if lighting.light != default.light {
-        add("--light", light_text(&lighting.light));
-    }
-    if lighting.color != default.color {
-        add("--light-color", color_text(&lighting.color).unwrap_or_default());
-    }
-    for [x, y, z, d] in &lighting.clip_planes {
-        add("--clip", format!("{x},{y},{z},{d}"));
-    }
-    words
-}
-
-/// A light as `--light` reads it.
-fn light_text(light: &Light) -> String {
-    let (kind, at) = match light {
-        Light::Camera(direction) => ("", direction),
-        Light::World(direction) => ("world:", direction),
-        Light::Point(point) => ("point:", point),
-    };
-    format!("{kind}{},{},{}", at.x, at.y, at.z)
 }
 
 fn parse_light_color(text: &str) -> Result<LightColor, String> {

@@ -154,7 +154,8 @@ impl PictureArguments {
     /// The arguments that the window does not change, as a command line has them: how
     /// models are read and how edges lie in memory. Folders and the adapter are those of
     /// a machine, not of a picture.
-    pub(crate) fn fixed_words(&self) -> Vec<String> {
+    #[cfg(feature = "window")]
+    pub(super) fn fixed_words(&self) -> Vec<String> {
         let mut words = Vec::new();
         let mut add = |name: &str, value: Option<String>| {
             words.extend(value.into_iter().flat_map(|value| [name.to_owned(), value]));

@@ -6,10 +6,10 @@ use clap::Parser as _;
 use edgemesh::arguments::CameraArguments;
 
 use super::camera::camera_words;
-use super::lighting::lighting_words;
 use super::picture::PictureArguments;
 use crate::error::Error;
-use crate::scene::lighting::Lighting;
+use crate::scene::lighting::{Light, Lighting};
+use crate::technique::value::color_text;
 
 /// What a picture shows, as far as it changes while the arguments that it was read with stay.
 #[derive(Debug)]
@@ -46,6 +46,33 @@ impl PictureWords<'_> {
         words.extend(arguments.fixed_words());
         words
     }
+}
+
+/// The words of what differs from the default light, and of the planes.
+fn lighting_words(lighting: &Lighting) -> Vec<String> {
+    let default = Lighting::default();
+    let mut words = Vec::new();
+    let mut add = |name: &str, value: String| words.extend([name.to_owned(), value]);
+    if lighting.light != default.light {
+        add("--light", light_text(&lighting.light));
+    }
+    if lighting.color != default.color {
+        add("--light-color", color_text(&lighting.color).unwrap_or_default());
+    }
+    for [x, y, z, d] in &lighting.clip_planes {
+        add("--clip", format!("{x},{y},{z},{d}"));
+    }
+    words
+}
+
+/// A light as `--light` reads it.
+fn light_text(light: &Light) -> String {
+    let (kind, at) = match light {
+        Light::Camera(direction) => ("", direction),
+        Light::World(direction) => ("world:", direction),
+        Light::Point(point) => ("point:", point),
+    };
+    format!("{kind}{},{},{}", at.x, at.y, at.z)
 }
 
 /// Reads the files and the arguments in words.

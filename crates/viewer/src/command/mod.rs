@@ -15,9 +15,10 @@ use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use edgemesh::command::manual::{CompletionsCommand, ManCommand};
-use edgemesh::command::{MessageOptions, run};
+use edgemesh::command::{Failure, MessageOptions, run};
 
 use crate::arguments::PictureArguments;
+#[cfg(feature = "window")]
 use crate::window::recipe::Recipe;
 
 /// Draws 3D models as line art; without a verb it opens a window
@@ -47,6 +48,22 @@ struct WindowCommand {
     models: Vec<PathBuf>,
     #[command(flatten)]
     picture: PictureArguments,
+}
+
+impl WindowCommand {
+    #[cfg(feature = "window")]
+    fn run(self) -> Result<(), Failure> {
+        let library = self.picture.library.load();
+        let recipe = Recipe::new(&self.models, self.picture, &library)?;
+        Ok(crate::window::run(library, recipe)?)
+    }
+
+    #[cfg(not(feature = "window"))]
+    fn run(self) -> Result<(), Failure> {
+        Err(Failure::usage(
+            "this viewer was built without the feature `window`; viewer render draws without one",
+        ))
+    }
 }
 
 #[derive(Debug, Subcommand)]
@@ -86,12 +103,7 @@ pub fn main() -> ExitCode {
     }
     arguments.messages.start_logging();
     let Some(command) = arguments.command else {
-        let WindowCommand { models, picture } = *arguments.window;
-        return run(std::panic::AssertUnwindSafe(move || {
-            let library = picture.library.load();
-            let recipe = Recipe::new(&models, picture, &library)?;
-            Ok(crate::window::run(library, recipe)?)
-        }));
+        return run(std::panic::AssertUnwindSafe(move || arguments.window.run()));
     };
     run(move || match command {
         Command::Render(command) => command.run(arguments.messages.quiet),

@@ -15,56 +15,14 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use edgemesh_techniques::{COMPONENTS, TECHNIQUES};
+
 use super::component_file::{self, ComponentDraft};
 use super::descriptor::SharedDescriptor;
 use super::mistake::{Mistake, Mistakes, SourceText};
 use super::plan::Plan;
 use super::program::ShaderFiles;
 use super::{Technique, technique_file, toml_file};
-
-macro_rules! shipped {
-    ($($path:literal),* $(,)?) => {
-        &[$(($path, include_str!(concat!("../../../../techniques/", $path, ".toml")))),*]
-    };
-}
-
-/// The built-in component files with their texts.
-const COMPONENTS: &[(&str, &str)] =
-    shipped!["components/core", "components/detectors", "components/fills", "components/lines",];
-
-/// The built-in techniques with their texts.
-const TECHNIQUES: &[(&str, &str)] = shipped![
-    "anime",
-    "blueprint",
-    "cartoon",
-    "charcoal",
-    "debug_depth",
-    "debug_features",
-    "debug_ids",
-    "debug_normals",
-    "fins",
-    "fur",
-    "gooch",
-    "hatching",
-    "hidden_line",
-    "ink",
-    "linked",
-    "outline_combined",
-    "outline_depth",
-    "outline_ids",
-    "outline_laplacian",
-    "outline_normals",
-    "outline_planes",
-    "outline_thick",
-    "outline_wide",
-    "pen",
-    "phong",
-    "sobel",
-    "toon",
-    "toon_image",
-    "watercolour",
-    "wireframe",
-];
 
 /// Components and techniques by name.
 #[derive(Debug, Clone)]
@@ -88,9 +46,9 @@ impl Library {
     #[must_use]
     pub fn load(folder: Option<&Path>) -> Self {
         let mut mistakes = Mistakes::default();
-        let shipped = COMPONENTS
-            .iter()
-            .map(|(name, text)| SourceText::new(format!("techniques/{name}.toml"), *text));
+        let shipped = COMPONENTS.iter().map(|(name, text)| {
+            SourceText::new(format!("techniques/components/{name}.toml"), *text)
+        });
         let drafts = drafts(&shipped.collect::<Vec<_>>(), &mut mistakes);
         let made = component_file::resolve(&drafts, &BTreeMap::new(), &mut mistakes);
         let sound = |made: BTreeMap<String, Option<SharedDescriptor>>| {

@@ -16,13 +16,15 @@ const FOREIGN: [&str; 6] = ["wgpu", "naga", "winit", "egui", "eframe", "image"];
 
 /// The packages: the folder, and what `[dependencies]` are for; all other code is for
 /// `[dev-dependencies]`. The whole of `testkit` and of `fuzz` is tests.
-const PACKAGES: [(&str, &[&str]); 8] = [
+const PACKAGES: [(&str, &[&str]); 10] = [
     ("brushes", &["src"]),
     ("crates/edgemesh", &["src"]),
     ("crates/strokes", &["src"]),
     ("crates/viewer", &["src"]),
     ("fuzz", &["src", "fuzz_targets"]),
+    ("models", &["src"]),
     ("shaders", &["src"]),
+    ("techniques", &["src"]),
     ("tests", &["src", "tests"]),
     ("xtask", &["src"]),
 ];
