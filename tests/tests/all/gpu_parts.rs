@@ -3,7 +3,7 @@
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::view::camera::Camera;
 use viewer::picture::png::compare;
-use viewer::picture::renderer::PictureOptions;
+use viewer::picture::renderer::{PictureInput, PictureOptions};
 use viewer::picture::tiles::AnySizeRenderer;
 use viewer::technique::Technique;
 
@@ -19,8 +19,13 @@ fn difference(mesh: &EdgeMesh, camera: &Camera, technique: &Technique, name: &st
     let scene = scene_of(mesh);
     let options = PictureOptions { size: SIZE, ..PictureOptions::default() };
     let drawn = |part_px| {
-        let mut renderer =
-            AnySizeRenderer::with_parts(gpu(), &scene, technique, &[], &options, part_px).unwrap();
+        let mut renderer = AnySizeRenderer::with_parts(
+            gpu(),
+            PictureInput::new(&scene, technique),
+            &options,
+            part_px,
+        )
+        .unwrap();
         let mut told = Vec::new();
         let picture = renderer.render(camera, &mut |done, total| {
             told.push((done, total));

@@ -25,7 +25,7 @@ use crate::comparison::samples::{FrameLines, FrameSource};
 use crate::comparison::{CameraPath, Way};
 use crate::error::Error;
 use crate::picture::png::encode_png;
-use crate::picture::renderer::{PictureOptions, PictureRenderer};
+use crate::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use crate::scene::models::Scene;
 use crate::scene::scene_file::SceneObject;
 use crate::technique::brush_file::shipped_brush;
@@ -159,7 +159,7 @@ impl CompareStrokesCommand {
                 }
             }
             let options = PictureOptions { size: self.size, ..PictureOptions::default() };
-            PictureRenderer::new(gpu, scene, &technique, &[], &options)
+            PictureRenderer::new(gpu, PictureInput::new(scene, &technique), &options)
         };
         let [object_space, screen_space, chained] = Way::ALL.map(renderer);
         let texture = shipped_brush(brush).transpose().ok().flatten();

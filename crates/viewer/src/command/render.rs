@@ -21,7 +21,7 @@ use crate::arguments::PictureArguments;
 use crate::error::Error;
 use crate::picture::animation::AnimationKind;
 use crate::picture::png::{DEFAULT_REFERENCE_THRESHOLD, as_stored, compare, encode_png, read_png};
-use crate::picture::renderer::{FrameStatistics, PictureOptions};
+use crate::picture::renderer::{FrameStatistics, PictureInput, PictureOptions};
 use crate::picture::tiles::AnySizeRenderer;
 use crate::picture::turntable;
 use crate::scene::models::Scene;
@@ -122,7 +122,7 @@ impl RenderCommand {
         let watcher = self.watch.then(|| self.watcher(&technique)).transpose()?;
         let reference = self.reference.as_deref().map(read_png).transpose()?;
         let objects = objects_of(&self.models).map_err(Error::from)?;
-        let looks = object_techniques(&objects, &library, &technique, &mut warn(is_quiet))?;
+        let overrides = object_techniques(&objects, &library, &technique, &mut warn(is_quiet))?;
         let (gpu, scene) = self.open_and_load(&objects, is_quiet)?;
         if !is_quiet {
             for model in &scene.models {
@@ -132,7 +132,8 @@ impl RenderCommand {
         log::info!("drawing on {} ({})", gpu.info.name, gpu.info.backend);
         let camera = self.picture.camera.camera(&scene.bounds, &scene.frame)?;
         let options = self.options()?;
-        let mut renderer = AnySizeRenderer::new(&gpu, &scene, &technique, &looks, &options)?;
+        let input = PictureInput { scene: &scene, technique: &technique, overrides: &overrides };
+        let mut renderer = AnySizeRenderer::new(&gpu, input, &options)?;
         let statistics = match self.turntable {
             Some(steps) => self.write_turntable(&mut renderer, &camera, steps)?,
             None => self.write_picture(&mut renderer, &camera, reference.as_ref())?,
@@ -185,8 +186,9 @@ impl RenderCommand {
     ) -> Result<(), Failure> {
         let library = self.picture.library.load();
         let technique = self.picture.technique(&library, &mut warn(is_quiet))?;
-        let looks = object_techniques(objects, &library, &technique, &mut warn(is_quiet))?;
-        renderer.reload(scene, &technique, &looks, &self.options()?)?;
+        let overrides = &object_techniques(objects, &library, &technique, &mut warn(is_quiet))?;
+        let input = PictureInput { scene, technique: &technique, overrides };
+        renderer.reload(input, &self.options()?)?;
         self.write_picture(renderer, camera, None).map(drop)
     }
 

@@ -79,7 +79,7 @@ pub struct GraphInput<'a> {
     pub technique: &'a Technique,
     /// The plan of the technique.
     pub plan: &'a Plan,
-    /// Techniques of objects, by the index in `PlacedObject::look`: the values of their
+    /// Techniques of objects, by `PlacedObject::override_index`: the values of their
     /// passes replace those of passes with the same name and component, and their passes
     /// of strokes replace all passes of strokes.
     pub overrides: &'a [Technique],

@@ -19,6 +19,7 @@ use strokes::render::renderer::Renderer;
 use super::stroke_style::style_of_passes;
 use super::{Encoding, GraphInput, GraphOptions};
 use crate::error::Error;
+use crate::scene::models::PlacedObject;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
 use crate::technique::core_view::{LineSelection, Visibility};
@@ -107,10 +108,12 @@ impl StrokeRenderers {
                 None => renderer.prepare(gpu, style)?,
             });
         }
-        let of_object = |look: usize| prepared.get(look + 1).unwrap_or(&prepared[0]).clone();
+        let of_object = |object: &PlacedObject| {
+            prepared.get(object.override_index + 1).unwrap_or(&prepared[0]).clone()
+        };
         Ok(StrokeGroup {
             options,
-            styles: scene.objects.iter().map(|object| of_object(object.look)).collect(),
+            styles: scene.objects.iter().map(of_object).collect(),
             drawing: Drawing::new(),
         })
     }

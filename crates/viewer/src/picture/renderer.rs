@@ -72,6 +72,33 @@ impl PictureOptions {
     }
 }
 
+/// What is drawn.
+#[derive(Debug, Clone, Copy)]
+pub struct PictureInput<'a> {
+    /// Models in their places.
+    pub scene: &'a Scene,
+    /// The technique of the scene.
+    pub technique: &'a Technique,
+    /// Techniques of single objects, by [`PlacedObject::override_index`]. Only their fills
+    /// and strokes are used.
+    ///
+    /// [`PlacedObject::override_index`]: crate::scene::models::PlacedObject::override_index
+    pub overrides: &'a [Technique],
+}
+
+impl<'a> PictureInput<'a> {
+    /// A scene with one technique for all objects.
+    #[must_use]
+    pub const fn new(scene: &'a Scene, technique: &'a Technique) -> Self {
+        Self { scene, technique, overrides: &[] }
+    }
+
+    const fn of_graph(self, plan: &'a Plan, options: &'a GraphOptions) -> GraphInput<'a> {
+        let Self { scene, technique, overrides } = self;
+        GraphInput { scene, technique, plan, overrides, options }
+    }
+}
+
 /// A scene on the GPU with everything that its pictures need.
 #[derive(Debug)]
 pub struct PictureRenderer {
@@ -118,29 +145,17 @@ pub struct PendingStatistics {
 }
 
 impl PictureRenderer {
-    /// Checks `technique`, uploads the scene, and builds the pipelines. An object whose
-    /// look is a number of `looks` takes what is drawn object by object, its fill and
-    /// its strokes, from there.
+    /// Checks the technique, uploads the scene, and builds the pipelines.
     ///
     /// # Errors
-    /// Where something is wrong with the technique or its shaders, or the picture or a
-    /// mesh is too large for the adapter.
-    pub fn new(
-        gpu: &Gpu,
-        scene: &Scene,
-        technique: &Technique,
-        looks: &[Technique],
-        options: &PictureOptions,
-    ) -> Result<Self, Error> {
+    /// If the technique or its shaders have mistakes, or the picture or a mesh is too large
+    /// for the adapter.
+    pub fn new(gpu: &Gpu, input: PictureInput, options: &PictureOptions) -> Result<Self, Error> {
         check_size(gpu, options.size)?;
-        let plan = plan_of(technique, options)?;
-        let input = GraphInput {
-            scene,
-            technique,
-            plan: &plan,
-            overrides: looks,
-            options: &options.of_graph(),
-        };
+        let scene = input.scene;
+        let plan = plan_of(input.technique, options)?;
+        let graph_options = options.of_graph();
+        let input = input.of_graph(&plan, &graph_options);
         let made = gpu.make(|| PassGraph::new(gpu, &input));
         let graph =
             made.map_err(|error| resource_error(error, options.size, options.samples))??;
@@ -155,32 +170,22 @@ impl PictureRenderer {
         })
     }
 
-    /// Goes on with a technique, looks and options that have changed; what did not change
-    /// stays on the GPU, and textures keep what is in them.
+    /// Goes on with a changed technique, overrides or options. What did not change stays on
+    /// the GPU, and textures keep their content.
     ///
     /// # Errors
     /// As [`Self::new`]. Then the renderer goes on drawing as before, or one transparent
     /// pixel if memory ran out.
-    pub fn reload(
-        &mut self,
-        scene: &Scene,
-        technique: &Technique,
-        looks: &[Technique],
-        options: &PictureOptions,
-    ) -> Result<(), Error> {
+    pub fn reload(&mut self, input: PictureInput, options: &PictureOptions) -> Result<(), Error> {
         if (options.layout, options.stage) != (self.options.layout, self.options.stage) {
-            *self = Self::new(&self.gpu, scene, technique, looks, options)?;
+            *self = Self::new(&self.gpu, input, options)?;
             return Ok(());
         }
         check_size(&self.gpu, options.size)?;
-        let plan = plan_of(technique, options)?;
-        let input = GraphInput {
-            scene,
-            technique,
-            plan: &plan,
-            overrides: looks,
-            options: &options.of_graph(),
-        };
+        let scene = input.scene;
+        let plan = plan_of(input.technique, options)?;
+        let graph_options = options.of_graph();
+        let input = input.of_graph(&plan, &graph_options);
         let (gpu, graph) = (&self.gpu, &mut self.graph);
         let change = gpu
             .make(|| graph.change(gpu, &input))

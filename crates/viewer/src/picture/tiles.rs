@@ -22,9 +22,7 @@ use strokes::gpu::device::Gpu;
 use strokes::view::tile::Tile;
 
 use crate::error::Error;
-use crate::picture::renderer::{FrameStatistics, PictureOptions, PictureRenderer};
-use crate::scene::models::Scene;
-use crate::technique::Technique;
+use crate::picture::renderer::{FrameStatistics, PictureInput, PictureOptions, PictureRenderer};
 use crate::technique::core::CoreComponent;
 use crate::technique::core_view::Strokes;
 use crate::technique::pass::Pass;
@@ -70,18 +68,12 @@ impl AnySizeRenderer {
     ///
     /// # Errors
     /// As there; the picture cannot be too large.
-    pub fn new(
-        gpu: &Gpu,
-        scene: &Scene,
-        technique: &Technique,
-        looks: &[Technique],
-        options: &PictureOptions,
-    ) -> Result<Self, Error> {
+    pub fn new(gpu: &Gpu, input: PictureInput, options: &PictureOptions) -> Result<Self, Error> {
         let limit = gpu.device.limits().max_texture_dimension_2d;
         let fits = options.size.iter().all(|&side| side <= limit)
             && Targets::byte_count(options.size, options.samples) <= MAX_BYTES;
         let max_part_px = if fits { u32::MAX } else { limit.min(MAX_PART_PX) };
-        Self::with_parts(gpu, scene, technique, looks, options, max_part_px)
+        Self::with_parts(gpu, input, options, max_part_px)
     }
 
     /// The same in parts of at most so many pixels a side, margins and all; at once where
@@ -91,15 +83,13 @@ impl AnySizeRenderer {
     /// As [`PictureRenderer::new`].
     pub fn with_parts(
         gpu: &Gpu,
-        scene: &Scene,
-        technique: &Technique,
-        looks: &[Technique],
+        input: PictureInput,
         options: &PictureOptions,
         max_part_px: u32,
     ) -> Result<Self, Error> {
         let renderer = |size| {
             let options = PictureOptions { size, ..options.clone() };
-            PictureRenderer::new(gpu, scene, technique, looks, &options).map(Box::new)
+            PictureRenderer::new(gpu, input, &options).map(Box::new)
         };
         let size = options.size;
         let kind = if size.iter().all(|&side| side <= max_part_px) {
@@ -108,7 +98,7 @@ impl AnySizeRenderer {
             let layout = PartLayout::new(size, max_part_px);
             Kind::Parts {
                 part: renderer(layout.part)?,
-                overview: links_strokes(technique, looks)
+                overview: links_strokes(input)
                     .then(|| renderer(overview_size(size, max_part_px)))
                     .transpose()?,
                 layout,
@@ -121,18 +111,12 @@ impl AnySizeRenderer {
     ///
     /// # Errors
     /// As there.
-    pub fn reload(
-        &mut self,
-        scene: &Scene,
-        technique: &Technique,
-        looks: &[Technique],
-        options: &PictureOptions,
-    ) -> Result<(), Error> {
+    pub fn reload(&mut self, input: PictureInput, options: &PictureOptions) -> Result<(), Error> {
         let reload = |renderer: &mut PictureRenderer| {
             let options = PictureOptions { size: renderer.options().size, ..options.clone() };
-            renderer.reload(scene, technique, looks, &options)
+            renderer.reload(input, &options)
         };
-        let is_linked = links_strokes(technique, looks);
+        let is_linked = links_strokes(input);
         match &mut self.kind {
             Kind::Parts { part, overview: Some(overview), .. } => {
                 reload(part)?;
@@ -142,7 +126,7 @@ impl AnySizeRenderer {
             Kind::Parts { .. } if is_linked => {
                 let options = PictureOptions { size: self.size, ..options.clone() };
                 let (gpu, most) = (self.gpu.clone(), self.max_part_px);
-                *self = Self::with_parts(&gpu, scene, technique, looks, &options, most)?;
+                *self = Self::with_parts(&gpu, input, &options, most)?;
                 Ok(())
             }
             Kind::Whole(part) | Kind::Parts { part, .. } => reload(part),
@@ -192,8 +176,9 @@ impl AnySizeRenderer {
 }
 
 /// Whether any strokes that are drawn are linked.
-fn links_strokes(technique: &Technique, looks: &[Technique]) -> bool {
-    let passes = std::iter::once(technique).chain(looks).flat_map(|look| &look.passes);
+fn links_strokes(input: PictureInput) -> bool {
+    let techniques = std::iter::once(input.technique).chain(input.overrides);
+    let passes = techniques.flat_map(|technique| &technique.passes);
     let is_linked = |pass: &Pass| {
         pass.component.core == CoreComponent::Strokes
             && pass.is_rendered()

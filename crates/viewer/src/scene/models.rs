@@ -15,7 +15,7 @@ use crate::scene::scene_file::SceneObject;
 pub struct Scene {
     /// Each model with its name and what was repaired in it.
     pub models: Vec<Loaded>,
-    /// Where they stand, and how they look.
+    /// The models in their places; a model can be in several.
     pub objects: Vec<PlacedObject>,
     /// The box around all of them.
     pub bounds: Bounds,
@@ -30,16 +30,16 @@ pub struct Scene {
 pub struct PlacedObject {
     /// Index into [`Scene::models`].
     pub model: usize,
-    /// Index into the techniques that objects have of their own; any other number for
-    /// that of the scene.
-    pub look: usize,
+    /// Index into the overrides, the techniques of single objects; past their end for the
+    /// technique of the scene.
+    pub override_index: usize,
     /// Takes the model to the scene.
     pub world_from_object: DMat4,
 }
 
 impl Scene {
-    /// Reads and builds the models of `objects`, each file once. Object number n
-    /// has look number n.
+    /// Reads and builds the models of `objects`, each file once. Each object has the
+    /// override of its own index.
     ///
     /// # Errors
     /// [`Error::Load`] for the first model that cannot be loaded, or if `progress` cancels.
@@ -50,14 +50,14 @@ impl Scene {
     ) -> Result<Self, Error> {
         let mut paths: Vec<PathBuf> = Vec::new();
         let mut placed = Vec::new();
-        for (look, object) in objects.iter().enumerate() {
+        for (override_index, object) in objects.iter().enumerate() {
             let known = paths.iter().position(|path| *path == object.model);
             let model = known.unwrap_or(paths.len());
             if known.is_none() {
                 paths.push(object.model.clone());
             }
             let world_from_object = object.scene_from_model;
-            placed.push(PlacedObject { model, look, world_from_object });
+            placed.push(PlacedObject { model, override_index, world_from_object });
         }
         // Transforms are in the numbers of the files.
         let is_moved = placed.iter().any(|object| object.world_from_object != DMat4::IDENTITY);
@@ -70,7 +70,8 @@ impl Scene {
     /// A scene of models that are in one frame, each once where it is.
     #[must_use]
     pub fn of(models: Vec<Loaded>) -> Self {
-        let in_place = |model| PlacedObject { model, look: 0, world_from_object: DMat4::IDENTITY };
+        let in_place =
+            |model| PlacedObject { model, override_index: 0, world_from_object: DMat4::IDENTITY };
         let objects = (0..models.len()).map(in_place).collect();
         Self::placed(models, objects)
     }

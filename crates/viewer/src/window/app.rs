@@ -379,14 +379,14 @@ impl Window {
     /// Draws a picture, or a turntable, of the size that is asked for.
     fn save_picture(&mut self, path: PathBuf, turntable: Option<u32>, context: &egui::Context) {
         let Some(scene) = self.session.scene.clone() else { return };
-        let looks = match self.session.object_looks() {
-            Ok(looks) => looks,
+        let overrides = match self.session.object_overrides() {
+            Ok(overrides) => overrides,
             Err(error) => return self.session.messages.error(error_text(&error)),
         };
         let order = Order {
             recipe: self.session.recipe.clone(),
             scene,
-            looks,
+            overrides,
             size: self.session.remembered.picture_size.unwrap_or(self.size),
             path: with_ending(path, turntable.is_some()),
             turntable,

@@ -20,7 +20,7 @@ use super::viewpoint::Viewpoint;
 use super::watching::Change;
 use crate::error::Error;
 use crate::picture::renderer::{
-    FrameStatistics, PendingStatistics, PictureOptions, PictureRenderer,
+    FrameStatistics, PendingStatistics, PictureInput, PictureOptions, PictureRenderer,
 };
 use crate::scene::models::Scene;
 
@@ -262,13 +262,11 @@ impl Sheet {
             }
         } else {
             self.pending = None;
-            let looks = session.object_looks()?;
+            let overrides = &session.object_overrides()?;
+            let input = PictureInput { scene, technique, overrides };
             match &mut self.renderer {
-                Some(renderer) => renderer.reload(scene, technique, &looks, &options)?,
-                None => {
-                    let made = PictureRenderer::new(gpu, scene, technique, &looks, &options)?;
-                    self.renderer = Some(made);
-                }
+                Some(renderer) => renderer.reload(input, &options)?,
+                None => self.renderer = Some(PictureRenderer::new(gpu, input, &options)?),
             }
         }
         let is_transparent = options.is_transparent;

@@ -14,7 +14,7 @@ use strokes::gpu::device::Gpu;
 use super::background::{Background, Tell};
 use super::recipe::Recipe;
 use crate::error::Error;
-use crate::picture::renderer::{PictureOptions, PictureRenderer};
+use crate::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use crate::scene::models::Scene;
 use crate::scene::object_techniques::object_techniques;
 use crate::scene::scene_file::{SceneObject, objects_of};
@@ -93,8 +93,9 @@ pub fn load(request: Request, tell: Tell) -> Result<LoadedScene, Error> {
             }
             let Request { built, options, library, .. } = &request;
             let technique = &built.technique;
-            let looks = object_techniques(&objects, library, technique, &mut |_| ())?;
-            match PictureRenderer::new(gpu, &scene, technique, &looks, options) {
+            let overrides = &object_techniques(&objects, library, technique, &mut |_| ())?;
+            let input = PictureInput { scene: &scene, technique, overrides };
+            match PictureRenderer::new(gpu, input, options) {
                 Ok(made) => Some((made, built.clone())),
                 // The models are not at fault: the window reports the technique's mistakes.
                 Err(Error::Technique(_)) => None,

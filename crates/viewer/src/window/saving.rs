@@ -13,6 +13,7 @@ use super::background::Tell;
 use super::recipe::Recipe;
 use crate::error::Error;
 use crate::picture::png::{encode_png, encode_png_with_text, read_png_text};
+use crate::picture::renderer::PictureInput;
 use crate::picture::tiles::AnySizeRenderer;
 use crate::picture::turntable;
 use crate::scene::models::Scene;
@@ -28,8 +29,8 @@ pub struct Order {
     pub recipe: Recipe,
     /// Its models.
     pub scene: Arc<Scene>,
-    /// The techniques of objects of scene files.
-    pub looks: Vec<Technique>,
+    /// The techniques of single objects.
+    pub overrides: Vec<Technique>,
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// The file.
@@ -45,7 +46,7 @@ pub struct Order {
 /// # Errors
 /// If it cannot be drawn or written; [`Error::Canceled`] if `tell` returns false.
 pub fn save(order: &Order, tell: Tell) -> Result<String, Error> {
-    let Order { recipe, scene, looks, size, path, turntable, gpu } = order;
+    let Order { recipe, scene, overrides, size, path, turntable, gpu } = order;
     let tell = |what: &str| match tell(what) {
         true => Ok(()),
         false => Err(Error::Canceled),
@@ -55,7 +56,8 @@ pub fn save(order: &Order, tell: Tell) -> Result<String, Error> {
     let camera = viewpoint.camera(&scene.frame);
     let options = recipe.picture_options(*size);
     let technique = &recipe.appearance.technique;
-    let mut renderer = AnySizeRenderer::new(gpu, scene, technique, looks, &options)?;
+    let input = PictureInput { scene, technique, overrides };
+    let mut renderer = AnySizeRenderer::new(gpu, input, &options)?;
     if let &Some(steps) = turntable {
         let is_transparent = options.is_transparent;
         crate::picture::turntable::write(path, steps, *size, is_transparent, |step| {

@@ -360,11 +360,11 @@ impl Session {
         }
     }
 
-    /// The techniques of objects of scene files.
+    /// The techniques of single objects; empty if no object has one.
     ///
     /// # Errors
-    /// What is wrong with one of them.
-    pub fn object_looks(&self) -> Result<Vec<Technique>, Error> {
+    /// If one of them has a mistake.
+    pub fn object_overrides(&self) -> Result<Vec<Technique>, Error> {
         let technique = &self.recipe.appearance.technique;
         object_techniques(&self.objects, &self.library, technique, &mut |_| ())
     }

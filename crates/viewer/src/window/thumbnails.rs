@@ -11,7 +11,7 @@ use strokes::gpu::device::Gpu;
 use super::background::Tell;
 use crate::error::Error;
 use crate::picture::png::as_stored;
-use crate::picture::renderer::{PictureOptions, PictureRenderer};
+use crate::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use crate::scene::models::Scene;
 use crate::scene::scene_file::SceneObject;
 use crate::technique::library::Library;
@@ -46,8 +46,8 @@ pub fn draw(
         }
         let Ok((technique, _)) = library.technique(name) else { continue };
         let made = match &mut renderer {
-            Some(renderer) => renderer.reload(&scene, &technique, &[], &options),
-            None => PictureRenderer::new(gpu, &scene, &technique, &[], &options)
+            Some(renderer) => renderer.reload(PictureInput::new(&scene, &technique), &options),
+            None => PictureRenderer::new(gpu, PictureInput::new(&scene, &technique), &options)
                 .map(|made| renderer = Some(made)),
         };
         let drawn = made.ok().and(renderer.as_mut());
