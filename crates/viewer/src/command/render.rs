@@ -249,7 +249,7 @@ impl RenderCommand {
         reference: Option<&RgbaImage>,
     ) -> Result<FrameStatistics, Failure> {
         let (picture, statistics) = renderer.render(camera, &mut |done, total| {
-            show_progress("part", done, total);
+            show_progress("tile", done, total);
             Ok(())
         })?;
         if let Some(reference) = reference {

@@ -125,8 +125,8 @@ pub struct FrameStatistics {
 }
 
 impl FrameStatistics {
-    /// Those of two parts of one picture: times are added up, counts are of the whole
-    /// scene in both.
+    /// Adds the times of another tile of the same picture. The counts are those of the
+    /// whole scene in both.
     #[must_use]
     pub fn plus(mut self, other: Self) -> Self {
         for (sum, time) in self.passes.iter_mut().zip(other.passes) {
@@ -247,28 +247,28 @@ impl PictureRenderer {
         self.read(started)
     }
 
-    /// Draws one part of a picture for itself, as the first picture that there is; the
-    /// part must be of this renderer's size. Where strokes are linked, `overview` must
-    /// have drawn the whole picture last.
+    /// Draws one tile of a picture as if no picture had been drawn before. The tile must
+    /// have this renderer's size. If strokes are linked, `overview` must have drawn the
+    /// whole picture last.
     ///
     /// # Errors
     /// As [`Self::render`].
-    pub fn render_part(
+    pub fn render_tile(
         &mut self,
         view: &View,
-        part: Tile,
+        tile: Tile,
         overview: Option<&Self>,
     ) -> Result<(RgbaImage, FrameStatistics), Error> {
         let started = Instant::now();
         let overview = overview.map(|overview| overview.graph.framebuffer());
-        self.draw_first(view, Some(TileInput { tile: part, overview }))?;
+        self.draw_first(view, Some(TileInput { tile, overview }))?;
         self.read(started)
     }
 
-    /// Draws the whole picture for itself, as the first one that there is.
+    /// Draws the whole picture as if none had been drawn before.
     ///
     /// # Errors
-    /// Where an image cannot be read.
+    /// If an image cannot be read.
     pub fn draw_overview(&mut self, view: &View) -> Result<(), Error> {
         self.draw_first(view, None)
     }

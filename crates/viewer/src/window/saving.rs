@@ -68,7 +68,7 @@ pub fn save(order: &Order, tell: Tell) -> Result<String, Error> {
         })?;
     } else {
         let (picture, _) = renderer.render(&camera, &mut |done, total| {
-            tell(&format!("drawing {}: part {done} of {total}", path.display()))
+            tell(&format!("drawing {}: tile {done} of {total}", path.display()))
         })?;
         tell(&format!("writing {}", path.display()))?;
         let text = recipe.words().and_then(|words| serde_json::to_string(&words).ok());
