@@ -194,7 +194,7 @@ fn inspection_shows_times_and_what_was_repaired() {
 }
 
 #[test]
-fn looks_for_looking_come_and_go() {
+fn debug_views_come_and_go() {
     let mut harness = side(Tab::Inspect, session("--technique pen --set strokes.width=5"));
     for (name, technique) in [("Wireframe", "wireframe"), ("Normals", "debug_normals")] {
         harness.get_by_label(name).click();

@@ -57,8 +57,8 @@ pub struct Session {
     pub generated: Vec<PassTexture>,
     /// The one that is shown instead of the picture.
     pub inspection: Option<Inspection>,
-    /// What was drawn before a look for looking, to go back to.
-    pub before_looking: Option<Appearance>,
+    /// The appearance that a debug view has replaced, to go back to.
+    pub before_debug_view: Option<Appearance>,
     /// The number of the cut that the hand moves; the last one where there are fewer.
     pub chosen_cut: usize,
     /// Edges that are marked by hand.
@@ -143,8 +143,8 @@ pub enum Request {
     },
 }
 
-/// Techniques that show what others are made of, with what they show.
-pub const LOOKS: [(&str, &str); 5] = [
+/// The debug views: techniques that show what others are made of, with their labels.
+pub(crate) const DEBUG_VIEWS: [(&str, &str); 5] = [
     ("debug_features", "Edge classes"),
     ("wireframe", "Wireframe"),
     ("debug_normals", "Normals"),
@@ -182,7 +182,7 @@ impl Session {
             requests: Vec::new(),
             generated: Vec::new(),
             inspection: None,
-            before_looking: None,
+            before_debug_view: None,
             chosen_cut: 0,
             marking: Marking::default(),
             comparison: None,
@@ -332,27 +332,27 @@ impl Session {
         }
     }
 
-    /// Takes a look for looking; what was drawn before stays known with its changes.
-    pub fn look_with(&mut self, name: &str) {
+    /// Shows a debug view. The appearance before it is kept, with its changes.
+    pub fn show_debug_view(&mut self, name: &str) {
         let before = self.recipe.appearance.clone();
-        let is_looking = self.is_looking();
+        let was_debug_view = self.is_debug_view();
         self.take_technique(name);
-        if self.recipe.appearance.technique_name == name && !is_looking {
-            self.before_looking = Some(before);
+        if self.recipe.appearance.technique_name == name && !was_debug_view {
+            self.before_debug_view = Some(before);
         }
     }
 
-    /// Whether what is drawn is a look for looking, with something to go back to.
+    /// Whether a debug view is shown that can be left.
     #[must_use]
-    pub fn is_looking(&self) -> bool {
+    pub fn is_debug_view(&self) -> bool {
         let name = self.recipe.appearance.technique_name.as_str();
-        self.before_looking.is_some() && LOOKS.iter().any(|(look, _)| *look == name)
+        self.before_debug_view.is_some() && DEBUG_VIEWS.iter().any(|(view, _)| *view == name)
     }
 
-    /// Goes back to what was drawn before.
-    pub fn stop_looking(&mut self) {
-        let is_looking = self.is_looking();
-        if let Some(before) = self.before_looking.take().filter(|_| is_looking) {
+    /// Goes back to the appearance before the debug view.
+    pub fn leave_debug_view(&mut self) {
+        let is_debug_view = self.is_debug_view();
+        if let Some(before) = self.before_debug_view.take().filter(|_| is_debug_view) {
             let now = &self.recipe.appearance;
             // The light may have been moved meanwhile.
             let (lighting, is_transparent) = (now.lighting.clone(), now.is_transparent);

@@ -7,19 +7,19 @@ use egui_plot::{Legend, Line, Plot, PlotPoints};
 
 use super::bar::grouped;
 use crate::window::inspection::Inspection;
-use crate::window::session::{KEPT_FRAMES, LOOKS, Session};
+use crate::window::session::{DEBUG_VIEWS, KEPT_FRAMES, Session};
 
 /// The inspection panel.
 pub(super) fn inspect_panel(ui: &mut Ui, session: &mut Session) {
-    ui.heading("Looks for looking");
+    ui.heading("Debug views");
     ui.horizontal_wrapped(|ui| {
-        if ui.selectable_label(!session.is_looking(), "The picture").clicked() {
-            session.stop_looking();
+        if ui.selectable_label(!session.is_debug_view(), "The picture").clicked() {
+            session.leave_debug_view();
         }
-        for (technique, name) in LOOKS {
+        for (technique, name) in DEBUG_VIEWS {
             let is_it = session.recipe.appearance.technique_name == technique;
             if ui.selectable_label(is_it, name).clicked() && !is_it {
-                session.look_with(technique);
+                session.show_debug_view(technique);
             }
         }
     });
