@@ -12,10 +12,10 @@ use egui::{CentralPanel, Panel, Sense, Ui};
 
 use super::background::{Background, Tell};
 use super::canvas::Canvas;
-use super::device_loss::{Kept, Lost, watch_device};
+use super::device_loss::{DeviceLoss, WindowHandover, watch_device};
 use super::error_text::{error_text, saving_text};
 use super::hands::Hands;
-use super::loading::{self, Built, LoadedScene, Loading, ToLoad};
+use super::loading::{self, BuildKey, LoadOrder, LoadedScene, Loading};
 use super::saving::{self, Order};
 use super::session::{Request, Session, Work};
 use super::thumbnails::{self, Thumbnail};
@@ -36,7 +36,7 @@ pub(super) struct Window {
     canvas: Canvas,
     hands: Hands,
     /// What is loaded once it is known how large the picture is.
-    to_load: Option<ToLoad>,
+    to_load: Option<LoadOrder>,
     loading: Option<Loading>,
     saving: Vec<Background<String>>,
     watching: Option<Watching>,
@@ -49,8 +49,8 @@ pub(super) struct Window {
     /// The size of the picture, in pixels.
     size: [u32; 2],
     title: String,
-    kept: Arc<Mutex<Option<Kept>>>,
-    lost: Arc<Lost>,
+    handover: Arc<Mutex<Option<WindowHandover>>>,
+    loss: Arc<DeviceLoss>,
     /// Whether the device is lost on purpose: before a frame or within one.
     is_to_be_lost: Option<bool>,
     faults: Arc<Mutex<Vec<String>>>,
@@ -69,17 +69,17 @@ enum Arrival {
 impl Window {
     pub(super) fn new(
         context: &eframe::CreationContext,
-        kept: Arc<Mutex<Option<Kept>>>,
-        lost: Arc<Lost>,
+        handover: Arc<Mutex<Option<WindowHandover>>>,
+        loss: Arc<DeviceLoss>,
     ) -> Result<Self, Error> {
         let missing = |what: &str| Error::Window(what.to_owned());
-        let before = kept.lock().unwrap_or_else(PoisonError::into_inner).take();
-        let Kept { mut session, to_load, is_new } =
+        let before = handover.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let WindowHandover { mut session, to_load, is_new } =
             before.ok_or_else(|| missing("there is nothing to show"))?;
         let window = context.wgpu_render_state.clone();
         let window = window.ok_or_else(|| missing("the window has no device"))?;
         let faults = Arc::new(Mutex::new(Vec::new()));
-        watch_device(&window.device, &context.egui_ctx, &lost, &faults);
+        watch_device(&window.device, &context.egui_ctx, &loss, &faults);
         if is_new {
             let stored = context.storage.and_then(|storage| eframe::get_value(storage, REMEMBERED));
             session.remembered = stored.unwrap_or_default();
@@ -108,14 +108,14 @@ impl Window {
             sender,
             size: [1, 1],
             title: String::new(),
-            kept,
-            lost,
+            handover,
+            loss,
             is_to_be_lost: None,
             faults,
         })
     }
 
-    fn take_loaded(&mut self, what: ToLoad, loaded: LoadedScene) {
+    fn take_loaded(&mut self, what: LoadOrder, loaded: LoadedScene) {
         let LoadedScene { models, scene, objects, renderer } = loaded;
         if let Some(recipe) = what.recipe {
             self.session.recipe = recipe;
@@ -127,14 +127,14 @@ impl Window {
     }
 
     /// Begins to load models; what was being loaded is no longer wanted.
-    fn load(&mut self, what: ToLoad, context: &egui::Context) {
+    fn load(&mut self, what: LoadOrder, context: &egui::Context) {
         let recipe = what.recipe.as_ref().unwrap_or(&self.session.recipe);
         let request = loading::Request {
             models: what.models.clone(),
             load: recipe.load_options(),
             gpu: Some(self.canvas.gpu().clone()),
             library: self.session.library.clone(),
-            built: Built {
+            build_key: BuildKey {
                 technique: recipe.appearance.technique.clone(),
                 is_transparent: recipe.appearance.is_transparent,
             },
@@ -147,7 +147,7 @@ impl Window {
     }
 
     /// Loads models instead of those that are there, unless marks would be lost.
-    fn replace(&mut self, what: ToLoad, context: &egui::Context) {
+    fn replace(&mut self, what: LoadOrder, context: &egui::Context) {
         if !self.would_lose_marks("open") {
             self.load(what, context);
         }
@@ -252,7 +252,7 @@ impl Window {
                 Request::Open(files) => self.open_files(files, context),
                 Request::Reload => {
                     let models = self.session.recipe.models.clone();
-                    self.replace(ToLoad { models, recipe: None }, context);
+                    self.replace(LoadOrder { models, recipe: None }, context);
                 }
                 Request::Cancel(None) => self.loading = None,
                 Request::Cancel(Some(saving)) => {
@@ -304,7 +304,7 @@ impl Window {
     fn lose_where_wanted(&mut self, is_within_frame: bool) {
         if self.is_to_be_lost == Some(is_within_frame) {
             self.is_to_be_lost = None;
-            self.lost.lose();
+            self.loss.lose();
         }
     }
 
@@ -422,7 +422,7 @@ impl Window {
             path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(wanted))
         };
         let [file] = &files[..] else {
-            return self.replace(ToLoad { models: files, recipe: None }, context);
+            return self.replace(LoadOrder { models: files, recipe: None }, context);
         };
         if has_ending(file, "png") {
             let Some(words) = saving::words_in(file) else {
@@ -435,14 +435,14 @@ impl Window {
                 Ok(None) => {}
                 Ok(Some(recipe)) => {
                     let models = recipe.models.clone();
-                    self.replace(ToLoad { models, recipe: Some(recipe) }, context);
+                    self.replace(LoadOrder { models, recipe: Some(recipe) }, context);
                 }
             }
         } else if has_ending(file, "toml") && is_technique_file(file) {
             let name = file.display().to_string();
             self.session.take_technique(&name);
         } else {
-            self.replace(ToLoad { models: files, recipe: None }, context);
+            self.replace(LoadOrder { models: files, recipe: None }, context);
         }
     }
 
@@ -525,8 +525,8 @@ impl Drop for Window {
         }
         let loading = self.loading.take().map(|loading| loading.what);
         let to_load = loading.or_else(|| self.to_load.take());
-        *self.kept.lock().unwrap_or_else(PoisonError::into_inner) =
-            Some(Kept { session, to_load, is_new: false });
+        *self.handover.lock().unwrap_or_else(PoisonError::into_inner) =
+            Some(WindowHandover { session, to_load, is_new: false });
     }
 }
 
@@ -534,8 +534,8 @@ impl eframe::App for Window {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
         self.lose_where_wanted(false);
-        self.lost.is_shown.store(true, Ordering::Relaxed);
-        if self.lost.is_lost() {
+        self.loss.is_shown.store(true, Ordering::Relaxed);
+        if self.loss.is_lost() {
             // Nothing is drawn on it any more.
             context.send_viewport_cmd(egui::ViewportCommand::Close);
             return;

@@ -12,7 +12,7 @@ use strokes::gpu::device::Gpu;
 
 use super::error_text::error_text;
 use super::inspection::Inspection;
-use super::loading::Built;
+use super::loading::BuildKey;
 use super::picture_paint::{PaintedPicture, PicturePainter};
 use super::recipe::Appearance;
 use super::session::Session;
@@ -41,11 +41,11 @@ pub(super) struct Canvas {
 struct Sheet {
     renderer: Option<PictureRenderer>,
     /// What the renderer was built for; none where files have changed since.
-    built: Option<Built>,
+    built: Option<BuildKey>,
     /// What was drawn last.
-    drawn: Option<Drawn>,
+    drawn: Option<DrawKey>,
     /// What could not be drawn.
-    failed: Option<Drawn>,
+    failed: Option<DrawKey>,
     /// Whether files may be half saved.
     is_doubted: bool,
     painted: Option<PaintedPicture>,
@@ -54,7 +54,7 @@ struct Sheet {
 
 /// What makes a picture.
 #[derive(Debug, Clone, PartialEq)]
-struct Drawn {
+struct DrawKey {
     appearance: Appearance,
     viewpoint: Viewpoint,
     size: [u32; 2],
@@ -109,7 +109,7 @@ impl Canvas {
     pub(super) fn take_scene(
         &mut self,
         scene: Arc<Scene>,
-        renderer: Option<(PictureRenderer, Built)>,
+        renderer: Option<(PictureRenderer, BuildKey)>,
     ) {
         self.scene = Some(scene);
         for sheet in self.compared.iter_mut().chain([&mut self.sheet]) {
@@ -152,7 +152,7 @@ impl Canvas {
         {
             appearance.technique = shown;
         }
-        let wanted = Drawn { appearance, viewpoint, size };
+        let wanted = DrawKey { appearance, viewpoint, size };
         let started = Instant::now();
         if self.sheet.draw(gpu, session, &scene, wanted) {
             self.sheet.show(gpu, &self.painter);
@@ -174,7 +174,7 @@ impl Canvas {
                     lighting: session.recipe.appearance.lighting.clone(),
                     ..comparison.appearance.clone()
                 };
-                let wanted = Drawn { appearance, viewpoint, size };
+                let wanted = DrawKey { appearance, viewpoint, size };
                 if sheet.draw(gpu, session, &scene, wanted) {
                     sheet.show(gpu, &self.painter);
                 }
@@ -207,7 +207,7 @@ impl Sheet {
         gpu: &Gpu,
         session: &mut Session,
         scene: &Arc<Scene>,
-        wanted: Drawn,
+        wanted: DrawKey,
     ) -> bool {
         if self.drawn.as_ref() == Some(&wanted) || self.is_hopeless(&wanted) {
             return false;
@@ -229,7 +229,7 @@ impl Sheet {
     }
 
     /// Whether it was tried, wherever it was seen from.
-    fn is_hopeless(&self, wanted: &Drawn) -> bool {
+    fn is_hopeless(&self, wanted: &DrawKey) -> bool {
         self.failed.as_ref().is_some_and(|failed| {
             failed.appearance == wanted.appearance && failed.size == wanted.size
         })
@@ -240,7 +240,7 @@ impl Sheet {
         gpu: &Gpu,
         session: &Session,
         scene: &Arc<Scene>,
-        wanted: &Drawn,
+        wanted: &DrawKey,
     ) -> Result<(), Error> {
         let options = PictureOptions {
             lighting: wanted.appearance.lighting.clone(),
@@ -248,7 +248,7 @@ impl Sheet {
             ..session.recipe.picture_options(wanted.size)
         };
         let technique = &wanted.appearance.technique;
-        let is_same = |built: &Built| {
+        let is_same = |built: &BuildKey| {
             (&built.technique, built.is_transparent) == (technique, options.is_transparent)
         };
         // None until it is built as wanted.
@@ -270,7 +270,7 @@ impl Sheet {
             }
         }
         let is_transparent = options.is_transparent;
-        let new = || Built { technique: technique.clone(), is_transparent };
+        let new = || BuildKey { technique: technique.clone(), is_transparent };
         self.built = Some(before.unwrap_or_else(new));
         let Some(renderer) = &mut self.renderer else { return Ok(()) };
         renderer.draw(&wanted.viewpoint.camera(&scene.frame))?;

@@ -4,29 +4,29 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::loading::ToLoad;
+use super::loading::LoadOrder;
 use super::session::Session;
 
-/// What goes on from one window to the next.
+/// What one window hands over to the next.
 #[derive(Debug)]
-pub(super) struct Kept {
+pub(super) struct WindowHandover {
     pub(super) session: Session,
-    /// What is not loaded yet.
-    pub(super) to_load: Option<ToLoad>,
-    /// Whether there was no window before.
+    /// Models that are not loaded yet.
+    pub(super) to_load: Option<LoadOrder>,
+    /// Whether this is the first window.
     pub(super) is_new: bool,
 }
 
-/// What is known of a device that may be lost.
+/// Whether the device of a window is lost.
 #[derive(Debug, Default)]
-pub(super) struct Lost {
+pub(super) struct DeviceLoss {
     pub(super) is_lost: AtomicBool,
     device: Mutex<Option<wgpu::Device>>,
-    /// Whether the window had a frame.
+    /// Whether the window has drawn a frame.
     pub(super) is_shown: AtomicBool,
 }
 
-impl Lost {
+impl DeviceLoss {
     /// Destroys the device. It tells so later than one that is really lost, so it is noted
     /// here.
     pub(super) fn lose(&self) {
@@ -49,20 +49,20 @@ impl Lost {
 pub(super) fn watch_device(
     device: &wgpu::Device,
     context: &egui::Context,
-    lost: &Arc<Lost>,
+    loss: &Arc<DeviceLoss>,
     faults: &Arc<Mutex<Vec<String>>>,
 ) {
-    *lost.device.lock().unwrap_or_else(PoisonError::into_inner) = Some(device.clone());
-    let (told, repaint) = (lost.clone(), context.clone());
+    *loss.device.lock().unwrap_or_else(PoisonError::into_inner) = Some(device.clone());
+    let (noted, repaint) = (loss.clone(), context.clone());
     device.set_device_lost_callback(move |reason, what| {
         log::error!("the graphics adapter was lost ({reason:?}): {what}");
-        told.is_lost.store(true, Ordering::Relaxed);
+        noted.is_lost.store(true, Ordering::Relaxed);
         repaint.request_repaint();
     });
-    let (lost, faults) = (lost.clone(), faults.clone());
+    let (loss, faults) = (loss.clone(), faults.clone());
     device.on_uncaptured_error(Arc::new(move |error| {
         // A lost device has more to say than anyone wants to hear.
-        if lost.is_lost.load(Ordering::Relaxed) {
+        if loss.is_lost.load(Ordering::Relaxed) {
             return;
         }
         let text = format!("a fault in the use of the graphics adapter, please report it: {error}");

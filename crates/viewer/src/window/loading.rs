@@ -23,7 +23,7 @@ use crate::technique::library::Library;
 
 /// Models that are wanted.
 #[derive(Debug, Clone)]
-pub(super) struct ToLoad {
+pub(super) struct LoadOrder {
     pub(super) models: Vec<PathBuf>,
     /// How they are to be seen; none where that stays as it is.
     pub(super) recipe: Option<Recipe>,
@@ -31,7 +31,7 @@ pub(super) struct ToLoad {
 
 /// Models that are being loaded.
 pub(super) struct Loading {
-    pub(super) what: ToLoad,
+    pub(super) what: LoadOrder,
     pub(super) work: Background<LoadedScene>,
 }
 
@@ -46,15 +46,15 @@ pub struct Request {
     pub gpu: Option<Gpu>,
     /// Techniques and components.
     pub library: Library,
-    /// What they are drawn with at first.
-    pub built: Built,
+    /// What the renderer is built for.
+    pub build_key: BuildKey,
     /// How it is drawn.
     pub options: PictureOptions,
 }
 
-/// What a renderer was built for; all else can change while it goes on.
+/// What a renderer is built for; all else can change while it goes on.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Built {
+pub struct BuildKey {
     /// The technique.
     pub technique: Technique,
     /// Whether there is no paper behind the scene.
@@ -71,7 +71,7 @@ pub struct LoadedScene {
     /// The objects of scene files.
     pub objects: Vec<SceneObject>,
     /// Ready to draw, where there is a device, and for what.
-    pub renderer: Option<(PictureRenderer, Built)>,
+    pub renderer: Option<(PictureRenderer, BuildKey)>,
 }
 
 /// Reads the models of a request, and uploads them.
@@ -91,12 +91,12 @@ pub fn load(request: Request, tell: Tell) -> Result<LoadedScene, Error> {
             if go_on("uploading").is_break() {
                 return Err(Error::Canceled);
             }
-            let Request { built, options, library, .. } = &request;
-            let technique = &built.technique;
+            let Request { build_key, options, library, .. } = &request;
+            let technique = &build_key.technique;
             let overrides = &object_techniques(&objects, library, technique, &mut |_| ())?;
             let input = PictureInput { scene: &scene, technique, overrides };
             match PictureRenderer::new(gpu, input, options) {
-                Ok(made) => Some((made, built.clone())),
+                Ok(made) => Some((made, build_key.clone())),
                 // The models are not at fault: the window reports the technique's mistakes.
                 Err(Error::Technique(_)) => None,
                 Err(error) => return Err(error),
@@ -120,7 +120,7 @@ mod tests {
             load,
             gpu: None,
             library,
-            built: Built { technique, is_transparent: false },
+            build_key: BuildKey { technique, is_transparent: false },
             options: PictureOptions::default(),
         };
         Background::start(|| {}, |tell| super::load(request, tell))

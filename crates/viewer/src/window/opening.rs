@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 use strokes::gpu::device;
 
 use super::app::Window;
-use super::device_loss::{Kept, Lost};
-use super::loading::ToLoad;
+use super::device_loss::{DeviceLoss, WindowHandover};
+use super::loading::LoadOrder;
 use super::recipe::Recipe;
 use super::remembered::Remembered;
 use super::session::Session;
@@ -35,33 +35,33 @@ const RECOVERY_TIME: Duration = Duration::from_secs(10);
 /// and again.
 pub(crate) fn run(library: Library, recipe: Recipe) -> Result<(), Error> {
     let adapter = recipe.adapter().map(str::to_owned);
-    let to_load = Some(ToLoad { models: recipe.models.clone(), recipe: None });
+    let to_load = Some(LoadOrder { models: recipe.models.clone(), recipe: None });
     let session = Session::new(library, recipe, Remembered::default());
-    let kept = Arc::new(Mutex::new(Some(Kept { session, to_load, is_new: true })));
+    let handover = Arc::new(Mutex::new(Some(WindowHandover { session, to_load, is_new: true })));
     let mut losses: Vec<Instant> = Vec::new();
     let mut is_after_panic = false;
-    let latest = Arc::new(Mutex::new(Arc::new(Lost::default())));
+    let latest = Arc::new(Mutex::new(Arc::new(DeviceLoss::default())));
     hush_panics_of_lost_devices(&latest);
     loop {
-        let lost = Arc::new(Lost::default());
-        latest.lock().unwrap_or_else(PoisonError::into_inner).clone_from(&lost);
+        let loss = Arc::new(DeviceLoss::default());
+        latest.lock().unwrap_or_else(PoisonError::into_inner).clone_from(&loss);
         // The window system's side of the window panics where it draws with a device that
         // is lost in that very frame.
-        let open = || open(&kept, &lost, adapter.as_deref());
+        let open = || open(&handover, &loss, adapter.as_deref());
         let opened = std::panic::catch_unwind(std::panic::AssertUnwindSafe(open));
-        let has_kept = kept.lock().unwrap_or_else(PoisonError::into_inner).is_some();
-        let is_unseen = !lost.is_shown.load(Ordering::Relaxed);
-        if is_after_panic && is_unseen && has_kept && matches!(opened, Ok(Ok(()))) {
+        let has_handover = handover.lock().unwrap_or_else(PoisonError::into_inner).is_some();
+        let is_unseen = !loss.is_shown.load(Ordering::Relaxed);
+        if is_after_panic && is_unseen && has_handover && matches!(opened, Ok(Ok(()))) {
             // The event loop that a panic has left ends once more before it begins.
             is_after_panic = false;
             continue;
         }
         is_after_panic = opened.is_err();
-        if !lost.is_lost() || !has_kept {
+        if !loss.is_lost() || !has_handover {
             return opened.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         }
         losses.push(Instant::now());
-        losses.retain(|loss| loss.elapsed() < RECOVERY_TIME);
+        losses.retain(|time| time.elapsed() < RECOVERY_TIME);
         if losses.len() > MOST_RECOVERIES {
             let (times, seconds) = (losses.len(), RECOVERY_TIME.as_secs());
             return Err(Error::AdapterLost { times, seconds });
@@ -71,11 +71,11 @@ pub(crate) fn run(library: Library, recipe: Recipe) -> Result<(), Error> {
 }
 
 /// Has panics told as before, but for those that another window follows.
-fn hush_panics_of_lost_devices(latest: &Arc<Mutex<Arc<Lost>>>) {
+fn hush_panics_of_lost_devices(latest: &Arc<Mutex<Arc<DeviceLoss>>>) {
     let (latest, before) = (latest.clone(), std::panic::take_hook());
     std::panic::set_hook(Box::new(move |panic| {
-        let lost = latest.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        match lost.is_lost.load(Ordering::Relaxed) {
+        let loss = latest.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        match loss.is_lost.load(Ordering::Relaxed) {
             true => log::info!("as the graphics adapter was lost: {panic}"),
             false => before(panic),
         }
@@ -84,8 +84,8 @@ fn hush_panics_of_lost_devices(latest: &Arc<Mutex<Arc<Lost>>>) {
 
 /// Opens one window, until it is closed or its device is lost.
 fn open(
-    kept: &Arc<Mutex<Option<Kept>>>,
-    lost: &Arc<Lost>,
+    handover: &Arc<Mutex<Option<WindowHandover>>>,
+    loss: &Arc<DeviceLoss>,
     adapter: Option<&str>,
 ) -> Result<(), Error> {
     let options = eframe::NativeOptions {
@@ -102,11 +102,13 @@ fn open(
         dithering: false,
         ..eframe::NativeOptions::default()
     };
-    let (creator_kept, creator_lost) = (kept.clone(), lost.clone());
+    let (creator_handover, creator_loss) = (handover.clone(), loss.clone());
     let made = eframe::run_native(
         APP_ID,
         options,
-        Box::new(move |context| Ok(Box::new(Window::new(context, creator_kept, creator_lost)?))),
+        Box::new(move |context| {
+            Ok(Box::new(Window::new(context, creator_handover, creator_loss)?))
+        }),
     );
     made.map_err(window_error)
 }
