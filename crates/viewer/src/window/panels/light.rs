@@ -41,7 +41,7 @@ pub(super) fn light_panel(ui: &mut Ui, session: &mut Session) {
     ui.add_space(10.0);
     ui.heading("Cuts");
     if let Some(scene) = scene {
-        cuts(ui, lighting, &mut session.chosen_cut, (&scene, view.as_ref()));
+        cuts(ui, lighting, &mut session.chosen_cut, &scene, view.as_ref());
     }
 }
 
@@ -136,7 +136,8 @@ fn cuts(
     ui: &mut Ui,
     lighting: &mut Lighting,
     chosen: &mut usize,
-    (scene, view): (&Scene, Option<&Viewpoint>),
+    scene: &Scene,
+    view: Option<&Viewpoint>,
 ) {
     let center = scene.frame.to_file(scene.bounds.center());
     let radius = scene.bounds.radius() / scene.frame.scale;
