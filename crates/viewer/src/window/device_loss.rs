@@ -1,5 +1,4 @@
-//! A graphics device that is lost: how the window learns of it, and what the next window
-//! takes over.
+//! A lost graphics device: how the window notices, and what it hands over to the next one.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -27,8 +26,8 @@ pub(super) struct DeviceLoss {
 }
 
 impl DeviceLoss {
-    /// Destroys the device. It tells so later than one that is really lost, so it is noted
-    /// here.
+    /// Destroys the device. The loss is noted here, since the callback for a destroyed device
+    /// comes late.
     pub(super) fn lose(&self) {
         self.is_lost.store(true, Ordering::Relaxed);
         if let Some(device) = &*self.device.lock().unwrap_or_else(PoisonError::into_inner) {
@@ -36,7 +35,7 @@ impl DeviceLoss {
         }
     }
 
-    /// Whether it is lost. A device says so when it is asked.
+    /// Whether the device is lost. Polls it, since the callback runs only then.
     pub(super) fn is_lost(&self) -> bool {
         if let Some(device) = &*self.device.lock().unwrap_or_else(PoisonError::into_inner) {
             let _ = device.poll(wgpu::PollType::Poll);
@@ -45,7 +44,7 @@ impl DeviceLoss {
     }
 }
 
-/// Has a lost device and faults of ours told instead of ending the program.
+/// Records a lost device and uncaptured errors, which would otherwise end the program.
 pub(super) fn watch_device(
     device: &wgpu::Device,
     context: &egui::Context,
@@ -61,11 +60,11 @@ pub(super) fn watch_device(
     });
     let (loss, faults) = (loss.clone(), faults.clone());
     device.on_uncaptured_error(Arc::new(move |error| {
-        // A lost device has more to say than anyone wants to hear.
+        // A lost device causes many more errors, which say nothing new.
         if loss.is_lost.load(Ordering::Relaxed) {
             return;
         }
-        let text = format!("a fault in the use of the graphics adapter, please report it: {error}");
+        let text = format!("internal graphics error, please report it: {error}");
         log::error!("{text}");
         let mut faults = faults.lock().unwrap_or_else(PoisonError::into_inner);
         if !faults.contains(&text) {

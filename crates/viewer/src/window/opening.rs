@@ -1,5 +1,5 @@
-//! Opens the window, and opens another one where the graphics device was lost: the device
-//! is the window's too, so it cannot be replaced beneath it.
+//! Opens the window, and another one after its graphics device was lost: the device belongs
+//! to the window too, so it cannot be replaced in it.
 
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -16,23 +16,22 @@ use super::session::Session;
 use crate::error::Error;
 use crate::technique::library::Library;
 
-/// What the window is called, and where it remembers.
+/// Name of the application, also for its storage.
 const APP_ID: &str = "edgemesh";
 
-/// How often a lost device is replaced, within [`RECOVERY_TIME`].
+/// The most recoveries from a lost device within [`RECOVERY_TIME`].
 const MOST_RECOVERIES: usize = 3;
 
-/// How long recoveries count.
+/// How long a recovery counts.
 const RECOVERY_TIME: Duration = Duration::from_secs(10);
 
 /// Opens the window and returns when it is closed.
 ///
-/// A device that is lost takes its window with it: another window takes its place, with
-/// the same session.
+/// After a lost device another window opens with the same session.
 ///
 /// # Errors
-/// If there is no adapter or no display; [`Error::AdapterLost`], if the device was lost again
-/// and again.
+/// If there is no adapter or no display; [`Error::AdapterLost`], if the device was lost too
+/// often.
 pub(crate) fn run(library: Library, recipe: Recipe) -> Result<(), Error> {
     let adapter = recipe.adapter().map(str::to_owned);
     let to_load = Some(LoadOrder { models: recipe.models.clone(), recipe: None });
@@ -45,14 +44,13 @@ pub(crate) fn run(library: Library, recipe: Recipe) -> Result<(), Error> {
     loop {
         let loss = Arc::new(DeviceLoss::default());
         latest.lock().unwrap_or_else(PoisonError::into_inner).clone_from(&loss);
-        // The window system's side of the window panics where it draws with a device that
-        // is lost in that very frame.
+        // eframe panics if the device is lost within a frame that it draws.
         let open = || open(&handover, &loss, adapter.as_deref());
         let opened = std::panic::catch_unwind(std::panic::AssertUnwindSafe(open));
         let has_handover = handover.lock().unwrap_or_else(PoisonError::into_inner).is_some();
         let is_unseen = !loss.is_shown.load(Ordering::Relaxed);
         if is_after_panic && is_unseen && has_handover && matches!(opened, Ok(Ok(()))) {
-            // The event loop that a panic has left ends once more before it begins.
+            // The event loop after a panic ends once before it starts again.
             is_after_panic = false;
             continue;
         }
@@ -70,7 +68,7 @@ pub(crate) fn run(library: Library, recipe: Recipe) -> Result<(), Error> {
     }
 }
 
-/// Has panics told as before, but for those that another window follows.
+/// Logs panics that another window follows; others are reported as before.
 fn hush_panics_of_lost_devices(latest: &Arc<Mutex<Arc<DeviceLoss>>>) {
     let (latest, before) = (latest.clone(), std::panic::take_hook());
     std::panic::set_hook(Box::new(move |panic| {
@@ -98,7 +96,7 @@ fn open(
             wgpu_setup: window_setup(adapter).into(),
             ..egui_wgpu::WgpuConfiguration::default()
         },
-        // What is drawn is drawn with the colours that files have.
+        // Dithering would change the colors of the picture.
         dithering: false,
         ..eframe::NativeOptions::default()
     };
@@ -113,7 +111,7 @@ fn open(
     made.map_err(window_error)
 }
 
-/// The adapter and the device, asked for as `viewer render` does.
+/// The adapter and the device, chosen as by `viewer render`.
 fn window_setup(adapter: Option<&str>) -> egui_wgpu::WgpuSetupCreateNew {
     let mut setup = egui_wgpu::WgpuSetupCreateNew::without_display_handle();
     setup.instance_descriptor.backends = device::backends();
@@ -128,7 +126,8 @@ fn window_setup(adapter: Option<&str>) -> egui_wgpu::WgpuSetupCreateNew {
 fn window_error(error: eframe::Error) -> Error {
     match error {
         eframe::Error::Wgpu(egui_wgpu::WgpuError::CreateSurfaceError(error)) => {
-            // Without any adapter there is nothing to make a surface for.
+            // Without an adapter no surface can be created; the error about adapters says
+            // more.
             let none = device::choose(&[], None, None).err();
             none.map_or_else(|| Error::WindowAdapter(error.to_string()), Error::Adapter)
         }
@@ -146,7 +145,7 @@ fn window_error(error: eframe::Error) -> Error {
     }
 }
 
-/// Whether no display is named where displays have names.
+/// Whether the system has display variables and none is set.
 fn has_no_display() -> bool {
     let is_named = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     let has_names = cfg!(all(unix, not(target_os = "macos")));

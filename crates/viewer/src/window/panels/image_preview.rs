@@ -1,4 +1,4 @@
-//! Small pictures of image files, for those who choose one.
+//! Previews of image files in a list of images.
 
 use std::time::SystemTime;
 
@@ -12,8 +12,7 @@ use crate::technique::image_file::ImageFile;
 /// The largest width and height, in points.
 pub(super) const SIZE: Vec2 = Vec2::new(64.0, 24.0);
 
-/// The small picture of an image; none where it cannot be read. It is made once, and
-/// again when the file has changed.
+/// The preview of an image, kept until its file changes; `None` if it cannot be read.
 pub(super) fn image_preview(ui: &Ui, file: &ImageFile) -> Option<TextureHandle> {
     let changed = file.changed();
     let id = Id::unique(("image preview", file));
@@ -40,7 +39,7 @@ struct Preview {
     texture: Option<TextureHandle>,
 }
 
-/// An image made to fit, on grey, so that dark and light ones are seen in any theme.
+/// An image scaled to fit, on gray, so that dark and light images are visible in any theme.
 fn on_grey(picture: &RgbaImage, most: Vec2) -> RgbaImage {
     #[expect(clippy::cast_precision_loss, reason = "images have fewer pixels a side")]
     let [width, height] = [picture.width(), picture.height()].map(|side| side as f32);
