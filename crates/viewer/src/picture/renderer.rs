@@ -1,4 +1,4 @@
-//! A scene of edge meshes to pictures, without a window.
+//! Draws pictures of a scene, without a window.
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -25,27 +25,27 @@ use crate::technique::plan::{Plan, TexturePlan};
 use crate::technique::program::ShaderFiles;
 use crate::technique::texture_format::PassTexture;
 
-/// How a scene is drawn.
+/// Options of a picture.
 #[derive(Debug, Clone)]
 pub struct PictureOptions {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// Samples a pixel, 1 or 4.
+    /// Samples per pixel, 1 or 4.
     pub samples: u32,
-    /// How the edges lie in memory.
+    /// Memory layout of the edges.
     pub layout: Layout,
-    /// Where features are detected.
+    /// The stage that detects features.
     pub stage: DetectionStage,
-    /// Whether there is no paper behind the scene.
+    /// Whether the background is transparent.
     pub is_transparent: bool,
-    /// The light, and what cuts the scene.
+    /// Light and clip planes.
     pub lighting: Lighting,
-    /// Where shaders are taken from instead of those that are shipped.
+    /// A folder that replaces the built-in shaders.
     pub shaders: Option<PathBuf>,
 }
 
 impl Default for PictureOptions {
-    /// 1024 x 1024 pixels of 4 samples.
+    /// 1024 x 1024 pixels with 4 samples.
     fn default() -> Self {
         Self {
             size: [1024; 2],
@@ -72,7 +72,7 @@ impl PictureOptions {
     }
 }
 
-/// What is drawn.
+/// The scene and its techniques.
 #[derive(Debug, Clone, Copy)]
 pub struct PictureInput<'a> {
     /// Models in their places.
@@ -99,7 +99,7 @@ impl<'a> PictureInput<'a> {
     }
 }
 
-/// A scene on the GPU with everything that its pictures need.
+/// A scene on the GPU, ready to draw.
 #[derive(Debug)]
 pub struct PictureRenderer {
     gpu: Gpu,
@@ -112,15 +112,14 @@ pub struct PictureRenderer {
     timer: Option<GpuTimer>,
 }
 
-/// What a frame cost and drew.
+/// Counts and times of a frame.
 #[derive(Debug, Clone)]
 pub struct FrameStatistics {
-    /// The counts of all meshes, summed; none where vertex shaders detect.
+    /// The counts of all meshes, summed; `None` if vertex shaders detect.
     pub tally: Option<Tally>,
-    /// Each pass with its milliseconds on the GPU, where the adapter has
-    /// timestamps.
+    /// Each pass with its milliseconds on the GPU; `None` without timestamp queries.
     pub passes: Vec<(String, Option<f64>)>,
-    /// From the submission until the GPU was done.
+    /// Milliseconds from the submission until the GPU is done.
     pub frame_ms: f64,
 }
 
@@ -136,7 +135,7 @@ impl FrameStatistics {
     }
 }
 
-/// What a picture drew and cost, not yet read.
+/// Statistics that are not read yet.
 #[derive(Debug)]
 pub struct PendingStatistics {
     tallies: Vec<PendingRead<Tally>>,
@@ -170,12 +169,12 @@ impl PictureRenderer {
         })
     }
 
-    /// Goes on with a changed technique, overrides or options. What did not change stays on
-    /// the GPU, and textures keep their content.
+    /// Takes a changed technique, overrides or options. Everything else stays on the GPU, and
+    /// textures keep their content.
     ///
     /// # Errors
-    /// As [`Self::new`]. Then the renderer goes on drawing as before, or one transparent
-    /// pixel if memory ran out.
+    /// As [`Self::new`]. The renderer then draws as before, or one transparent pixel if
+    /// memory ran out.
     pub fn reload(&mut self, input: PictureInput, options: &PictureOptions) -> Result<(), Error> {
         if (options.layout, options.stage) != (self.options.layout, self.options.stage) {
             *self = Self::new(&self.gpu, input, options)?;
@@ -198,11 +197,11 @@ impl PictureRenderer {
         Ok(())
     }
 
-    /// Goes on in another size; pipelines and meshes stay.
+    /// Changes the size; pipelines and meshes stay.
     ///
     /// # Errors
-    /// If it is too large for the adapter, or memory runs out; then the renderer draws one
-    /// transparent pixel until a [`Self::reload`].
+    /// If the size is too large for the adapter, or memory runs out; the renderer then draws
+    /// one transparent pixel until a [`Self::reload`].
     pub fn resize(&mut self, size: [u32; 2]) -> Result<(), Error> {
         check_size(&self.gpu, size)?;
         let (gpu, plan, samples) = (&self.gpu, &self.plan, self.options.samples);
@@ -212,7 +211,7 @@ impl PictureRenderer {
         Ok(())
     }
 
-    /// Drops everything that was built, which cannot be used after memory ran out.
+    /// Drops the whole graph, which cannot be used after memory ran out.
     fn lose_graph(&mut self, error: ResourceError, size: [u32; 2], samples: u32) -> Error {
         self.graph = PassGraph::empty(&self.gpu);
         self.plan = Plan::default();
@@ -220,14 +219,14 @@ impl PictureRenderer {
         resource_error(error, size, samples)
     }
 
-    /// How it draws.
+    /// The options in effect.
     #[must_use]
     pub const fn options(&self) -> &PictureOptions {
         &self.options
     }
 
-    /// Another light, and other planes that cut the scene; false where that needs a
-    /// [`Self::reload`], as there were none before, or are none any more.
+    /// Sets light and clip planes. Returns false, and changes nothing, if the first plane
+    /// comes or the last one goes, which needs a [`Self::reload`].
     pub fn set_lighting(&mut self, lighting: &Lighting) -> bool {
         let is_cut = |lighting: &Lighting| !lighting.clip_planes.is_empty();
         let can = is_cut(lighting) == is_cut(&self.options.lighting);
@@ -240,7 +239,7 @@ impl PictureRenderer {
     /// Draws one picture, with premultiplied alpha.
     ///
     /// # Errors
-    /// Where the device is lost, or an image cannot be read.
+    /// If the device is lost, or an image cannot be read.
     pub fn render(&mut self, camera: &Camera) -> Result<(RgbaImage, FrameStatistics), Error> {
         let started = Instant::now();
         self.draw(camera)?;
@@ -281,7 +280,7 @@ impl PictureRenderer {
         self.submit(view, tile)
     }
 
-    /// Waits for the picture that was submitted, and reads it.
+    /// Waits for the submitted picture and reads it.
     fn read(&self, started: Instant) -> Result<(RgbaImage, FrameStatistics), Error> {
         self.gpu
             .device
@@ -294,11 +293,11 @@ impl PictureRenderer {
         Ok((picture, statistics))
     }
 
-    /// The stroke graph of an object in the last picture; nothing where its strokes are
-    /// not linked.
+    /// The stroke graph of an object in the last picture; `None` if its strokes are not
+    /// linked.
     ///
     /// # Errors
-    /// Where the device is lost.
+    /// If the device is lost.
     pub fn read_graph(&self, object: usize) -> Result<Option<GraphReadback>, Error> {
         let group = self.graph.stroke_groups().next();
         let Some(object) = group.and_then(|group| group.drawing.objects().get(object)) else {
@@ -307,13 +306,13 @@ impl PictureRenderer {
         Ok(object.read_graph(&self.gpu)?)
     }
 
-    /// The texture that passes call `<generated>:name`, as it is after the last picture.
+    /// The texture `<generated>:name` after the last picture.
     #[must_use]
     pub fn generated(&self, name: &str) -> Option<&wgpu::Texture> {
         self.graph.generated(&self.plan, name)
     }
 
-    /// The textures that passes draw for each other.
+    /// The textures between passes.
     #[must_use]
     pub fn generated_textures(&self) -> Vec<PassTexture> {
         let textures = self.plan.textures.iter();
@@ -324,22 +323,22 @@ impl PictureRenderer {
         textures.map(of_plan).collect()
     }
 
-    /// The picture that was drawn last, or is being drawn.
+    /// The texture of the last submitted picture.
     #[must_use]
     pub const fn picture(&self) -> &wgpu::Texture {
         self.graph.picture()
     }
 
-    /// Submits a picture and does not wait for it.
+    /// Submits a picture without waiting for it.
     ///
     /// # Errors
-    /// Where an image cannot be read.
+    /// If an image cannot be read.
     pub fn draw(&mut self, camera: &Camera) -> Result<(), Error> {
         let view = self.view(camera, self.options.size);
         self.submit(&view, None)
     }
 
-    /// How a camera sees the scene in a picture of a size.
+    /// The view of a camera in a picture of a size in pixels.
     #[must_use]
     pub fn view(&self, camera: &Camera, [width, height]: [u32; 2]) -> View {
         camera.view(&self.bounds, f64::from(width) / f64::from(height))
@@ -358,10 +357,10 @@ impl PictureRenderer {
         Ok(())
     }
 
-    /// Begins to read what the last picture drew and cost.
+    /// Starts reading the statistics of the last picture.
     ///
     /// # Errors
-    /// Where the device is lost.
+    /// If the device is lost.
     pub fn begin_statistics(&self) -> Result<PendingStatistics, Error> {
         let objects = self.graph.counted_objects().iter();
         let tallies = objects.map(|object| object.begin_read_tallies(&self.gpu));
@@ -371,11 +370,11 @@ impl PictureRenderer {
         Ok(PendingStatistics { tallies, ticks, started: Instant::now() })
     }
 
-    /// What a picture drew and cost, once that is known; `pending` is of the last picture
-    /// of this renderer, which was not reloaded since.
+    /// The statistics, once they are known. `pending` must be of the last picture, without a
+    /// reload since.
     ///
     /// # Errors
-    /// Where the device is lost.
+    /// If the device is lost.
     pub fn statistics(
         &self,
         pending: &PendingStatistics,

@@ -227,10 +227,10 @@ fn is_marked(mesh: &EdgeMesh, [a, b]: [u32; 2]) -> bool {
 /// The vertices of the shortest path between two vertices along edges that are no diagonals
 /// (Dijkstra 1959).
 fn shortest_path(mesh: &EdgeMesh, start: u32, end: u32) -> Option<Vec<u32>> {
-    let mut neighbours: Vec<Vec<u32>> = vec![Vec::new(); mesh.positions.len()];
+    let mut neighbors: Vec<Vec<u32>> = vec![Vec::new(); mesh.positions.len()];
     for record in mesh.records.iter().filter(|r| !r.flags.contains(EdgeFlags::DIAGONAL)) {
-        neighbours[record.v0 as usize].push(record.v1);
-        neighbours[record.v1 as usize].push(record.v0);
+        neighbors[record.v0 as usize].push(record.v1);
+        neighbors[record.v1 as usize].push(record.v0);
     }
     let mut before = vec![u32::MAX; mesh.positions.len()];
     let mut lengths = vec![f64::INFINITY; mesh.positions.len()];
@@ -249,7 +249,7 @@ fn shortest_path(mesh: &EdgeMesh, start: u32, end: u32) -> Option<Vec<u32>> {
         if length > lengths[vertex as usize] {
             continue;
         }
-        for &next in &neighbours[vertex as usize] {
+        for &next in &neighbors[vertex as usize] {
             let step = position_of(mesh, vertex).distance(position_of(mesh, next));
             let reached = length + step;
             if reached < lengths[next as usize] {
