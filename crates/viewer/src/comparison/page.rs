@@ -41,13 +41,13 @@ pub type Measure = (&'static str, &'static str, fn(&Row) -> f64);
 
 /// All measures.
 pub const MEASURES: [Measure; 7] = [
-    ("breaks", "for 1000 px", |row| row.sums.breaks()),
-    ("strokes", "for 1000 px", |row| row.sums.strokes()),
+    ("breaks", "per 1000 px", |row| row.sums.breaks()),
+    ("strokes", "per 1000 px", |row| row.sums.strokes()),
     ("stretch", "powers of two", |row| row.sums.stretch()),
-    ("slide", "px a frame", |row| row.sums.slide()),
+    ("slide", "px per frame", |row| row.sums.slide()),
     ("pops", "of 1000 px", |row| row.sums.pops()),
     ("changed", "of 1000 px", |row| row.sums.changed()),
-    ("cost", "ms a frame", |row| row.frame_ms),
+    ("cost", "ms per frame", |row| row.frame_ms),
 ];
 
 /// The rows as comma-separated values.

@@ -35,9 +35,9 @@ pub struct Strokes {
     /// Distances from the eye, in units of the model, at which strokes begin and finish
     /// fading.
     pub fade: Option<[f32; 2]>,
-    /// Smallest angle of a ridge in degrees; none for that of the mesh.
+    /// Smallest angle of a ridge in degrees; `None` for that of the mesh.
     pub ridge_angle_deg: Option<f32>,
-    /// Smallest angle of a valley in degrees; none for that of the mesh.
+    /// Smallest angle of a valley in degrees; `None` for that of the mesh.
     pub valley_angle_deg: Option<f32>,
     /// Whether edges are linked into strokes.
     pub is_linked: bool,
@@ -58,7 +58,7 @@ pub enum StrokeWidth {
 /// `width` can also be in units of the model.
 pub const MIN_WIDTH_PX: f32 = 0.1;
 
-/// Shorter dashes and gaps, in pixels, are none.
+/// If a dash or gap is shorter than this, strokes have no dashes.
 const MIN_DASH_PX: f32 = 0.1;
 
 /// Largest factor of `width_curve`.
@@ -117,7 +117,7 @@ fn read_link(reader: &mut Reader, ends: StrokeEnds) -> LinkStyle {
     }
 }
 
-/// The width; a warning for a smaller one than [`MIN_WIDTH_PX`], which is then used.
+/// The width; one below [`MIN_WIDTH_PX`] is replaced, with a warning.
 fn read_width(reader: &mut Reader) -> StrokeWidth {
     let width = reader.number("width");
     match reader.word("width_unit") {
