@@ -28,7 +28,7 @@ use strokes::gpu::device::Gpu;
 use strokes::gpu::readback::read_texels;
 use strokes::view::frame::{FrameUniform, Surroundings};
 use strokes::view::tile::Tile;
-use viewer::picture::renderer::{PictureOptions, PictureRenderer};
+use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use viewer::scene::models::Scene;
 use viewer::technique::Technique;
 use viewer::technique::library::Library;
@@ -88,8 +88,9 @@ fn measure(gpu: &Gpu, path: &Path, side: u32, frames: usize) {
     let triangles = mesh.triangles.len();
     let scene = Scene::of(vec![Loaded::new(path.display().to_string(), mesh, report)]);
     let options = PictureOptions { size: [side; 2], samples: 1, ..PictureOptions::default() };
-    let renderer =
-        |passes: &str| PictureRenderer::new(gpu, &scene, &technique(passes), &[], &options);
+    let renderer = |passes: &str| {
+        PictureRenderer::new(gpu, PictureInput::new(&scene, &technique(passes)), &options)
+    };
     let mut on_gpu = renderer(&format!("{MAPS}{DETECTOR}")).unwrap();
     let mut maps = renderer(MAPS).unwrap();
     let camera = Camera::default_view(&scene.bounds);

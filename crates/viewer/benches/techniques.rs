@@ -17,7 +17,7 @@ use edgemesh::load::Loaded;
 use edgemesh::view::camera::Camera;
 use strokes::gpu::device;
 use strokes::gpu::device::Gpu;
-use viewer::picture::renderer::{PictureOptions, PictureRenderer};
+use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use viewer::scene::models::Scene;
 use viewer::technique::library::Library;
 
@@ -55,7 +55,7 @@ fn table(gpu: &Gpu, path: &Path, size: [u32; 2], frames: usize) {
     let names = library.technique_names().filter(|name| *name != PLAIN);
     let runner = |name: &str| {
         let technique = library.technique(name).unwrap().0;
-        let renderer = PictureRenderer::new(gpu, &scene, &technique, &[], &options)
+        let renderer = PictureRenderer::new(gpu, PictureInput::new(&scene, &technique), &options)
             .unwrap_or_else(|error| panic!("{name}: {error}"));
         Runner { name: name.to_owned(), renderer, times_ms: Vec::new() }
     };

@@ -1,7 +1,7 @@
-//! What can go wrong, typed where it arises.
+//! Errors, typed where they arise.
 //!
-//! The texts name no option of a command: `command/failure.rs` adds those, with an exit
-//! status, and `window/error_text.rs` adds what can be done in the window.
+//! Their texts name no option of a command: `command/failure.rs` adds hints and exit
+//! statuses, and `window/error_text.rs` hints for the window.
 
 use std::path::PathBuf;
 
@@ -22,17 +22,17 @@ use crate::technique::mistake::Mistakes;
 use crate::technique::write::WriteTechniqueError;
 use crate::watch::WatchError;
 
-/// What can go wrong between files and pictures.
+/// An error between files and pictures.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A model or its marks cannot be loaded.
     #[error(transparent)]
     Load(#[from] LoadError),
-    /// A scene file cannot be read, or a line of it is wrong.
+    /// A scene file cannot be read, or has a wrong line.
     #[error(transparent)]
     SceneFile(#[from] SceneFileError),
-    /// The technique or its shaders are wrong; the models and the adapter are not at fault.
+    /// The technique or its shaders have mistakes.
     #[error(transparent)]
     Technique(#[from] TechniqueError),
     /// A setting does not fit the technique.
@@ -49,19 +49,19 @@ pub enum Error {
     /// A changed technique cannot be written as a file.
     #[error(transparent)]
     WriteTechnique(#[from] WriteTechniqueError),
-    /// A brush is named that is neither a file nor a shipped one.
+    /// A brush that is neither a file nor a built-in one.
     #[error(
-        "{path}: there is no such file; a brush is a PNG file, or one of none, {}",
+        "{path}: file not found; a brush is a PNG file, or one of none, {}",
         edgemesh_brushes::BRUSH_NAMES.join(", ")
     )]
     NoSuchBrush {
-        /// The name.
+        /// The given name.
         path: String,
     },
     /// A technique names a brush that is not found.
     #[error("{what}: a brush is a PNG file, or one of the directory brushes")]
     BrushNotFound {
-        /// What is not found.
+        /// The message about the missing brush.
         what: String,
     },
     /// A file is not a brush.
@@ -70,9 +70,9 @@ pub enum Error {
     /// A picture file cannot be read or decoded.
     #[error("{file}: {reason}")]
     Image {
-        /// The file, or the name of a shipped image.
+        /// The file, or the name of a built-in image.
         file: String,
-        /// What is wrong with it.
+        /// The cause.
         reason: ImageError,
     },
     /// A picture or an animation cannot be encoded.
@@ -80,7 +80,7 @@ pub enum Error {
     Encode {
         /// `PNG` or `animation`.
         what: &'static str,
-        /// What the encoder said.
+        /// The encoder's error.
         reason: Box<dyn std::error::Error + Send + Sync>,
     },
     /// A file cannot be written.
@@ -89,33 +89,33 @@ pub enum Error {
     /// The camera sees nothing.
     #[error(transparent)]
     Camera(#[from] CameraError),
-    /// More planes cut the scene than shaders take.
+    /// More clip planes than shaders support.
     #[error("there are at most {MAX_CLIP_PLANES} clip planes")]
     TooManyClipPlanes,
     /// A text is not the command line of a picture.
     #[error("{0}")]
     CommandLine(String),
-    /// There is no adapter, or it does not do.
+    /// There is no suitable adapter.
     #[error(transparent)]
     Adapter(#[from] GpuError),
-    /// The adapter of a window was lost again and again.
+    /// The adapter of a window was lost too often.
     #[error("the graphics adapter was lost {times} times within {seconds} seconds")]
     AdapterLost {
-        /// How often.
+        /// Number of losses.
         times: usize,
-        /// Within how many seconds.
+        /// Within this many seconds.
         seconds: u64,
     },
     /// The adapter was lost while a picture was drawn.
     #[error("the graphics adapter was lost: {reason}")]
     DeviceLost {
-        /// What the driver said.
+        /// The error of the driver.
         reason: wgpu::PollError,
     },
     /// A picture or counts cannot be read back from the adapter.
     #[error(transparent)]
     Readback(#[from] ReadbackError),
-    /// The adapter has no memory for what is drawn.
+    /// The adapter has too little memory.
     #[error(
         "the graphics adapter ran out of memory: the picture alone, {}x{} with {samples} samples, \
          needs {} MiB",
@@ -124,23 +124,23 @@ pub enum Error {
     OutOfMemory {
         /// Width and height in pixels.
         size: [u32; 2],
-        /// Samples a pixel.
+        /// Samples per pixel.
         samples: u32,
-        /// Bytes of the textures that the picture is drawn into.
+        /// Bytes of the textures of the picture.
         bytes: u64,
     },
-    /// The adapter is used wrongly: an internal error.
-    #[error("a fault in the use of the graphics adapter: {0}")]
+    /// The adapter was used incorrectly: an internal error.
+    #[error("internal graphics error: {0}")]
     AdapterFault(String),
     /// A mesh does not fit the adapter.
     #[error("{model}: {reason}")]
     MeshTooLarge {
         /// The model's name.
         model: String,
-        /// Its bytes, and what the adapter takes.
+        /// Its size and the adapter's limit.
         reason: MeshTooLarge,
     },
-    /// A picture is larger than a texture can be.
+    /// A picture is larger than the largest texture.
     #[error(
         "a picture of {}x{} is too large: this adapter draws at most {limit} pixels a side at once",
         size[0], size[1]
@@ -148,20 +148,20 @@ pub enum Error {
     PictureTooLarge {
         /// Width and height in pixels.
         size: [u32; 2],
-        /// The most pixels a side.
+        /// The longest side in pixels.
         limit: u32,
     },
-    /// A picture does not fit the memory of the machine.
+    /// The machine has too little memory for a picture.
     #[error(
-        "{}x{}: there is no memory for a picture of {} MiB",
+        "{}x{}: not enough memory for a picture of {} MiB",
         size[0], size[1], (u128::from(size[0]) * u128::from(size[1]) * 4) >> 20
     )]
     NoMemoryForPicture {
         /// Width and height in pixels.
         size: [u32; 2],
     },
-    /// Marks are to be saved for a model that comes from no file.
-    #[error("{model}: marks can be saved for models that are files, not for this one")]
+    /// Marks cannot be saved for a model that is not from a file.
+    #[error("{model}: marks can be saved only for models from files")]
     MarksWithoutFile {
         /// The model's name.
         model: String,
@@ -172,7 +172,7 @@ pub enum Error {
     /// Files cannot be watched.
     #[error(transparent)]
     Watch(#[from] WatchError),
-    /// No window can be opened: no display is named.
+    /// No window can be opened because no display is set.
     #[error(
         "no window can be opened, as there is no display (neither DISPLAY nor WAYLAND_DISPLAY is \
          set)"
@@ -184,13 +184,13 @@ pub enum Error {
          names?"
     )]
     NoWindow {
-        /// What the window system said.
+        /// The error of the window system.
         reason: String,
     },
-    /// No adapter draws to the window.
+    /// No adapter can draw to the window.
     #[error("{0}")]
     WindowAdapter(String),
-    /// A window is open and cannot be filled.
+    /// A window is open but cannot be drawn.
     #[error("{0}")]
     Window(String),
     /// The work was canceled.
@@ -211,7 +211,7 @@ impl From<RenderError> for Error {
     fn from(error: RenderError) -> Self {
         match error {
             RenderError::Shader(error) => error.into(),
-            // Meshes, styles and targets are made for each other here.
+            // Meshes, styles and targets are made for each other in this crate.
             error => Self::Internal(error.to_string()),
         }
     }
@@ -223,38 +223,38 @@ impl From<ShaderError> for Error {
     }
 }
 
-/// What is wrong with a picture file.
+/// Why a picture file cannot be used.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ImageError {
-    /// The operating system does not hand it out.
+    /// The file cannot be read.
     #[error("cannot be read: {0}")]
     Io(#[from] std::io::Error),
-    /// It is not a picture of a known format, or is too large.
-    #[error("is not a picture that can be read: {0}")]
+    /// Not a picture of a known format, or too large.
+    #[error("is not a readable picture: {0}")]
     Decode(#[from] image::ImageError),
 }
 
-/// Why a scene file was not read.
+/// Why a scene file cannot be used.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SceneFileError {
-    /// The operating system does not hand it out, or it is not UTF-8.
+    /// The file cannot be read, or is not UTF-8.
     #[error("{}: cannot be read: {reason}", path.display())]
     Io {
         /// The scene file.
         path: PathBuf,
-        /// What the operating system said.
+        /// The error of the operating system.
         reason: std::io::Error,
     },
-    /// A line of it is wrong.
+    /// A wrong line.
     #[error("{}:{line}: {what}", path.display())]
     Line {
         /// The scene file.
         path: PathBuf,
         /// The line, counted from 1.
         line: usize,
-        /// What is wrong with it.
+        /// The mistake.
         what: String,
     },
 }

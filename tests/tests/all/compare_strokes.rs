@@ -20,7 +20,7 @@ fn a_folder_that_cannot_be_made_is_said_in_one_line() {
     std::fs::write(&file, "a file").unwrap();
     let output = compare("cube.obj", &file, &["--frames", "2"]);
     assert_eq!(output.status.code(), Some(1), "{output:?}");
-    one_error(&output, &["taken", "cannot be made"]).unwrap();
+    one_error(&output, &["taken", "cannot be created"]).unwrap();
     assert_eq!(std::fs::read_to_string(&file).unwrap(), "a file", "nothing is lost");
 }
 

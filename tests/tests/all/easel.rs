@@ -5,7 +5,7 @@ use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::view::camera::Camera;
 use image::RgbaImage;
 use strokes::gpu::device::Gpu;
-use viewer::picture::renderer::{PictureOptions, PictureRenderer};
+use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use viewer::scene::models::Scene;
 use viewer::technique::Technique;
 
@@ -35,9 +35,10 @@ impl<'a> Easel<'a> {
         let known = self.renderers.iter().position(|known| key(known.options()) == key(options));
         let at = known.unwrap_or(self.renderers.len());
         if let Some(renderer) = self.renderers.get_mut(at) {
-            renderer.reload(&self.scene, technique, &[], options).unwrap();
+            renderer.reload(PictureInput::new(&self.scene, technique), options).unwrap();
         } else {
-            let renderer = PictureRenderer::new(self.gpu, &self.scene, technique, &[], options);
+            let renderer =
+                PictureRenderer::new(self.gpu, PictureInput::new(&self.scene, technique), options);
             self.renderers.push(renderer.unwrap());
         }
         self.renderers[at].render(camera).unwrap().0

@@ -18,7 +18,7 @@ use strokes::gpu::readback::read_texels;
 use strokes::view::frame::FrameUniform;
 use strokes::view::tile::Tile;
 use testkit::locate::{left_out, shared};
-use viewer::picture::renderer::{PictureOptions, PictureRenderer};
+use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use viewer::scene::lighting::Lighting;
 use viewer::technique::library::Library;
 
@@ -280,7 +280,8 @@ fn compare(mesh: &EdgeMesh, camera: &Camera) {
         Library::shipped().technique_file(&path).unwrap_or_else(|mistakes| panic!("{mistakes}")).0;
     let options = PictureOptions { size: SIZE, samples: 1, ..PictureOptions::default() };
     let scene = scene_of(mesh);
-    let mut renderer = PictureRenderer::new(gpu(), &scene, &technique, &[], &options).unwrap();
+    let mut renderer =
+        PictureRenderer::new(gpu(), PictureInput::new(&scene, &technique), &options).unwrap();
     renderer.render(camera).unwrap();
     let viewport_px = Vec2::new(237.0, 181.0);
     let view = camera.view(&scene.bounds, f64::from(viewport_px.x) / f64::from(viewport_px.y));

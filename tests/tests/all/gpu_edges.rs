@@ -13,7 +13,7 @@ use glam::DVec3;
 use strokes::gpu::readback::read_texels;
 use strokes::view::frame::{FrameUniform, Surroundings};
 use strokes::view::tile::Tile;
-use viewer::picture::renderer::{PictureOptions, PictureRenderer};
+use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use viewer::technique::library::Library;
 
 use crate::gpu_device::gpu;
@@ -59,7 +59,8 @@ fn texels(mesh: &EdgeMesh, folder: &Path, passes: &str) -> Vec<[f32; 4]> {
         Library::shipped().technique_file(&path).unwrap_or_else(|mistakes| panic!("{mistakes}")).0;
     let options = PictureOptions { size: [SIDE; 2], samples: 1, ..PictureOptions::default() };
     let scene = scene_of(mesh);
-    let mut renderer = PictureRenderer::new(gpu(), &scene, &technique, &[], &options).unwrap();
+    let mut renderer =
+        PictureRenderer::new(gpu(), PictureInput::new(&scene, &technique), &options).unwrap();
     renderer.render(&camera()).unwrap();
     read_texels(gpu(), renderer.generated("out_color").unwrap(), 16).unwrap()
 }

@@ -13,7 +13,7 @@ use image::{GrayImage, Luma, RgbaImage};
 use strokes::style::drawing_style::DrawingStyle;
 use testkit::compare::Golden;
 use viewer::pass_graph::strokes_of;
-use viewer::picture::renderer::{PictureOptions, PictureRenderer};
+use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use viewer::scene::models::Scene;
 use viewer::technique::Technique;
 use viewer::technique::library::Library;
@@ -57,7 +57,8 @@ pub(crate) fn picture_with(
     options: &PictureOptions,
 ) -> RgbaImage {
     let mut renderer =
-        PictureRenderer::new(gpu(), &scene_of(mesh), technique, &[], options).unwrap();
+        PictureRenderer::new(gpu(), PictureInput::new(&scene_of(mesh), technique), options)
+            .unwrap();
     renderer.render(camera).unwrap().0
 }
 

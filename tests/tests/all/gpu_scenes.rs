@@ -18,7 +18,7 @@ use strokes::mesh::buffers::MeshBuffers;
 use strokes::render::pipelines::RendererOptions;
 use strokes::render::renderer::Renderer;
 use strokes::render::scene_view::SceneView;
-use viewer::picture::renderer::{PictureOptions, PictureRenderer};
+use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use viewer::scene::models::{PlacedObject, Scene};
 use viewer::technique::Technique;
 
@@ -28,18 +28,24 @@ use crate::gpu_render::{look_of, own_model, picture, scene_of, technique};
 /// A scene of one model many times.
 fn scene(mesh: &EdgeMesh, places: &[(DMat4, usize)]) -> Scene {
     let loaded = Loaded::new("test".into(), mesh.clone(), Report::default());
-    let placed = places.iter().map(|&(world_from_object, look)| PlacedObject {
+    let placed = places.iter().map(|&(world_from_object, override_index)| PlacedObject {
         model: 0,
-        look,
+        override_index,
         world_from_object,
     });
     Scene::placed(vec![loaded], placed.collect())
 }
 
-/// The scene with the look of each object from `looks`.
-fn scene_picture(scene: &Scene, looks: &[Technique], size_px: u32, camera: &Camera) -> RgbaImage {
+/// The scene with the technique of each object from `overrides`.
+fn scene_picture(
+    scene: &Scene,
+    overrides: &[Technique],
+    size_px: u32,
+    camera: &Camera,
+) -> RgbaImage {
     let options = PictureOptions { size: [size_px; 2], samples: 1, ..PictureOptions::default() };
-    let mut renderer = PictureRenderer::new(gpu(), scene, &looks[0], looks, &options).unwrap();
+    let input = PictureInput { scene, technique: &overrides[0], overrides };
+    let mut renderer = PictureRenderer::new(gpu(), input, &options).unwrap();
     renderer.render(camera).unwrap().0
 }
 
@@ -262,7 +268,7 @@ fn visible_and_hidden(mesh: &EdgeMesh, placement: &str) -> [PictureRenderer; 2] 
         let placed = [&visible, &hidden, "hidden.width=2"];
         let look = technique("ink", &[settings, &placed].concat());
         let options = PictureOptions { size: [256; 2], samples: 1, ..PictureOptions::default() };
-        PictureRenderer::new(gpu(), &scene_of(mesh), &look, &[], &options).unwrap()
+        PictureRenderer::new(gpu(), PictureInput::new(&scene_of(mesh), &look), &options).unwrap()
     })
 }
 

@@ -11,7 +11,7 @@ use image::RgbaImage;
 use strokes::gpu::readback::read_texels;
 use testkit::compare::Golden;
 use testkit::locate::workspace_root;
-use viewer::picture::renderer::{PictureOptions, PictureRenderer};
+use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use viewer::scene::lighting::Lighting;
 use viewer::scene::models::Scene;
 use viewer::technique::Technique;
@@ -38,7 +38,8 @@ fn read_generated(technique: &Technique, frames: usize, name: &str) -> (u32, Vec
     let mesh = own_model("cube");
     let scene = scene_of(&mesh);
     let mut renderer =
-        PictureRenderer::new(gpu(), &scene, technique, &[], &small([32, 16])).unwrap();
+        PictureRenderer::new(gpu(), PictureInput::new(&scene, technique), &small([32, 16]))
+            .unwrap();
     for _ in 0..frames {
         renderer.render(&Camera::default_view(&mesh.bounds)).unwrap();
     }
@@ -62,7 +63,7 @@ fn a_shader_that_never_ends_ends() {
     let mesh = own_model("cube");
     let scene = scene_of(&mesh);
     let mut renderer =
-        PictureRenderer::new(gpu(), &scene, &technique, &[], &small([8, 8])).unwrap();
+        PictureRenderer::new(gpu(), PictureInput::new(&scene, &technique), &small([8, 8])).unwrap();
     let (picture, _) = renderer.render(&Camera::default_view(&mesh.bounds)).unwrap();
     assert!(
         picture.pixels().all(|pixel| pixel.0 == [64, 128, 191, 255]),
@@ -140,14 +141,15 @@ fn passes_run_once_or_when_something_has_changed() {
         let mesh = own_model("cube");
         let (scene, camera) = (scene_of(&mesh), Camera::default_view(&mesh.bounds));
         let mut renderer =
-            PictureRenderer::new(gpu(), &scene, &technique, &[], &small([8, 8])).unwrap();
+            PictureRenderer::new(gpu(), PictureInput::new(&scene, &technique), &small([8, 8]))
+                .unwrap();
         let frames = |renderer: &mut PictureRenderer, count: usize| {
             (0..count).for_each(|_| drop(renderer.render(&camera).unwrap()));
         };
         frames(&mut renderer, 3);
-        renderer.reload(&scene, &technique, &[], &small([8, 8])).unwrap();
+        renderer.reload(PictureInput::new(&scene, &technique), &small([8, 8])).unwrap();
         technique.set("count.step=2,1").unwrap();
-        renderer.reload(&scene, &technique, &[], &small([8, 8])).unwrap();
+        renderer.reload(PictureInput::new(&scene, &technique), &small([8, 8])).unwrap();
         frames(&mut renderer, 2);
         let texels: Vec<[f32; 4]> =
             read_texels(gpu(), renderer.generated("sum_color").unwrap(), 16).unwrap();
@@ -169,14 +171,15 @@ fn a_technique_that_cannot_be_built_leaves_the_last_picture() {
     for settings in [&[][..], &["silhouette.render=true"], &["strokes.render=false"]] {
         let (ink, pen) = (technique("ink", settings), technique("pen", &[]));
         let options = small([40, 30]);
-        let mut renderer = PictureRenderer::new(gpu(), &scene, &ink, &[], &options).unwrap();
+        let mut renderer =
+            PictureRenderer::new(gpu(), PictureInput::new(&scene, &ink), &options).unwrap();
         let picture = renderer.render(&camera).unwrap().0;
-        let failure = renderer.reload(&scene, &broken, &[], &options).unwrap_err();
+        let failure = renderer.reload(PictureInput::new(&scene, &broken), &options).unwrap_err();
         assert!(failure.to_string().contains("do not fit together"), "{}", failure);
         assert!(renderer.render(&camera).unwrap().0 == picture, "{settings:?}");
-        renderer.reload(&scene, &ink, &[], &options).unwrap();
+        renderer.reload(PictureInput::new(&scene, &ink), &options).unwrap();
         assert!(renderer.render(&camera).unwrap().0 == picture, "{settings:?}, built again");
-        renderer.reload(&scene, &pen, &[], &options).unwrap();
+        renderer.reload(PictureInput::new(&scene, &pen), &options).unwrap();
         assert!(renderer.render(&camera).unwrap().0 != picture, "another technique");
     }
 }
@@ -219,7 +222,8 @@ fn the_picture_so_far_and_its_depth_are_copied() {
         assert!(draw(&copied) == draw(&plain), "{samples} samples");
         let scene = scene_of(&mesh);
         let options = PictureOptions { size: [64; 2], samples, ..PictureOptions::default() };
-        let mut renderer = PictureRenderer::new(gpu(), &scene, &copied, &[], &options).unwrap();
+        let mut renderer =
+            PictureRenderer::new(gpu(), PictureInput::new(&scene, &copied), &options).unwrap();
         renderer.render(&camera).unwrap();
         let depths: Vec<f32> = read_texels(gpu(), renderer.generated("far").unwrap(), 4).unwrap();
         let covered = depths.iter().filter(|depth| **depth > 0.0).count();
@@ -296,14 +300,15 @@ fn objects_have_the_fill_and_the_strokes_of_their_own_technique() {
         let mut scene = scene_of(&mesh);
         let mut second = scene.objects[0];
         second.world_from_object = glam::DMat4::from_translation(glam::DVec3::X * 4.0);
-        (second.look, scene.objects[0].look) = (0, 9);
+        (second.override_index, scene.objects[0].override_index) = (0, 9);
         scene.objects.push(second);
         Scene::placed(scene.models, scene.objects)
     };
-    let own = [technique("ink", &["fill.color=#00ff00", "strokes.color=#ff0000"])];
+    let overrides = &[technique("ink", &["fill.color=#00ff00", "strokes.color=#ff0000"])];
     let options = small([256, 128]);
     let main = technique("ink", &[]);
-    let mut renderer = PictureRenderer::new(gpu(), &scene, &main, &own, &options).unwrap();
+    let input = PictureInput { scene: &scene, technique: &main, overrides };
+    let mut renderer = PictureRenderer::new(gpu(), input, &options).unwrap();
     let drawn = renderer.render(&Camera::default_view(&scene.bounds)).unwrap().0;
     let count = |color: [u8; 4]| drawn.pixels().filter(|pixel| pixel.0 == color).count();
     let (green, red, black) =

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use image::RgbaImage;
 use testkit::locate::{program, workspace_root};
 use viewer::picture::png::read_png;
-use viewer::picture::renderer::{PictureOptions, PictureRenderer};
+use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use viewer::scene::lighting::Light;
 use viewer::scene::models::Scene;
 use viewer::scene::scene_file::SceneObject;
@@ -40,7 +40,7 @@ fn saved(session: &Session, size: [u32; 2], path: PathBuf, turntable: Option<u32
     let order = Order {
         recipe: session.recipe.clone(),
         scene: session.scene.clone().unwrap(),
-        looks: session.object_looks().unwrap(),
+        overrides: session.object_overrides().unwrap(),
         size,
         path,
         turntable,
@@ -144,10 +144,11 @@ fn what_passes_draw_for_each_other_is_seen() {
         let original = &recipe.appearance.technique;
         let options = PictureOptions { size: [80, 60], ..PictureOptions::default() };
         let camera = recipe.viewpoint.unwrap().camera(&scene.frame);
-        let mut renderer = PictureRenderer::new(gpu(), scene, original, &[], &options).unwrap();
+        let mut renderer =
+            PictureRenderer::new(gpu(), PictureInput::new(scene, original), &options).unwrap();
         for texture in renderer.generated_textures() {
             let shown = Inspection::of(texture.clone()).shown(original, &session.library).unwrap();
-            renderer.reload(scene, &shown, &[], &options).unwrap();
+            renderer.reload(PictureInput::new(scene, &shown), &options).unwrap();
             let seen = renderer.render(&camera).unwrap().0;
             let background = *seen.get_pixel(0, 0);
             let model = seen.pixels().filter(|pixel| **pixel != background).count();
@@ -178,7 +179,7 @@ fn turntables_are_written_and_can_be_cancelled() {
     let order = Order {
         recipe: session.recipe.clone(),
         scene: session.scene.clone().unwrap(),
-        looks: Vec::new(),
+        overrides: Vec::new(),
         size: [32, 32],
         path: folder.path().join("moving.apng"),
         turntable: Some(50),

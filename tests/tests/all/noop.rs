@@ -9,7 +9,7 @@ use strokes::gpu::device::Gpu;
 use strokes::mesh::buffers::MeshBuffers;
 use strokes::mesh::layout::Layout;
 use strokes::render::pipelines::DetectionStage;
-use viewer::picture::renderer::{PictureOptions, PictureRenderer};
+use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use viewer::scene::models::Scene;
 use viewer::technique::Technique;
 use viewer::technique::core::CoreComponent;
@@ -73,10 +73,11 @@ fn every_technique_builds_its_pipelines_within_the_default_limits() {
                 PictureOptions { size, samples, layout, stage, ..PictureOptions::default() };
             // Techniques share pipelines: each is built once.
             let first = &techniques[0];
-            let mut renderer = PictureRenderer::new(&gpu, &scene, first, &[], &options).unwrap();
+            let mut renderer =
+                PictureRenderer::new(&gpu, PictureInput::new(&scene, first), &options).unwrap();
             for technique in &techniques {
                 renderer
-                    .reload(&scene, technique, &[], &options)
+                    .reload(PictureInput::new(&scene, technique), &options)
                     .unwrap_or_else(|error| panic!("{}: {error}", technique.name));
             }
         }
@@ -127,7 +128,7 @@ fn every_component_builds_its_pipelines() {
         std::fs::write(&path, text).unwrap();
         let technique = library.technique_file(&path).unwrap_or_else(|m| panic!("{name}: {m}")).0;
         let options = PictureOptions { size: [32; 2], ..PictureOptions::default() };
-        PictureRenderer::new(&gpu, &scene, &technique, &[], &options)
+        PictureRenderer::new(&gpu, PictureInput::new(&scene, &technique), &options)
             .unwrap_or_else(|error| panic!("{name}: {error}"));
         count += 1;
     }

@@ -289,7 +289,11 @@ mod with_adapter {
             |size: &str| viewer(&["render", &cube(), "-o", out.to_str().unwrap(), "--size", size]);
         let output = render("4000000000x4000000000");
         assert_eq!(output.status.code(), Some(1), "{}", message(&output));
-        assert!(message(&output).contains("no memory for a picture"), "{}", message(&output));
+        assert!(
+            message(&output).contains("not enough memory for a picture"),
+            "{}",
+            message(&output)
+        );
         assert!(!out.exists());
         let output = render("17000x30");
         assert_eq!(output.status.code(), Some(0), "{}", message(&output));

@@ -154,11 +154,11 @@ fn the_light_goes_to_the_world_and_still_comes_from_there() {
 #[test]
 fn cuts_are_added_moved_and_removed() {
     let mut harness = side(Tab::Light, session(""));
-    harness.get_by_label("Add a cut").click();
+    harness.get_by_label("Add cut").click();
     harness.run_ok();
     harness.get_by_label("X").click();
     harness.run_ok();
-    harness.get_by_label("Turn over").click();
+    harness.get_by_label("Flip").click();
     harness.run_ok();
     let planes = harness.state().recipe.appearance.lighting.clip_planes.clone();
     assert_eq!(planes.len(), 1);
@@ -190,11 +190,11 @@ fn inspection_shows_times_and_what_was_repaired() {
     }
     let harness = side(Tab::Inspect, session);
     assert!(harness.query_by_label("3.50 ms").is_some(), "the last picture's time");
-    assert!(harness.query_by_label_contains("demo: nothing").is_some(), "nothing was repaired");
+    assert!(harness.query_by_label_contains("demo: none").is_some(), "nothing was repaired");
 }
 
 #[test]
-fn looks_for_looking_come_and_go() {
+fn debug_views_come_and_go() {
     let mut harness = side(Tab::Inspect, session("--technique pen --set strokes.width=5"));
     for (name, technique) in [("Wireframe", "wireframe"), ("Normals", "debug_normals")] {
         harness.get_by_label(name).click();
@@ -445,7 +445,7 @@ fn the_line_between_two_looks_is_moved_by_hand_and_by_keys() {
     };
     let builder = Harness::builder().with_size([400.0, 300.0]);
     let mut harness = builder.build_ui_state(show, 0.5);
-    let line = harness.get_by_label("Line between the looks").rect();
+    let line = harness.get_by_label("Comparison line").rect();
     let step = egui::vec2(80.0, 30.0);
     harness.drag_at(line.center());
     harness.run_ok();
@@ -455,7 +455,7 @@ fn the_line_between_two_looks_is_moved_by_hand_and_by_keys() {
     harness.run_ok();
     let dragged = *harness.state();
     assert!((0.65..0.75).contains(&dragged), "{dragged}");
-    harness.get_by_label("Line between the looks").focus();
+    harness.get_by_label("Comparison line").focus();
     harness.run_ok();
     for _ in 0..3 {
         harness.key_press(Key::ArrowLeft);
@@ -482,7 +482,7 @@ fn without_a_picture_there_is_a_way_to_one() {
     harness.run_ok();
     harness.get_by_label_contains("Open").click();
     harness.run_ok();
-    harness.get_by_label("See the demo").click();
+    harness.get_by_label("Open the demo").click();
     harness.run_ok();
     let wanted = [Request::ChooseFiles, Request::Open(vec![PathBuf::from(DEMO)])];
     assert_eq!(harness.state().0.requests, wanted);

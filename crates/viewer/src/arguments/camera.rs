@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::error::Error;
 
-/// The words of a camera; those of its parts that are given.
+/// The words of the camera options that are given.
 pub(crate) fn camera_words(camera: &CameraArguments) -> Vec<String> {
     let vector = |v: DVec3| format!("{},{},{}", v.x, v.y, v.z);
     let mut words = Vec::new();
@@ -24,10 +24,10 @@ pub(crate) fn camera_words(camera: &CameraArguments) -> Vec<String> {
     words
 }
 
-/// Reads the camera in a text, such as a copied command; other words are left out.
+/// Reads the camera options in a text, such as a copied command; other words are ignored.
 ///
 /// # Errors
-/// [`Error::CommandLine`], if there is none, or something is wrong with it.
+/// [`Error::CommandLine`], if there are none or one is wrong.
 pub(crate) fn read_camera(text: &str) -> Result<CameraArguments, Error> {
     #[derive(clap::Parser)]
     #[command(no_binary_name = true, disable_help_flag = true)]
@@ -37,14 +37,14 @@ pub(crate) fn read_camera(text: &str) -> Result<CameraArguments, Error> {
     }
     let words = words_in(text);
     if words.is_empty() {
-        let what = "there are no camera options in it, as --eye 3,2,5 --target 0,0,0";
+        let what = "there are no camera options, such as --eye 3,2,5 --target 0,0,0";
         return Err(Error::CommandLine(what.into()));
     }
     let read = Words::try_parse_from(words);
     Ok(read.map_err(|error| Error::CommandLine(error.to_string()))?.camera)
 }
 
-/// The words of a text that are camera options and their values.
+/// The words of a text that are camera options with their values.
 fn words_in(text: &str) -> Vec<String> {
     let mut words = text.split_whitespace();
     let mut found = Vec::new();

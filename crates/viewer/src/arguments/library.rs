@@ -1,4 +1,4 @@
-//! Where techniques come from.
+//! Folders of techniques, components, shaders and images.
 
 use std::path::PathBuf;
 
@@ -6,21 +6,21 @@ use clap::Args;
 
 use crate::technique::library::Library;
 
-/// Where techniques, components, shaders and images come from.
+/// Folders of techniques, components, shaders and images.
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Techniques")]
 pub(crate) struct LibraryArguments {
-    /// Your own folder with techniques, components, shaders and images
-    /// [default: edgemesh in the folder for settings, as ~/.config/edgemesh]
+    /// Your folder with techniques, components, shaders and images [default: edgemesh in the
+    /// settings folder, such as ~/.config/edgemesh]
     #[arg(long, value_name = "DIR", global = true)]
     pub(crate) folder: Option<PathBuf>,
-    /// Take shaders from this copy of shaders/ instead of the shipped ones
+    /// Use the shaders in this copy of shaders/ instead of the built-in ones
     #[arg(long, value_name = "DIR", global = true)]
     pub(crate) shaders: Option<PathBuf>,
 }
 
 impl LibraryArguments {
-    /// Reads the techniques and components.
+    /// Reads techniques and components.
     pub(crate) fn load(&self) -> Library {
         let folder = self.folder.clone().or_else(Library::default_folder);
         Library::load(folder.as_deref())

@@ -1,4 +1,4 @@
-//! The light, and what cuts the scene.
+//! Options of the light and the clip planes.
 
 use clap::Args;
 use strokes::view::frame::MAX_CLIP_PLANES;
@@ -7,33 +7,31 @@ use crate::error::Error;
 use crate::scene::lighting::{Light, Lighting, parse_clip_plane, parse_light};
 use crate::technique::value::{VariableType, parse_color};
 
-/// The light, and what cuts the scene.
+/// Options of the light and the clip planes.
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Light")]
 pub(crate) struct LightingArguments {
-    /// Where the light comes from: a direction in the camera's space (right, up,
-    /// toward the viewer), world:X,Y,Z, or point:X,Y,Z [default: -0.5,0.7,1]
+    /// Direction or place of the light: X,Y,Z in camera space (right, up, toward the viewer),
+    /// world:X,Y,Z or point:X,Y,Z [default: -0.5,0.7,1]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_light, allow_hyphen_values = true)]
     light: Option<Light>,
-    /// The color of the light
+    /// Color of the light
     #[arg(long, value_name = "#RRGGBB", default_value = "#ffffff", value_parser = parse_light_color)]
     light_color: LightColor,
-    /// Cut away what lies behind a plane: X NX + Y NY + Z NZ + D < 0; repeatable
+    /// Cut away everything behind a plane, where X NX + Y NY + Z NZ + D < 0; repeatable
     #[arg(long, value_name = "NX,NY,NZ,D", value_parser = parse_plane, allow_hyphen_values = true)]
     clip: Vec<ClipPlane>,
 }
 
-/// A color as an argument.
+/// A color, as clap reads it.
 #[derive(Debug, Clone, Copy, Default)]
 struct LightColor([f32; 3]);
 
-/// A plane as an argument.
+/// A plane, as clap reads it.
 #[derive(Debug, Clone, Copy)]
 struct ClipPlane([f64; 4]);
 
 impl LightingArguments {
-    /// The light and the planes.
-    ///
     /// # Errors
     /// [`Error::TooManyClipPlanes`].
     pub(crate) fn lighting(&self) -> Result<Lighting, Error> {

@@ -1,10 +1,10 @@
-//! Arguments that make a picture, as clap reads them, for `viewer render` and the window
-//! alike. They become plain options, and know no exit status.
+//! Arguments of a picture, as clap reads them, for `viewer render` and the window. They
+//! become plain options and know no exit status.
 //!
-//! - `library`: where techniques come from. `lighting`: the light, and what cuts the scene.
-//! - `picture`: everything that makes a picture but the models and its size.
-//! - `camera`, `words`: the camera, and whole pictures, as the words of a command line, for the
-//!   window alone.
+//! - `library`: folders of techniques. `lighting`: light and clip planes.
+//! - `picture`: all arguments of a picture except the models and the size.
+//! - `camera`, `words`: the camera, and whole pictures, as the words of a command line, for
+//!   the window alone.
 
 #[cfg(feature = "window")]
 mod camera;

@@ -1,4 +1,4 @@
-//! Everything that makes a picture but the models and its size.
+//! Arguments of a picture, except the models and the size.
 
 use std::path::Path;
 
@@ -17,37 +17,36 @@ use crate::technique::Technique;
 use crate::technique::library::Library;
 use crate::technique::mistake::Mistakes;
 
-/// Everything that makes a picture but the models and its size.
+/// Arguments of a picture, except the models and the size.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct PictureArguments {
-    /// How it looks: a technique by its name, or a file that describes one; see
-    /// viewer techniques list
+    /// Name of a technique, or a technique file; viewer techniques list shows all names
     #[arg(long, value_name = "NAME|FILE", default_value = "ink")]
     pub(crate) technique: String,
     /// Set a variable of the technique; repeatable
     #[arg(long, value_name = "PASS.VARIABLE=VALUE")]
     pub(crate) set: Vec<String>,
-    /// The brush of all visible strokes: a PNG file, or pen, charcoal, watercolor,
-    /// fur, dash, none
+    /// Brush of all visible strokes: a PNG file, or pen, charcoal, watercolor, fur, dash,
+    /// none
     #[arg(long, value_name = "FILE")]
     pub(crate) brush: Option<String>,
     #[command(flatten)]
     pub(crate) library: LibraryArguments,
     #[command(flatten)]
     pub(crate) lighting: LightingArguments,
-    /// How the edges lie in memory; the replicated layouts are the paper's
+    /// Memory layout of the edges; the replicated layouts are the paper's
     #[arg(long, value_name = "LAYOUT", default_value = "indexed")]
     layout: LayoutName,
-    /// Where features are detected; in the vertex shader is the paper's way
+    /// Shader stage that detects features; vertex is the paper's way
     #[arg(long, value_name = "PATH", default_value = "compute")]
     detection: PathName,
-    /// Samples a pixel
+    /// Samples per pixel
     #[arg(long, value_name = "N", default_value = "4", value_parser = ["1", "4"])]
     samples: String,
-    /// The adapter whose name contains this [default: the best]
+    /// Use the adapter whose name contains this text [default: the best]
     #[arg(long, value_name = "NAME")]
     pub(crate) adapter: Option<String>,
-    /// No paper behind the model
+    /// Make the background transparent
     #[arg(long)]
     pub(crate) transparent: bool,
     #[command(flatten)]
@@ -56,16 +55,16 @@ pub(crate) struct PictureArguments {
     pub(crate) input: InputArguments,
 }
 
-/// The layouts by name.
+/// Names of the layouts.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum LayoutName {
-    /// 20 bytes an edge, everything else shared with the faces
+    /// 20 bytes per edge; shares everything else with the faces
     Indexed,
-    /// Four vertices an edge, in 32-bit floats
+    /// Four vertices per edge, with 32-bit floats
     ReplicatedF32,
-    /// Four vertices an edge, at 16 bits
+    /// Four vertices per edge, with 16-bit integers
     ReplicatedI16,
-    /// Card and Mitchell's fins, with face normals: contours and boundaries only
+    /// Fins with face normals (Card and Mitchell); contours and boundaries only
     FaceNormals,
 }
 
@@ -80,12 +79,12 @@ impl From<LayoutName> for Layout {
     }
 }
 
-/// The detection paths by name.
+/// Names of the detection stages.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum PathName {
-    /// In compute shaders, which list the edges to draw
+    /// Compute shaders, which list the edges to draw
     Compute,
-    /// In the vertex shader, through which every edge goes
+    /// The vertex shader, which processes every edge
     Vertex,
 }
 
@@ -99,8 +98,7 @@ impl From<PathName> for DetectionStage {
 }
 
 impl PictureArguments {
-    /// The technique with what the arguments change in it. `warn` receives what was put
-    /// right.
+    /// The technique with the changes of the arguments. `warn` receives warnings.
     ///
     /// # Errors
     /// [`Error::Technique`], and as [`Self::change`].
@@ -115,10 +113,10 @@ impl PictureArguments {
         Ok(technique)
     }
 
-    /// Changes a technique as the arguments say. `warn` receives what was put right.
+    /// Changes a technique by the arguments. `warn` receives warnings.
     ///
     /// # Errors
-    /// [`Error::Setting`] for what does not fit, [`Error::NoSuchBrush`].
+    /// [`Error::Setting`], [`Error::NoSuchBrush`].
     pub(crate) fn change(
         &self,
         technique: &mut Technique,
@@ -138,7 +136,7 @@ impl PictureArguments {
         Ok(())
     }
 
-    /// How a scene is drawn in a light, at a size in pixels.
+    /// Options of a picture with a light and a size in pixels.
     pub(crate) fn picture_options(&self, size: [u32; 2], lighting: Lighting) -> PictureOptions {
         PictureOptions {
             size,
@@ -151,9 +149,8 @@ impl PictureArguments {
         }
     }
 
-    /// The arguments that the window does not change, as a command line has them: how
-    /// models are read and how edges lie in memory. Folders and the adapter are those of
-    /// a machine, not of a picture.
+    /// The words of the arguments that the window does not change: how models are read, and
+    /// the layout. Folders and the adapter are left out, since they belong to the machine.
     #[cfg(feature = "window")]
     pub(super) fn fixed_words(&self) -> Vec<String> {
         let mut words = Vec::new();

@@ -11,26 +11,26 @@ use crate::error::Error;
 use crate::scene::lighting::{Light, Lighting};
 use crate::technique::value::color_text;
 
-/// What a picture shows, as far as it changes while the arguments that it was read with stay.
+/// The parts of a picture that change in the window.
 #[derive(Debug)]
 pub(crate) struct PictureWords<'a> {
     /// The files.
     pub(crate) models: &'a [PathBuf],
-    /// The technique's name, or its file.
+    /// Name or file of the technique.
     pub(crate) technique: &'a str,
-    /// What is set in the technique.
+    /// Settings of the technique.
     pub(crate) settings: Vec<String>,
-    /// The light, and what cuts the scene.
+    /// Light and clip planes.
     pub(crate) lighting: &'a Lighting,
-    /// Whether there is no paper behind the scene.
+    /// Whether the background is transparent.
     pub(crate) is_transparent: bool,
-    /// The camera, if there is one.
+    /// The camera, if it is known.
     pub(crate) camera: Option<CameraArguments>,
 }
 
 impl PictureWords<'_> {
-    /// The words, with those of `arguments` that stay: how models are read and how edges lie
-    /// in memory. Size and name of the picture are not among them.
+    /// The words of the picture, with those of `arguments` that the window does not change.
+    /// Size and output file are left out.
     pub(crate) fn words(&self, arguments: &PictureArguments) -> Vec<String> {
         let mut words: Vec<String> =
             self.models.iter().map(|model| model.display().to_string()).collect();
@@ -48,7 +48,7 @@ impl PictureWords<'_> {
     }
 }
 
-/// The words of what differs from the default light, and of the planes.
+/// The words of the options that differ from the default light, and of the planes.
 fn lighting_words(lighting: &Lighting) -> Vec<String> {
     let default = Lighting::default();
     let mut words = Vec::new();
@@ -65,7 +65,7 @@ fn lighting_words(lighting: &Lighting) -> Vec<String> {
     words
 }
 
-/// A light as `--light` reads it.
+/// A light in the form of `--light`.
 fn light_text(light: &Light) -> String {
     let (kind, at) = match light {
         Light::Camera(direction) => ("", direction),
@@ -75,10 +75,10 @@ fn light_text(light: &Light) -> String {
     format!("{kind}{},{},{}", at.x, at.y, at.z)
 }
 
-/// Reads the files and the arguments in words.
+/// Reads files and arguments from words.
 ///
 /// # Errors
-/// [`Error::CommandLine`], if they are not those of a picture.
+/// [`Error::CommandLine`], if they are not the words of a picture.
 pub(crate) fn read_words(words: &[String]) -> Result<(Vec<PathBuf>, PictureArguments), Error> {
     #[derive(clap::Parser)]
     #[command(no_binary_name = true)]
@@ -92,7 +92,7 @@ pub(crate) fn read_words(words: &[String]) -> Result<(Vec<PathBuf>, PictureArgum
     Ok((read.models, read.arguments))
 }
 
-/// The command that draws the picture of `words` at a size in pixels.
+/// The command that draws the picture of `words` in a size in pixels.
 pub(crate) fn render_command(words: Vec<String>, [width, height]: [u32; 2]) -> String {
     let size = format!("{width}x{height}");
     let ahead = ["viewer", "render"].map(str::to_owned).into_iter();
@@ -100,7 +100,7 @@ pub(crate) fn render_command(words: Vec<String>, [width, height]: [u32; 2]) -> S
     shell_line(&ahead.chain(words).chain(behind).collect::<Vec<String>>())
 }
 
-/// Words as a shell reads them.
+/// Words quoted for a shell.
 pub(crate) fn shell_line(words: &[String]) -> String {
     let is_plain = |word: &str| {
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:,=+@%".contains(c);

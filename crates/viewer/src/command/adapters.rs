@@ -1,4 +1,4 @@
-//! `viewer adapters`: the graphics adapters, and what each lacks.
+//! `viewer adapters`: the graphics adapters and the features that each lacks.
 
 use clap::Args;
 use edgemesh::command::{Failure, print_to_stdout, to_json};
@@ -9,8 +9,7 @@ use crate::error::Error;
 
 /// Lists the graphics adapters and what each lacks
 ///
-/// The environment variable `WGPU_BACKEND` chooses the backends that are tried:
-/// vulkan, metal, dx12, gl.
+/// The environment variable `WGPU_BACKEND` selects the backends: vulkan, metal, dx12, gl.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = "Examples:\n  viewer adapters\n  WGPU_BACKEND=gl viewer adapters --json")]
 pub(super) struct AdaptersCommand {

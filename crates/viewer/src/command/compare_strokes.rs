@@ -1,5 +1,4 @@
-//! `viewer compare-strokes`: brushes in each parameterization, measured along camera
-//! paths.
+//! `viewer compare-strokes`: measures brushes in each parameterization along camera paths.
 
 use std::path::{Path, PathBuf};
 
@@ -25,7 +24,7 @@ use crate::comparison::samples::{FrameLines, FrameSource};
 use crate::comparison::{CameraPath, Way};
 use crate::error::Error;
 use crate::picture::png::encode_png;
-use crate::picture::renderer::{PictureOptions, PictureRenderer};
+use crate::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use crate::scene::models::Scene;
 use crate::scene::scene_file::SceneObject;
 use crate::technique::brush_file::shipped_brush;
@@ -36,17 +35,17 @@ const EXAMPLES: &str = "Examples:\n  \
     viewer compare-strokes bunny.obj teapot.obj -o comparison --frames 90 --width 10\n  \
     viewer compare-strokes bunny.obj -o turn --path turntable --brush pen --frames 360";
 
-/// Compares stroke textures: every brush, laid along strokes in three ways
+/// Measures and compares how brushes lie along strokes, in three parameterizations
 ///
-/// Writes strokes.csv, a sheet of pictures for each model and brush, and index.html with
-/// all of it into a folder.
+/// Writes strokes.csv, a sheet of pictures per model and brush, and index.html with all
+/// results to a folder.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct CompareStrokesCommand {
     /// Models, each compared by itself
     #[arg(value_name = "MODEL", required = true)]
     models: Vec<PathBuf>,
-    /// The folder to write into; made where there is none
+    /// Folder for the results; created if it is missing
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Only this camera path; repeatable [default: all]
@@ -64,7 +63,7 @@ pub(super) struct CompareStrokesCommand {
     /// Width of the strokes in pixels
     #[arg(long, value_name = "PX", default_value = "6", value_parser = parse_width)]
     width: f32,
-    /// The adapter whose name contains this [default: the best]
+    /// Use the adapter whose name contains this text [default: the best]
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
     #[command(flatten)]
@@ -79,10 +78,10 @@ fn parse_path(text: &str) -> Result<CameraPath, String> {
 
 fn parse_width(text: &str) -> Result<f32, String> {
     let width: Option<f32> = text.parse().ok().filter(|width| (0.5..=100.0).contains(width));
-    width.ok_or_else(|| "needs pixels from 0.5 to 100".to_owned())
+    width.ok_or_else(|| "needs a number of pixels from 0.5 to 100".to_owned())
 }
 
-/// One brush on one model, in all three ways.
+/// One brush on one model, in all parameterizations.
 struct Comparison<'a> {
     command: &'a CompareStrokesCommand,
     model: &'a Loaded,
@@ -104,7 +103,7 @@ impl CompareStrokesCommand {
         }
         let gpu = gpu.map_err(Error::from)?;
         std::fs::create_dir_all(&self.output).map_err(|error| {
-            Failure::fault(format!("{}: cannot be made: {error}", self.output.display()))
+            Failure::fault(format!("{}: cannot be created: {error}", self.output.display()))
         })?;
         let (mut rows, mut sheets) = (Vec::new(), Vec::new());
         let mut done = 0;
@@ -152,14 +151,13 @@ impl CompareStrokesCommand {
                 technique.set(setting)?;
             }
             if way == Way::Chained {
-                // Each class in a layer of its own, in their order: another seed is
-                // another look.
+                // Each class has its own layer, in order: different seeds make styles differ.
                 for (seed, class) in LineClass::ALL.into_iter().enumerate() {
                     technique.set(&format!("{}.seed={seed}", class.name()))?;
                 }
             }
             let options = PictureOptions { size: self.size, ..PictureOptions::default() };
-            PictureRenderer::new(gpu, scene, &technique, &[], &options)
+            PictureRenderer::new(gpu, PictureInput::new(scene, &technique), &options)
         };
         let [object_space, screen_space, chained] = Way::ALL.map(renderer);
         let texture = shipped_brush(brush).transpose().ok().flatten();
@@ -179,7 +177,7 @@ impl Comparison<'_> {
         Vec2::from(self.command.size.map(|side| side as f32))
     }
 
-    /// The lines of a frame in all three ways.
+    /// The lines of a frame in all parameterizations.
     fn lines(&self, scene: &Scene, camera: &Camera, graph: &GraphReadback) -> [FrameLines; 3] {
         let viewport_px = self.viewport_px();
         let view = camera.view(&scene.bounds, f64::from(viewport_px.x / viewport_px.y));
@@ -198,7 +196,7 @@ impl Comparison<'_> {
         ]
     }
 
-    /// The frames of one camera path.
+    /// Measures the frames of one camera path.
     fn measure(&mut self, scene: &Scene, path: CameraPath) -> Result<Vec<Row>, Error> {
         let texture_px = self.command.width * self.brush_aspect;
         let mut sums = [[Sums::default(); 3]; LineClass::ALL.len()];
@@ -239,7 +237,7 @@ impl Comparison<'_> {
             .collect())
     }
 
-    /// The default view in all three ways, whole and at 400 percent.
+    /// The default view in all parameterizations, whole and at 400 percent.
     fn sheet(&mut self, scene: &Scene) -> Result<Sheet, Error> {
         let camera = Camera::default_view(&scene.bounds);
         let [width, height] = self.command.size;
@@ -279,7 +277,7 @@ fn median(times: &[f64]) -> f64 {
     times.get(times.len() / 2).copied().unwrap_or_default()
 }
 
-/// A model's name as a part of a file's.
+/// A model's name as part of a file name.
 fn file_stem(name: &str) -> String {
     let stem = Path::new(name).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     stem.unwrap_or_else(|| "model".into())

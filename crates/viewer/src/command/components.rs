@@ -1,4 +1,4 @@
-//! `viewer components`: what passes can be made of.
+//! `viewer components`: the components of passes.
 
 use std::fmt::Write as _;
 
@@ -17,7 +17,7 @@ const EXAMPLES: &str = "Examples:\n  \
     viewer components list\n  \
     viewer components print edge_detect_normals";
 
-/// Lists the components that techniques are made of, and describes them
+/// Lists and describes the components of techniques
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct ComponentsCommand {
@@ -29,9 +29,9 @@ pub(super) struct ComponentsCommand {
 
 #[derive(Debug, Clone, Subcommand)]
 enum Verb {
-    /// All components, with what each does
+    /// List all components with their descriptions
     List,
-    /// A component with all of its variables
+    /// Describe a component with all its variables
     Print {
         /// The component
         name: String,

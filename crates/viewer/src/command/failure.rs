@@ -1,13 +1,13 @@
-//! From errors to messages with hints about options, and exit statuses.
+//! Errors as messages with hints about options, and their exit statuses.
 
 use edgemesh::command::{ExitStatus, Failure};
 
 use crate::error::Error;
 
-/// 3: there is no suitable adapter.
+/// 3: no suitable adapter.
 pub(super) const NO_ADAPTER: ExitStatus = ExitStatus::new(3);
 
-/// 4: a shader or technique is wrong.
+/// 4: a mistake in a shader or technique.
 pub(super) const SHADER: ExitStatus = ExitStatus::new(4);
 
 /// 5: the picture differs from the reference.
@@ -25,10 +25,10 @@ impl From<Error> for Failure {
             Error::NoMemoryForPicture { .. } => format!("--size {error}"),
             Error::PictureTooLarge { .. } => format!("{error}; give a smaller --size"),
             Error::OutOfMemory { .. } => {
-                format!("{error}; a smaller one needs less, and one with --samples 1")
+                format!("{error}; a smaller picture, or --samples 1, needs less")
             }
             Error::AdapterLost { .. } => {
-                format!("{error}; try another one with --adapter, or a newer driver")
+                format!("{error}; choose another adapter with --adapter, or install a newer driver")
             }
             Error::NoDisplay => format!("{error}; viewer render draws without one"),
             Error::NoWindow { .. } => format!("{error} viewer render draws without one"),
@@ -90,8 +90,7 @@ mod tests {
             (Error::PictureTooLarge { size, limit: 8 }, "--size", ExitStatus::FAULT),
             (
                 Error::OutOfMemory { size, samples: 4, bytes: 3 << 20 },
-                "9x9 with 4 samples, needs 3 MiB; a smaller one needs less, and one with \
-                 --samples 1",
+                "9x9 with 4 samples, needs 3 MiB; a smaller picture, or --samples 1, needs less",
                 ExitStatus::FAULT,
             ),
             (Error::AdapterLost { times: 4, seconds: 10 }, "--adapter", NO_ADAPTER),

@@ -1,4 +1,4 @@
-//! The `viewer` command line: the verbs, and how errors become messages and exit statuses.
+//! The `viewer` command line.
 
 mod adapters;
 mod compare_strokes;
@@ -21,7 +21,7 @@ use crate::arguments::PictureArguments;
 #[cfg(feature = "window")]
 use crate::window::recipe::Recipe;
 
-/// Draws 3D models as line art; without a verb it opens a window
+/// Draws 3D models as line art; opens a window if no command is given
 #[derive(Debug, Parser)]
 #[command(version, propagate_version = true)]
 #[command(after_help = EXAMPLES)]
@@ -42,8 +42,8 @@ const EXAMPLES: &str = "Examples:\n  \
 /// Opens the window.
 #[derive(Debug, Args)]
 struct WindowCommand {
-    /// Models (OBJ, PLY, STL, glTF, VRML), edge meshes, or scene files (.toml)
-    /// [default: a model of our own]
+    /// Models (OBJ, PLY, STL, glTF, VRML), edge meshes, or scene files (.toml) [default: a
+    /// demo model]
     #[arg(value_name = "MODEL")]
     models: Vec<PathBuf>,
     #[command(flatten)]
@@ -68,7 +68,7 @@ impl WindowCommand {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    // Boxed: these have far more options than the others.
+    // Boxed, since these have far more options than the others.
     Render(Box<render::RenderCommand>),
     CompareStrokes(Box<compare_strokes::CompareStrokesCommand>),
     Components(components::ComponentsCommand),
@@ -80,7 +80,7 @@ enum Command {
     Man(ManCommand),
 }
 
-/// An argument of the window that was given.
+/// An argument of the window that was given, for a message.
 fn window_option(matches: &ArgMatches) -> Option<String> {
     let command = Viewer::command();
     let is_given = |id: &str| {
@@ -92,13 +92,13 @@ fn window_option(matches: &ArgMatches) -> Option<String> {
     Some(given.get_long().map_or_else(|| "a model".to_owned(), |name| format!("--{name}")))
 }
 
-/// Reads the command line, does what it says, and returns the exit status.
+/// Parses and runs the command line; returns the exit status.
 #[must_use]
 pub fn main() -> ExitCode {
     let matches = Viewer::command().get_matches();
     let arguments = Viewer::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     if let (Some(verb), Some(option)) = (matches.subcommand_name(), window_option(&matches)) {
-        let what = format!("{option} stands before '{verb}'; what a verb takes stands behind it");
+        let what = format!("{option} stands before '{verb}'; put it after the command");
         Viewer::command().error(ErrorKind::ArgumentConflict, what).exit();
     }
     arguments.messages.start_logging();

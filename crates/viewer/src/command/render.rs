@@ -21,7 +21,7 @@ use crate::arguments::PictureArguments;
 use crate::error::Error;
 use crate::picture::animation::AnimationKind;
 use crate::picture::png::{DEFAULT_REFERENCE_THRESHOLD, as_stored, compare, encode_png, read_png};
-use crate::picture::renderer::{FrameStatistics, PictureOptions};
+use crate::picture::renderer::{FrameStatistics, PictureInput, PictureOptions};
 use crate::picture::tiles::AnySizeRenderer;
 use crate::picture::turntable;
 use crate::scene::models::Scene;
@@ -35,8 +35,8 @@ use crate::watch::Watcher;
 #[derive(Debug, Clone, Args)]
 #[command(after_long_help = long_help(), after_help = EXAMPLES)]
 pub(super) struct RenderCommand {
-    /// Models (OBJ, PLY, STL, glTF, VRML), edge meshes, or scene files (.toml);
-    /// - is standard input
+    /// Models (OBJ, PLY, STL, glTF, VRML), edge meshes, or scene files (.toml); - is standard
+    /// input
     #[arg(value_name = "MODEL", required = true)]
     models: Vec<PathBuf>,
     /// The picture to write (PNG), or - for standard output
@@ -47,22 +47,21 @@ pub(super) struct RenderCommand {
     size: [u32; 2],
     #[command(flatten)]
     picture: PictureArguments,
-    /// Turn the camera around the target in N steps and write numbered pictures,
-    /// or one animated one where OUT ends in .gif or .apng
+    /// Turn the camera around the target in N steps and write numbered pictures, or one
+    /// animation if OUT ends in .gif or .apng
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     turntable: Option<u32>,
-    /// Stay, and draw again whenever the technique, a shader or an image has changed;
-    /// a mistake is told and the last good picture stays
+    /// Keep running and draw again when the technique, a shader or an image changes; mistakes
+    /// are reported and the last good picture stays
     #[arg(long, conflicts_with_all = ["turntable", "reference"])]
     watch: bool,
     /// Write counts and times as JSON to a file, or - for standard output
     #[arg(long, value_name = "FILE")]
     stats: Option<PathBuf>,
-    /// Compare with this picture; where it differs, exit with 5 and write the
-    /// difference instead
+    /// Compare with this picture; if it differs, write the difference instead and exit with 5
     #[arg(long, value_name = "PNG", conflicts_with = "turntable")]
     reference: Option<PathBuf>,
-    /// The share of pixels that may differ
+    /// Share of pixels that may differ
     #[arg(long, value_name = "T", default_value_t = DEFAULT_REFERENCE_THRESHOLD, value_parser = parse_share)]
     reference_threshold: f64,
 }
@@ -87,13 +86,13 @@ fn long_help() -> String {
     }
     format!(
         "Techniques:\n{techniques}\nTheir passes: viewer techniques print NAME. The variables of a \
-         pass: viewer components print COMPONENT.\n--set CLASS.VARIABLE=VALUE gives a class of edges \
+         pass: viewer components print COMPONENT.\n--set CLASS.VARIABLE=VALUE gives a line class \
          (contour, marked, boundary, material, smoothing, ridge, valley; hidden-ridge and so on for \
-         what is hidden) a pass of its own.\n\n{EXAMPLES}"
+         hidden lines) a separate pass.\n\n{EXAMPLES}"
     )
 }
 
-/// What `--stats` writes; scripts rely on the keys.
+/// The JSON of `--stats`; scripts rely on its keys.
 #[derive(Debug, Serialize)]
 struct Statistics {
     adapter: String,
@@ -101,7 +100,7 @@ struct Statistics {
     size: [u32; 2],
     triangles: usize,
     edges: usize,
-    /// None where vertex shaders detect, which count nothing.
+    /// None if vertex shaders detect, which count nothing.
     features: Option<FeatureCounts>,
     strokes: Option<u32>,
     passes: Vec<PassTime>,
@@ -122,7 +121,7 @@ impl RenderCommand {
         let watcher = self.watch.then(|| self.watcher(&technique)).transpose()?;
         let reference = self.reference.as_deref().map(read_png).transpose()?;
         let objects = objects_of(&self.models).map_err(Error::from)?;
-        let looks = object_techniques(&objects, &library, &technique, &mut warn(is_quiet))?;
+        let overrides = object_techniques(&objects, &library, &technique, &mut warn(is_quiet))?;
         let (gpu, scene) = self.open_and_load(&objects, is_quiet)?;
         if !is_quiet {
             for model in &scene.models {
@@ -132,7 +131,8 @@ impl RenderCommand {
         log::info!("drawing on {} ({})", gpu.info.name, gpu.info.backend);
         let camera = self.picture.camera.camera(&scene.bounds, &scene.frame)?;
         let options = self.options()?;
-        let mut renderer = AnySizeRenderer::new(&gpu, &scene, &technique, &looks, &options)?;
+        let input = PictureInput { scene: &scene, technique: &technique, overrides: &overrides };
+        let mut renderer = AnySizeRenderer::new(&gpu, input, &options)?;
         let statistics = match self.turntable {
             Some(steps) => self.write_turntable(&mut renderer, &camera, steps)?,
             None => self.write_picture(&mut renderer, &camera, reference.as_ref())?,
@@ -145,9 +145,9 @@ impl RenderCommand {
                 let drawn = self.draw_again(&mut renderer, &scene, &objects, &camera, is_quiet);
                 match drawn {
                     Ok(()) if is_quiet => {}
-                    Ok(()) => tell_drawn(&self.output, started.elapsed()),
-                    // What is wrong may just be half saved.
-                    Err(failure) if watcher.settled() => tell(&failure.message),
+                    Ok(()) => report_drawn(&self.output, started.elapsed()),
+                    // The files may be half saved.
+                    Err(failure) if watcher.settled() => report(&failure.message),
                     Err(_) => {}
                 }
             }
@@ -158,7 +158,7 @@ impl RenderCommand {
         Ok(self.picture.picture_options(self.size, self.picture.lighting.lighting()?))
     }
 
-    /// Watches the folders that a technique is read from.
+    /// Watches the folders of the technique.
     fn watcher(&self, technique: &Technique) -> Result<Watcher, Failure> {
         let mut folders = technique.folders.clone();
         folders.extend(self.picture.library.shaders.clone());
@@ -167,14 +167,14 @@ impl RenderCommand {
             path.is_file().then(|| path.parent().map_or_else(PathBuf::new, Path::to_owned))
         }));
         if folders.is_empty() {
-            let message = "--watch: there is no file to watch; name a technique file, --folder or \
+            let message = "--watch: there are no files to watch; give a technique file, --folder or \
                            --shaders";
             return Err(Failure::usage(message));
         }
         Ok(Watcher::new(&folders, std::slice::from_ref(&self.output)).map_err(Error::from)?)
     }
 
-    /// Reads the technique again, and draws with it.
+    /// Reads the technique again and draws it.
     fn draw_again(
         &self,
         renderer: &mut AnySizeRenderer,
@@ -185,12 +185,13 @@ impl RenderCommand {
     ) -> Result<(), Failure> {
         let library = self.picture.library.load();
         let technique = self.picture.technique(&library, &mut warn(is_quiet))?;
-        let looks = object_techniques(objects, &library, &technique, &mut warn(is_quiet))?;
-        renderer.reload(scene, &technique, &looks, &self.options()?)?;
+        let overrides = &object_techniques(objects, &library, &technique, &mut warn(is_quiet))?;
+        let input = PictureInput { scene, technique: &technique, overrides };
+        renderer.reload(input, &self.options()?)?;
         self.write_picture(renderer, camera, None).map(drop)
     }
 
-    /// The device opens while the models are read: each takes its time alone.
+    /// Opens the device while the models are read, since both take time.
     fn open_and_load(
         &self,
         objects: &[SceneObject],
@@ -202,19 +203,19 @@ impl RenderCommand {
             let options = self.picture.input.load_options();
             let scene = Scene::load(objects, &options, &TerminalProgress::new(is_quiet));
             let gpu = opening.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-            // What is wrong with the model is told first; it is likelier and nearer.
+            // Mistakes in a model are likelier and more useful than those of the adapter.
             let scene = scene?;
             Ok((gpu?, scene))
         })
     }
 
-    /// Says at once what would fail after all the work.
+    /// Checks the options that would otherwise fail after all the work.
     fn check_outputs(&self) -> Result<(), Failure> {
         let is_stream = |path: &Path| path == Path::new("-");
         if !is_stream(&self.output) {
             self.check_ending()?;
             if self.models.contains(&self.output) {
-                return Err(Failure::usage("--output is one of the models; name another file"));
+                return Err(Failure::usage("--output is one of the models; give another file"));
             }
         } else if self.turntable.is_some() {
             return Err(Failure::usage("--turntable writes several files; --output cannot be -"));
@@ -247,7 +248,7 @@ impl RenderCommand {
         reference: Option<&RgbaImage>,
     ) -> Result<FrameStatistics, Failure> {
         let (picture, statistics) = renderer.render(camera, &mut |done, total| {
-            show_progress("part", done, total);
+            show_progress("tile", done, total);
             Ok(())
         })?;
         if let Some(reference) = reference {
@@ -330,22 +331,22 @@ impl RenderCommand {
     }
 }
 
-/// How long a watcher waits before it waits again.
+/// Waits are renewed after this long.
 const FOREVER: Duration = Duration::from_secs(3600);
 
-/// Tells what is wrong while the command goes on.
+/// Reports an error while the command goes on.
 #[expect(clippy::print_stderr, reason = "messages of a command")]
-fn tell(message: &str) {
+fn report(message: &str) {
     eprintln!("error: {message}");
 }
 
-/// Tells that a picture was written again.
+/// Reports that a picture was written again.
 #[expect(clippy::print_stderr, reason = "messages of a command")]
-fn tell_drawn(path: &Path, after: Duration) {
+fn report_drawn(path: &Path, after: Duration) {
     eprintln!("{}: drawn again in {} ms", path.display(), after.as_millis());
 }
 
-/// Says on a terminal how far a picture or a turntable is.
+/// Shows progress on a terminal.
 #[expect(clippy::print_stderr, reason = "progress, on a terminal only")]
 pub(super) fn show_progress(what: &str, done: u32, total: u32) {
     if std::io::stderr().is_terminal() {
@@ -366,7 +367,7 @@ pub(super) fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| text.trim().parse().ok().filter(|&side: &u32| side > 0);
     text.split_once(['x', 'X'])
         .and_then(|(width, height)| Some([side(width)?, side(height)?]))
-        .ok_or_else(|| "needs two numbers of pixels, as 1920x1080".into())
+        .ok_or_else(|| "needs width and height in pixels, such as 1920x1080".into())
 }
 
 fn parse_share(text: &str) -> Result<f64, String> {

@@ -1,4 +1,4 @@
-//! `viewer techniques`: what pictures can look like.
+//! `viewer techniques`: lists, checks and prints techniques.
 
 use std::path::PathBuf;
 
@@ -20,7 +20,7 @@ const EXAMPLES: &str = "Examples:\n  \
     viewer techniques print toon\n  \
     viewer techniques check mine.toml";
 
-/// Lists techniques, checks technique files, and shows their passes
+/// Lists techniques, checks technique files, and prints passes
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct TechniquesCommand {
@@ -32,17 +32,17 @@ pub(super) struct TechniquesCommand {
 
 #[derive(Debug, Clone, Subcommand)]
 enum Verb {
-    /// All techniques, with what each shows
+    /// List all techniques with their descriptions
     List,
-    /// Say everything that is wrong with technique files and their shaders
+    /// Report all mistakes in technique files and their shaders
     Check {
         /// The files
         #[arg(value_name = "FILE", required = true)]
         files: Vec<PathBuf>,
     },
-    /// The passes of a technique with their variables, and the textures between them
+    /// Print the passes of a technique with their variables, and the textures between them
     Print {
-        /// The technique, or a file that describes one
+        /// Name of a technique, or a technique file
         #[arg(value_name = "NAME|FILE")]
         name: String,
     },
@@ -67,7 +67,7 @@ impl TechniquesCommand {
         }
     }
 
-    /// Every mistake of every file.
+    /// Reports every mistake in every file.
     fn check(&self, library: &Library, files: &[PathBuf], is_quiet: bool) -> Result<(), Failure> {
         let mut all = Mistakes::default();
         let mut wrong_files = 0;

@@ -1,4 +1,4 @@
-//! What was put right in techniques, on standard error.
+//! Warnings about techniques, on standard error.
 
 use crate::technique::mistake::Mistakes;
 
@@ -10,7 +10,7 @@ pub(super) fn print_mistakes(mistakes: &Mistakes, is_quiet: bool) {
     }
 }
 
-/// Prints what is put right while a technique is read and changed.
+/// Prints warnings as they arise.
 pub(super) fn warn(is_quiet: bool) -> impl FnMut(&Mistakes) {
     move |mistakes| print_mistakes(mistakes, is_quiet)
 }

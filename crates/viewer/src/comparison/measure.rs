@@ -1,26 +1,26 @@
-//! What is measured of the lines of frames.
+//! Measures of the lines of frames.
 //!
-//! | measure | what it is |
+//! | measure | meaning |
 //! |---|---|
-//! | stretch | mean of the binary logarithm of how much longer or shorter a repeat is than the brush, without its sign |
-//! | breaks | places along lines where the brush jumps by more than a sixteenth of itself, for 1000 px |
-//! | strokes | pieces of lines without a break, for 1000 px |
-//! | slide | how far the brush moves over the surface from frame to frame, in pixels, where it does not jump |
-//! | pops | of 1000 px, those whose brush jumps by more than a quarter of itself from frame to frame |
-//! | changed | of 1000 px, those whose edge is not in the frame before |
+//! | stretch | mean absolute binary logarithm of the length of a repeat, relative to the brush |
+//! | breaks | places per 1000 px of line where the brush jumps by more than a sixteenth of itself |
+//! | strokes | pieces without a break, per 1000 px of line |
+//! | slide | pixels per frame by which the brush moves over the surface, jumps excluded |
+//! | pops | pixels of 1000 whose brush jumps by more than a quarter of itself between frames |
+//! | changed | pixels of 1000 whose edge is not in the frame before |
 
 use super::samples::{FrameLines, Stretch, Track};
 
-/// A jump along a line that one sees, in repeats of the brush.
+/// The smallest visible jump along a line, in repeats of the brush.
 const BREAK: f32 = 1.0 / 16.0;
 
-/// A jump between frames that is no sliding any more.
+/// The smallest jump between frames that is not sliding, in repeats of the brush.
 const POP: f32 = 0.25;
 
-/// Sums over frames; add them up, then ask.
+/// Sums over frames, from which the measures are computed.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Sums {
-    /// Pixels of all lines.
+    /// Length of all lines in pixels.
     pub length_px: f64,
     breaks: f64,
     strokes: f64,
@@ -33,14 +33,14 @@ pub struct Sums {
     second_px: f64,
 }
 
-/// The distance of two phases of the brush, at most a half.
+/// The distance between two phases of the brush, at most a half.
 fn phase_distance(a: f32, b: f32) -> f32 {
     let apart = (a - b).rem_euclid(1.0);
     apart.min(1.0 - apart)
 }
 
 impl Sums {
-    /// Adds one frame; `texture_px` is how long the brush is.
+    /// Adds one frame. `texture_px` is the length of the brush in pixels.
     pub fn add_frame(&mut self, lines: &FrameLines, layer: usize, texture_px: f32) {
         let mut is_joined = false;
         let mut of_layer = lines.stretches.iter().peekable();
@@ -68,7 +68,7 @@ impl Sums {
         }
     }
 
-    /// Adds what changed between two frames.
+    /// Adds the changes between two frames.
     pub fn add_step(
         &mut self,
         before: &FrameLines,
@@ -111,13 +111,13 @@ impl Sums {
         self.second_px += other.second_px;
     }
 
-    /// Breaks for 1000 px of lines.
+    /// Breaks per 1000 px of lines.
     #[must_use]
     pub fn breaks(&self) -> f64 {
         share(1000.0 * self.breaks, self.length_px)
     }
 
-    /// Pieces without a break for 1000 px.
+    /// Pieces without a break, per 1000 px.
     #[must_use]
     pub fn strokes(&self) -> f64 {
         share(1000.0 * self.strokes, self.length_px)
@@ -129,19 +129,19 @@ impl Sums {
         share(self.stretch, self.length_px)
     }
 
-    /// Pixels a frame by which the brush moves over the surface.
+    /// Pixels per frame by which the brush slides over the surface.
     #[must_use]
     pub fn slide(&self) -> f64 {
         share(self.slid_px, self.held_px)
     }
 
-    /// Of 1000 px that are in both frames, those that jump.
+    /// Pixels that jump, of 1000 px that are in both frames.
     #[must_use]
     pub fn pops(&self) -> f64 {
         share(1000.0 * self.popped_px, self.tracked_px)
     }
 
-    /// Of 1000 px those that are new.
+    /// Pixels that are new, of 1000 px.
     #[must_use]
     pub fn changed(&self) -> f64 {
         share(1000.0 * self.changed_px, self.second_px)
@@ -152,7 +152,7 @@ fn share(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { part / whole } else { 0.0 }
 }
 
-/// Whether the brush jumps from one stretch to the next, or turns around.
+/// Whether the brush jumps from one stretch to the next, or changes direction.
 fn is_break(stretch: &Stretch, next: &Stretch) -> bool {
     let [run, next_run] = [stretch, next].map(|stretch| stretch.u[1] - stretch.u[0]);
     phase_distance(stretch.u[1], next.u[0]) > BREAK || run * next_run < 0.0

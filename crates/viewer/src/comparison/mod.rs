@@ -1,14 +1,14 @@
-//! The comparison of stroke textures: each brush in each parameterization along camera
-//! paths, measured.
+//! Compares stroke textures: each brush in each parameterization along camera paths,
+//! measured.
 //!
-//! The paper compares its two parameterizations in words (section 4): in object space
-//! the brush holds to the surface and breaks at every edge, in screen space it is whole
-//! in a still picture and slides when the view moves. Here both are measured beside
-//! linked strokes, on the same lines, frame by frame.
+//! The paper compares its two parameterizations in words (section 4): in object space the
+//! brush sticks to the surface and breaks at every edge; in screen space it is whole in a
+//! still picture and slides when the view moves. Here both are measured beside linked
+//! strokes, on the same lines, frame by frame.
 //!
 //! ```text
 //! model, brush, path --frames--> lines with u in each parameterization (samples)
-//!     samples of a frame, and of the one before --> sums (measure) --> CSV, page
+//!     samples of a frame and of the frame before --> sums (measure) --> CSV, page
 //! ```
 
 pub mod measure;
@@ -21,22 +21,22 @@ use edgemesh::edge_mesh::Bounds;
 use edgemesh::view::camera::Camera;
 use glam::DQuat;
 
-/// How a brush lies along strokes.
+/// How a brush is mapped along strokes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Way {
     /// The paper's, along each edge from a random start.
     ObjectSpace,
-    /// The paper's, by the place on the screen.
+    /// The paper's, by position on the screen.
     ScreenSpace,
     /// By arc length along linked strokes.
     Chained,
 }
 
 impl Way {
-    /// All of them.
+    /// All three.
     pub const ALL: [Self; 3] = [Self::ObjectSpace, Self::ScreenSpace, Self::Chained];
 
-    /// Its name in tables.
+    /// The name in tables.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -46,7 +46,7 @@ impl Way {
         }
     }
 
-    /// The settings of a technique that draw it.
+    /// The settings that select it in a technique.
     #[must_use]
     pub const fn settings(self) -> &'static [&'static str] {
         match self {
@@ -57,26 +57,26 @@ impl Way {
     }
 }
 
-/// How a camera moves from frame to frame.
+/// How the camera moves from frame to frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum CameraPath {
-    /// Around the model, by a degree.
+    /// One degree around the model.
     Turntable,
     /// Sideways, by half a percent of the distance.
     Pan,
-    /// Toward the model, by one percent.
+    /// One percent of the distance toward the model.
     Dolly,
-    /// A smaller field of view, by one percent.
+    /// One percent less field of view.
     Zoom,
-    /// Around the line of sight, by a degree.
+    /// One degree around the line of sight.
     Roll,
 }
 
 impl CameraPath {
-    /// All of them.
+    /// All paths.
     pub const ALL: [Self; 5] = [Self::Turntable, Self::Pan, Self::Dolly, Self::Zoom, Self::Roll];
 
-    /// Its name in tables.
+    /// The name in tables.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {

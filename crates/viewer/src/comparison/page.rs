@@ -1,4 +1,4 @@
-//! The results as one HTML page that needs nothing else: tables, plots, pictures.
+//! The results as one self-contained HTML page with tables, plots and pictures.
 
 use std::fmt::Write as _;
 
@@ -8,49 +8,49 @@ use base64::engine::general_purpose::STANDARD;
 use super::Way;
 use super::measure::Sums;
 
-/// One line of the results.
+/// One row of the results.
 #[derive(Debug, Clone)]
 pub struct Row {
-    /// The model's name.
+    /// Name of the model.
     pub model: String,
-    /// The camera's path.
+    /// Name of the camera path.
     pub path: &'static str,
-    /// The class of lines.
+    /// Name of the line class.
     pub class: &'static str,
-    /// The brush.
+    /// Name of the brush.
     pub brush: String,
-    /// How it lies along strokes.
+    /// How the brush is mapped.
     pub way: Way,
-    /// What was measured.
+    /// The measurements.
     pub sums: Sums,
-    /// Milliseconds a frame of all classes together.
+    /// Milliseconds per frame, for all classes together.
     pub frame_ms: f64,
 }
 
 /// A picture of the page.
 #[derive(Debug, Clone)]
 pub struct Sheet {
-    /// What it shows.
+    /// The caption.
     pub title: String,
     /// The PNG.
     pub png: Vec<u8>,
 }
 
-/// A measure: its name, its unit, and how to ask for it.
+/// A measure: its name, its unit, and its value.
 pub type Measure = (&'static str, &'static str, fn(&Row) -> f64);
 
-/// All of them.
+/// All measures.
 pub const MEASURES: [Measure; 7] = [
-    ("breaks", "for 1000 px", |row| row.sums.breaks()),
-    ("strokes", "for 1000 px", |row| row.sums.strokes()),
+    ("breaks", "per 1000 px", |row| row.sums.breaks()),
+    ("strokes", "per 1000 px", |row| row.sums.strokes()),
     ("stretch", "powers of two", |row| row.sums.stretch()),
-    ("slide", "px a frame", |row| row.sums.slide()),
+    ("slide", "px per frame", |row| row.sums.slide()),
     ("pops", "of 1000 px", |row| row.sums.pops()),
     ("changed", "of 1000 px", |row| row.sums.changed()),
-    ("cost", "ms a frame", |row| row.frame_ms),
+    ("cost", "ms per frame", |row| row.frame_ms),
 ];
 
-/// The table as comma-separated values.
+/// The rows as comma-separated values.
 #[must_use]
 pub fn csv(rows: &[Row]) -> String {
     let mut text = String::from(
@@ -70,7 +70,7 @@ pub fn csv(rows: &[Row]) -> String {
     text
 }
 
-/// The sums of all rows that `is_wanted` for each way.
+/// The sums of all rows with `is_wanted`, for each way.
 fn total(rows: &[Row], way: Way, is_wanted: impl Fn(&Row) -> bool) -> Option<Row> {
     let mut wanted = rows.iter().filter(|row| row.way == way && is_wanted(row));
     let mut sum = wanted.next()?.clone();
@@ -84,7 +84,7 @@ fn total(rows: &[Row], way: Way, is_wanted: impl Fn(&Row) -> bool) -> Option<Row
     Some(sum)
 }
 
-/// Names in the order in which they come first.
+/// Names in the order of their first occurrence.
 fn names(rows: &[Row], name: impl Fn(&Row) -> String) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for row in rows {
@@ -100,18 +100,18 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-/// The page.
+/// The HTML page.
 #[must_use]
 pub fn html(adapter: &str, rows: &[Row], sheets: &[Sheet]) -> String {
     let mut page = String::from(HEAD);
     let _ = write!(page, "<p>Drawn on {}. {INTRODUCTION}</p>", escaped(adapter));
-    page.push_str("<h2>All together</h2>");
+    page.push_str("<h2>All results</h2>");
     page.push_str(&table(rows, &[String::new()], |_, _| true));
     type Name = fn(&Row) -> String;
     let groups: [(&str, Name); 4] = [
         ("By model", |row| row.model.clone()),
         ("By camera path", |row| row.path.into()),
-        ("By class of line", |row| row.class.into()),
+        ("By line class", |row| row.class.into()),
         ("By brush", |row| row.brush.clone()),
     ];
     for (title, name) in groups {
@@ -155,7 +155,7 @@ fn table(rows: &[Row], names: &[String], is_of: impl Fn(&Row, &str) -> bool) -> 
     text
 }
 
-/// Bars: one group a name, one bar a parameterization.
+/// A bar chart: one group per name, one bar per way.
 fn plot(
     rows: &[Row],
     names: &[String],
@@ -209,7 +209,7 @@ font-variant-numeric:tabular-nums}svg{width:22rem;margin:.5rem}svg text{font:12p
 svg .name{font-size:10px}img{max-width:100%;border:1px solid #ddd}figure{margin:1.5rem 0}\
 b{font-weight:600}</style><body><h1>Stroke textures compared</h1>";
 
-const INTRODUCTION: &str = "The same lines with the brush laid along them in three ways: \
+const INTRODUCTION: &str = "The same lines with the brush mapped along them in three ways: \
 <b style=\"color:#c2571a\">object-space</b> and <b style=\"color:#2a6f97\">screen-space</b> as in \
 McGuire and Hughes, section 4, and <b style=\"color:#3a7d44\">chained</b>, by arc length along linked \
 strokes. Breaks: places along lines where the brush jumps. Strokes: pieces without a break. Stretch: \

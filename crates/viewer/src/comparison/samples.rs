@@ -1,9 +1,8 @@
-//! The lines of one frame, with where along its brush each lies in every
-//! parameterization.
+//! The lines of one frame, with their position along the brush in every parameterization.
 //!
-//! All three are asked about the same lines: the edges that linked strokes cover. In the
-//! paper's two, u comes from the CPU twin of the stroke shader; along linked strokes from
-//! the ribbons that the GPU made.
+//! All parameterizations are sampled on the same lines: the edges that linked strokes cover.
+//! In the paper's two, u comes from the CPU twin of the stroke shader; along linked strokes,
+//! from the ribbons that the GPU made.
 
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::edge_mesh::record::edge_random;
@@ -16,60 +15,60 @@ use glam::{Vec2, Vec3, Vec4};
 use strokes::graph::buffers::{BACKWARD, NO_NODE, Ribbon};
 use strokes::graph::readback::GraphReadback;
 
-/// A stretch of a line, between two places where u is known.
+/// A stretch of a line between two places where u is known.
 #[derive(Debug, Clone, Copy)]
 pub struct Stretch {
     /// Length in pixels.
     pub length_px: f32,
-    /// Repeats of the brush where it begins and where it ends.
+    /// Repeats of the brush at the start and at the end.
     pub u: [f32; 2],
-    /// The layer of its line.
+    /// Index of the layer.
     pub layer: usize,
-    /// Whether the next stretch begins where this one ends.
+    /// Whether the next stretch begins at the end of this one.
     pub is_followed: bool,
 }
 
 /// An edge that can be found again in the next frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Track {
-    /// The record.
+    /// Index of the edge record.
     pub edge: u32,
-    /// The layer.
+    /// Index of the layer.
     pub layer: usize,
-    /// How long it is on the screen.
+    /// Length on the screen in pixels.
     pub length_px: f32,
-    /// Repeats of the brush at its middle.
+    /// Repeats of the brush at the middle.
     pub u: f32,
 }
 
 /// The lines of a frame in one parameterization.
 #[derive(Debug, Clone, Default)]
 pub struct FrameLines {
-    /// All stretches in order.
+    /// All stretches, in order.
     pub stretches: Vec<Stretch>,
     /// The edges, in the order of the records.
     pub tracks: Vec<Track>,
 }
 
-/// What a frame is asked about.
+/// The frame to sample.
 #[derive(Debug, Clone, Copy)]
 pub struct FrameSource<'a> {
     /// The mesh.
     pub mesh: &'a EdgeMesh,
     /// The view.
     pub view: &'a View,
-    /// Pixels of the picture.
+    /// Size of the picture in pixels.
     pub viewport_px: Vec2,
     /// Width of the strokes in pixels.
     pub width_px: f32,
-    /// Length of the brush over its height.
+    /// Length of the brush divided by its height.
     pub brush_aspect: f32,
-    /// What the GPU linked.
+    /// The linked strokes of the GPU.
     pub graph: &'a GraphReadback,
 }
 
 impl FrameSource<'_> {
-    /// The lines with the brush along linked strokes.
+    /// The lines with u along linked strokes.
     #[must_use]
     pub fn chained(&self) -> FrameLines {
         let graph = self.graph;
@@ -134,7 +133,7 @@ impl FrameSource<'_> {
         })
     }
 
-    /// u where an edge begins and ends in the direction of its chain.
+    /// u at both ends of an edge, in the direction of its chain.
     fn u_of(&self, word: u32, parameterization: Parameterization) -> Option<[f32; 2]> {
         let record = &self.mesh.records[(word & NO_NODE) as usize];
         let at = |vertex: u32| Vec3::from(self.mesh.positions[vertex as usize]);

@@ -163,7 +163,7 @@ impl PassGraph {
         self.strokes.trim();
     }
 
-    /// Takes over what the steps before have made, as far as it is still good.
+    /// Takes over the results of the steps before, as far as they are up to date.
     fn continue_from(&mut self, before: Vec<Step>) {
         for step in &mut self.steps {
             // A step whose textures are kept need not run again.

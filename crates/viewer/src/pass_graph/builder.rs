@@ -1,4 +1,4 @@
-//! What every pass is built with: the adapter, the input, and the pipelines so far.
+//! The shared input of all passes: the adapter, the graph's input, and the pipelines.
 
 use std::cell::RefCell;
 

@@ -7,16 +7,16 @@
 //!            surfaces, meshes ---+   +--> generated textures, kept from frame to frame
 //! ```
 //!
-//! Mistakes in a technique were found in its plan; only programs that do not fit together
-//! are found here.
+//! Mistakes in a technique are found by its plan; only programs that do not fit together are
+//! found here.
 //!
 //! - `scene_pass`, `screen_pass`, `ping_pong`, `copy_pass`, `stroke_pass`: the core
 //!   components (thesis, section 2.3); `docs/techniques.md` lists the steps to add one.
-//! - `surface`, `material`, `textures`: what they draw and read.
+//! - `surface`, `material`, `textures`: surfaces and textures of passes.
 //! - `bindings`, `params`, `pipeline`, `blend`: parameters, textures and targets of
-//!   programs; `pipeline_cache`: pipelines that were built before.
-//! - `build`: a graph for a plan, with all that an earlier graph had; `builder`: what every
-//!   pass is built with.
+//!   programs; `pipeline_cache`: pipelines built before.
+//! - `build`: builds a graph from a plan, and reuses an earlier graph; `builder`: the shared
+//!   input of all passes.
 
 mod bindings;
 mod blend;
@@ -75,26 +75,26 @@ use crate::technique::value::Value;
 pub struct GraphInput<'a> {
     /// The objects.
     pub scene: &'a Scene,
-    /// The technique.
+    /// The technique of the scene.
     pub technique: &'a Technique,
     /// The plan of the technique.
     pub plan: &'a Plan,
-    /// Techniques of objects, by the index in `PlacedObject::look`: the values of their
+    /// Techniques of objects, by `PlacedObject::override_index`: the values of their
     /// passes replace those of passes with the same name and component, and their passes
     /// of strokes replace all passes of strokes.
     pub overrides: &'a [Technique],
-    /// Size, samples and so on.
+    /// Options that do not depend on the technique.
     pub options: &'a GraphOptions,
 }
 
-/// How any technique is drawn.
+/// Options that do not depend on the technique.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct GraphOptions {
     /// Width and height of the picture in pixels.
     pub size: [u32; 2],
     /// Samples per pixel, 1 or 4.
     pub samples: u32,
-    /// How the edges lie in memory.
+    /// Memory layout of the edges.
     pub layout: Layout,
     /// The detection stage.
     pub stage: DetectionStage,

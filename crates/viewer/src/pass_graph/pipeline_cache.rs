@@ -1,5 +1,5 @@
-//! Pipelines that were built before, so that a change of a value or of the order of
-//! passes, or a technique that was used before, builds none again.
+//! Pipelines built before, so that changed values, another order of passes, or a technique
+//! used before build none again.
 
 use std::sync::Arc;
 

@@ -1,5 +1,4 @@
-//! The models of a scene on the GPU, each once, with what the passes of a technique need of
-//! them; kept while techniques come and go.
+//! The models of a scene on the GPU, each once. They stay when the technique changes.
 
 use std::sync::Arc;
 

@@ -76,8 +76,8 @@ impl ScenePass {
             }
         }
         let objects = input.scene.objects.iter();
-        let buffer_indices =
-            objects.map(|object| of_override.get(object.look).copied().unwrap_or(of_scene));
+        let buffer_indices = objects
+            .map(|object| of_override.get(object.override_index).copied().unwrap_or(of_scene));
         let [r, g, b, a] = match is_paper && options.is_transparent {
             true => [0.0; 4],
             false => view.clear_color.map(f64::from),

@@ -1,9 +1,9 @@
 //! `strokes`: feature edges by the stroke renderer.
 //!
-//! Passes that follow each other are one drawing style and are drawn from one detection: what
-//! is hidden, then what is visible, then silhouettes. What lies under them is the framebuffer
-//! as it is; if no pass has drawn the scene there, its depth is filled first, so that surfaces
-//! that are not drawn still hide lines.
+//! Consecutive passes are one drawing style and share one detection. Hidden strokes are drawn
+//! first, then visible ones, then silhouettes, over the framebuffer. If no pass has drawn the
+//! scene there, its depth is filled first, so that surfaces that are not drawn still hide
+//! lines.
 
 use std::sync::Arc;
 
@@ -19,16 +19,17 @@ use strokes::render::renderer::Renderer;
 use super::stroke_style::style_of_passes;
 use super::{Encoding, GraphInput, GraphOptions};
 use crate::error::Error;
+use crate::scene::models::PlacedObject;
 use crate::technique::Technique;
 use crate::technique::core::CoreComponent;
 use crate::technique::core_view::{LineSelection, Visibility};
 use crate::technique::pass::Pass;
 
-/// The stroke renderers, one per kind of target: with a stencil and without. They stay while
-/// techniques come and go, with the pipelines that they have built.
+/// The stroke renderers, one per kind of target: with a stencil and without. They keep their
+/// pipelines when the technique changes.
 #[derive(Debug, Default)]
 pub(crate) struct StrokeRenderers {
-    /// The one that was used last is the last.
+    /// The renderer used last is the last.
     known: Vec<Renderer>,
 }
 
@@ -45,7 +46,7 @@ pub(crate) struct StrokeGroup {
     pub(crate) drawing: Drawing,
 }
 
-/// Whether a pass of strokes is done and asks what is beside its lines.
+/// Whether a rendered pass draws silhouettes, which need a stencil.
 pub(crate) fn needs_stencil(technique: &Technique, overrides: &[Technique]) -> bool {
     let is_silhouette = |pass: &Pass| {
         pass.is_rendered()
@@ -107,10 +108,12 @@ impl StrokeRenderers {
                 None => renderer.prepare(gpu, style)?,
             });
         }
-        let of_object = |look: usize| prepared.get(look + 1).unwrap_or(&prepared[0]).clone();
+        let of_object = |object: &PlacedObject| {
+            prepared.get(object.override_index + 1).unwrap_or(&prepared[0]).clone()
+        };
         Ok(StrokeGroup {
             options,
-            styles: scene.objects.iter().map(|object| of_object(object.look)).collect(),
+            styles: scene.objects.iter().map(of_object).collect(),
             drawing: Drawing::new(),
         })
     }
@@ -149,14 +152,14 @@ impl StrokeRenderers {
 }
 
 impl StrokeGroup {
-    /// Takes over what views made of a group before, if it has the same renderer.
+    /// Takes over the buffers of the views of an earlier group with the same renderer.
     pub(crate) fn continue_from(&mut self, before: Self) {
         if self.options == before.options {
             self.drawing = before.drawing;
         }
     }
 
-    /// Whether vertex shaders detect, which count nothing.
+    /// Whether the detection stage is the vertex shader, which counts nothing.
     pub(crate) fn counts_nothing(&self) -> bool {
         self.options.stage == DetectionStage::Vertex
     }

@@ -7,13 +7,10 @@ use edgemesh::line::class::LineClass;
 use edgemesh::line::kind::LineKind;
 use strokes::style::brush::Brush;
 use strokes::style::drawing_style::{DrawingStyle, Layer, StrokeStyle, Width};
-use strokes::style::link_style::{End, LinkStyle};
 
 use crate::error::{Error, ImageError};
 use crate::technique::brush_file::brush_from_png;
-use crate::technique::core_view::{
-    LinkVariables, StrokeEnds, StrokeKind, StrokeWidth, Strokes, Visibility,
-};
+use crate::technique::core_view::{StrokeEnds, StrokeKind, StrokeWidth, Strokes, Visibility};
 use crate::technique::image_file;
 use crate::technique::pass::Pass;
 use crate::technique::texture_name::TextureSource;
@@ -109,33 +106,8 @@ fn style_of(
         parameterization: view.parameterization,
         brush: brush_of(pass, view, folders)?,
         fade: view.fade.map(|distances| distances.map(scaled)),
-        link: view.is_linked.then(|| link_of(&view.link, view.ends)),
+        link: view.is_linked.then(|| view.link.clone()),
     })
-}
-
-fn link_of(link: &LinkVariables, ends: StrokeEnds) -> LinkStyle {
-    LinkStyle {
-        join: link.join,
-        end: match ends {
-            StrokeEnds::Flat => End::Flat,
-            StrokeEnds::Pointed => End::Pointed,
-            _ => End::Round,
-        },
-        corner_rad: link.corner_deg.to_radians(),
-        is_cut_where_hidden: link.is_cut_hidden,
-        min_length_px: link.min_length_px,
-        max_length_px: link.max_length_px,
-        brush_fit: link.fit,
-        taper_px: link.taper_px,
-        overshoot_px: link.overshoot_px,
-        width_curve: link.width_curve,
-        opacity_curve: link.opacity_curve,
-        wobble_px: link.wobble_px,
-        wobble_length_px: link.wobble_length_px,
-        jitter_px: link.jitter_px,
-        seed: link.seed,
-        dash_px: link.dash_px,
-    }
 }
 
 fn brush_of(pass: &Pass, view: &Strokes, folders: &[PathBuf]) -> Result<Option<Brush>, Error> {
@@ -151,6 +123,8 @@ fn brush_of(pass: &Pass, view: &Strokes, folders: &[PathBuf]) -> Result<Option<B
 
 #[cfg(test)]
 mod tests {
+    use strokes::style::link_style::{End, LinkStyle};
+
     use super::*;
     use crate::pass_graph::strokes_of;
     use crate::technique::library::Library;

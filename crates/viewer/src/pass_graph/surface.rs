@@ -42,7 +42,7 @@ const fn vertex_buffer(
     Some(wgpu::VertexBufferLayout { array_stride, step_mode, attributes })
 }
 
-/// What fragments of a material range know. WGSL twin: `SurfaceRange` in
+/// The uniform of a material range. WGSL twin: `SurfaceRange` in
 /// `shaders/common/surface.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
@@ -86,7 +86,7 @@ pub(crate) struct Surfaces {
     surfaces: Vec<Surface>,
 }
 
-/// What the surfaces of a scene are made from.
+/// The input of [`Surfaces::new`].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SurfaceInput<'a> {
     pub(crate) gpu: &'a Gpu,
@@ -97,7 +97,7 @@ pub(crate) struct SurfaceInput<'a> {
     pub(crate) sampler: &'a wgpu::Sampler,
 }
 
-/// The region ids that an object's ids begin at.
+/// The first region ids of an object.
 #[derive(Debug, Clone, Copy)]
 struct FirstRegions {
     object: u32,
@@ -106,11 +106,11 @@ struct FirstRegions {
 }
 
 impl Surfaces {
-    /// The surfaces of a scene, whose meshes were uploaded with theirs.
+    /// `input.instances` must have been uploaded with their surfaces.
     pub(crate) fn new(input: &SurfaceInput, images: &mut Images) -> Self {
         let layout = object_layout(&input.gpu.device);
         let mut models = Vec::new();
-        // Ids of materials go by the model, those of groups by the object.
+        // Material ids are counted over the models, group ids over the objects.
         let (mut material_regions, mut material) = (Vec::new(), 1);
         for model in &input.scene.models {
             let materials = Arc::new(ModelMaterials::new(input.gpu, &model.mesh, images));
@@ -183,7 +183,7 @@ impl ModelMaterials {
                 None => images.white(gpu),
             });
         }
-        // Triangles without a material have the last one.
+        // Triangles without a material use the last one.
         uniforms.push(MaterialUniform::default());
         textures.push(images.white(gpu));
         let descriptor = wgpu::util::BufferInitDescriptor {

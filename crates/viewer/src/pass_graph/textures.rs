@@ -59,7 +59,7 @@ impl GeneratedTexture {
         Self { views: views.collect(), textures, current: 0, name, is_kept: false }
     }
 
-    /// Makes it empty, for a picture of the size `picture`; `plan` is that of [`Self::new`].
+    /// Clears it, for a picture of the size `picture`; `plan` is that of [`Self::new`].
     pub(crate) fn renew(&mut self, device: &wgpu::Device, plan: &TexturePlan, picture: [u32; 2]) {
         let size = plan.size.pixels(picture);
         for (texture, view) in self.textures.iter_mut().zip(&mut self.views) {
@@ -165,15 +165,15 @@ impl Images {
         self.views.retain(|file, (changed, _)| *changed == file.changed());
     }
 
-    /// One white texel, in place of no texture.
+    /// One white texel, for a variable without a texture.
     pub(crate) fn white(&mut self, gpu: &Gpu) -> wgpu::TextureView {
         let one = RgbaImage::from_pixel(1, 1, image::Rgba([255; 4]));
         self.white.get_or_insert_with(|| upload(gpu, "white", &[one])).clone()
     }
 }
 
-/// The directory of images with mip levels of their own, the smaller ones in a column
-/// beside the largest. Strokes in them keep their width, which averaging would change.
+/// The directory of images that contain their mip levels, the smaller ones in a column beside
+/// the largest. So strokes in them keep their width, which averaging would change.
 const MIP_ATLASES: &str = "tonal_art_maps";
 
 /// The longest side of an image in pixels.

@@ -1,5 +1,5 @@
-//! Animated pictures: GIF, which everything shows, and animated PNG, which
-//! keeps every colour.
+//! Animated pictures: GIF, which every program shows, and animated PNG, which keeps all
+//! colors.
 //!
 //! Frames are encoded as they are drawn; only the encoded bytes stay in memory.
 
@@ -11,14 +11,14 @@ use image::{Delay, Frame, RgbaImage};
 
 use crate::error::Error;
 
-/// How long a frame is shown: 25 a second.
+/// Duration of a frame, for 25 frames per second.
 const FRAME_MS: u16 = 40;
 
-/// How hard the GIF encoder looks for its 256 colours, 1 to 30; line drawings
-/// have few, so the library's own middle way is enough.
+/// Speed of the GIF encoder, 1 (best colors) to 30; line drawings have few colors, so the
+/// library's default is enough.
 const GIF_SPEED: i32 = 10;
 
-/// The kind of an animated picture.
+/// File format of an animation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AnimationKind {
     /// `.gif`
@@ -28,7 +28,7 @@ pub enum AnimationKind {
 }
 
 impl AnimationKind {
-    /// The kind by the ending of `path`; `None` for any other ending.
+    /// The format by the ending of `path`; `None` for any other ending.
     #[must_use]
     pub fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?;
@@ -42,8 +42,8 @@ impl AnimationKind {
     }
 }
 
-/// Encodes `count` frames of `size`, which `draw` gives one by one with straight
-/// alpha, as an endless animation.
+/// Encodes `count` frames of `size` as an endless animation. `draw` returns each frame with
+/// straight alpha.
 ///
 /// # Errors
 /// The first error of `draw`, or [`Error::Encode`].
@@ -85,7 +85,7 @@ fn encode_apng(
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgba);
     encoder.set_depth(png::BitDepth::Eight);
-    // Played 0 times means without end.
+    // 0 means forever.
     encoder.set_animated(count, 0).map_err(failed)?;
     encoder.set_frame_delay(FRAME_MS, 1000).map_err(failed)?;
     let mut writer = encoder.write_header().map_err(failed)?;
@@ -108,8 +108,8 @@ mod tests {
 
     fn encoded(kind: AnimationKind) -> Vec<u8> {
         encode_animation(kind, 3, [4, 2], |index| {
-            let grey = u8::try_from(index * 100).unwrap();
-            Ok(RgbaImage::from_pixel(4, 2, Rgba([grey, grey, grey, 255])))
+            let gray = u8::try_from(index * 100).unwrap();
+            Ok(RgbaImage::from_pixel(4, 2, Rgba([gray, gray, gray, 255])))
         })
         .unwrap()
     }

@@ -1,9 +1,9 @@
-//! From a scene and a technique to pictures in files.
+//! From a scene and a technique to picture files.
 //!
 //! - [`renderer`]: one picture.
 //! - [`tiles`]: a picture of any size, in tiles if it is too large for a texture.
-//! - [`turntable`]: a camera that goes around.
-//! - [`png`], [`animation`]: pictures as files.
+//! - [`turntable`]: a camera that turns around the scene.
+//! - [`png`], [`animation`]: picture files.
 
 pub mod animation;
 pub mod png;

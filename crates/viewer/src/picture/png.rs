@@ -1,4 +1,4 @@
-//! Pictures: PNG in and out, and the comparison with a reference.
+//! PNG in and out, and the comparison with a reference.
 
 use std::io::Write as _;
 use std::path::Path;
@@ -7,17 +7,16 @@ use image::{Rgba, RgbaImage};
 
 use crate::error::{Error, ImageError};
 
-/// Two pixels differ where a channel differs by more than this, of 255. Less is
-/// what adapters round apart; more would hide a stroke drawn in grey.
+/// Two pixels differ if a channel differs by more than this, of 255. Adapters round
+/// differently by less; a larger value would hide a gray stroke.
 pub const PIXEL_TOLERANCE: u8 = 16;
 
-/// The share of pixels that may differ where none is given: 0.04 %, what other
-/// renderers found between drivers.
+/// The default share of pixels that may differ: 0.04 %, which other renderers found between
+/// drivers.
 pub const DEFAULT_REFERENCE_THRESHOLD: f64 = 0.0004;
 
-/// Encodes as PNG: with straight alpha where `is_transparent`, else over white.
-///
-/// `picture` has premultiplied alpha, as it comes from the GPU.
+/// Encodes a picture with premultiplied alpha as PNG: with straight alpha if
+/// `is_transparent`, else over white.
 ///
 /// # Errors
 /// [`Error::Encode`].
@@ -25,8 +24,7 @@ pub fn encode_png(picture: &RgbaImage, is_transparent: bool) -> Result<Vec<u8>, 
     encode_png_with_text(picture, is_transparent, None)
 }
 
-/// As [`encode_png`], with a text under a keyword, which other programs pass on or leave
-/// out.
+/// As [`encode_png`], with an optional text chunk: its keyword and its text.
 ///
 /// # Errors
 /// As [`encode_png`].
@@ -46,7 +44,7 @@ pub fn encode_png_with_text(
     }
     let mut writer = encoder.write_header().map_err(failed)?;
     let mut stream = writer.stream_writer().map_err(failed)?;
-    // Row by row: a large picture has no room beside itself.
+    // Row by row, since memory may not hold a large picture twice.
     let mut row = Vec::new();
     for pixels in picture.rows() {
         row.clear();
@@ -63,7 +61,7 @@ pub fn encode_png_with_text(
     Ok(bytes)
 }
 
-/// The text under a keyword in a PNG; none where it is no PNG or has none.
+/// The text under a keyword in a PNG; `None` if there is none.
 #[must_use]
 pub fn read_png_text(path: &Path, keyword: &str) -> Option<String> {
     let file = std::io::BufReader::new(std::fs::File::open(path).ok()?);
@@ -72,8 +70,7 @@ pub fn read_png_text(path: &Path, keyword: &str) -> Option<String> {
     chunk.get_text().ok()
 }
 
-/// The colours as files store them: divided by their alpha where `is_transparent`, else
-/// over white.
+/// The colors as files store them: with straight alpha if `is_transparent`, else over white.
 #[must_use]
 pub fn as_stored(picture: &RgbaImage, is_transparent: bool) -> RgbaImage {
     let mut pixels = picture.clone();
@@ -83,13 +80,13 @@ pub fn as_stored(picture: &RgbaImage, is_transparent: bool) -> RgbaImage {
     pixels
 }
 
-/// A premultiplied colour over white paper.
+/// A premultiplied color over white.
 fn over_white(Rgba([r, g, b, a]): Rgba<u8>) -> Rgba<u8> {
     let [r, g, b] = [r, g, b].map(|channel| channel.saturating_add(255 - a));
     Rgba([r, g, b, 255])
 }
 
-/// A colour divided by its alpha.
+/// A color with straight alpha.
 fn straight(Rgba([r, g, b, a]): Rgba<u8>) -> Rgba<u8> {
     if a == 0 {
         return Rgba([r, g, b, a]);
@@ -101,8 +98,6 @@ fn straight(Rgba([r, g, b, a]): Rgba<u8>) -> Rgba<u8> {
     Rgba([r, g, b, a])
 }
 
-/// Reads a PNG.
-///
 /// # Errors
 /// [`Error::Image`].
 pub fn read_png(path: &Path) -> Result<RgbaImage, Error> {
@@ -112,18 +107,18 @@ pub fn read_png(path: &Path) -> Result<RgbaImage, Error> {
     Ok(picture.map_err(ImageError::Decode).map_err(failed)?.to_rgba8())
 }
 
-/// What a comparison found.
+/// The difference between two pictures.
 #[derive(Debug)]
 pub struct Difference {
-    /// Pixels that differ by more than [`PIXEL_TOLERANCE`].
+    /// Number of pixels that differ by more than [`PIXEL_TOLERANCE`].
     pub wrong_pixels: usize,
-    /// The same as a share of all pixels.
+    /// The share of these pixels, 0 to 1.
     pub share: f64,
-    /// The pictures' difference, channel by channel, on black.
+    /// The absolute difference of each channel, opaque.
     pub picture: RgbaImage,
 }
 
-/// Compares two pictures of the same size; `None` where the sizes differ.
+/// Compares two pictures; `None` if their sizes differ.
 #[must_use]
 #[expect(clippy::cast_precision_loss, reason = "a share needs no more digits")]
 pub fn compare(picture: &RgbaImage, reference: &RgbaImage) -> Option<Difference> {
@@ -135,7 +130,7 @@ pub fn compare(picture: &RgbaImage, reference: &RgbaImage) -> Option<Difference>
         let (Rgba(ours), Rgba(theirs)) = (picture.get_pixel(x, y), reference.get_pixel(x, y));
         let [r, g, b, a] = [0, 1, 2, 3].map(|channel| ours[channel].abs_diff(theirs[channel]));
         wrong_pixels += usize::from([r, g, b, a].iter().any(|&step| step > PIXEL_TOLERANCE));
-        // A difference of alpha alone must not be invisible.
+        // A difference of alpha alone must be visible.
         Rgba([r.max(a), g.max(a), b.max(a), 255])
     });
     let share = wrong_pixels as f64 / f64::from(picture.width()) / f64::from(picture.height());
@@ -165,11 +160,11 @@ mod tests {
 
     #[test]
     fn transparency_is_stored_straight() {
-        let grey = RgbaImage::from_pixel(1, 1, Rgba([64, 64, 64, 128]));
-        let png = encode_png(&grey, true).unwrap();
+        let gray = RgbaImage::from_pixel(1, 1, Rgba([64, 64, 64, 128]));
+        let png = encode_png(&gray, true).unwrap();
         let back = image::load_from_memory(&png).unwrap().to_rgba8();
         assert_eq!(back.get_pixel(0, 0), &Rgba([128, 128, 128, 128]));
-        let png = encode_png(&grey, false).unwrap();
+        let png = encode_png(&gray, false).unwrap();
         let back = image::load_from_memory(&png).unwrap().to_rgba8();
         assert_eq!(back.get_pixel(0, 0), &Rgba([191, 191, 191, 255]), "over white");
     }

@@ -1,4 +1,4 @@
-//! A scene of edge meshes to pictures, without a window.
+//! Draws pictures of a scene, without a window.
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -25,27 +25,27 @@ use crate::technique::plan::{Plan, TexturePlan};
 use crate::technique::program::ShaderFiles;
 use crate::technique::texture_format::PassTexture;
 
-/// How a scene is drawn.
+/// Options of a picture.
 #[derive(Debug, Clone)]
 pub struct PictureOptions {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// Samples a pixel, 1 or 4.
+    /// Samples per pixel, 1 or 4.
     pub samples: u32,
-    /// How the edges lie in memory.
+    /// Memory layout of the edges.
     pub layout: Layout,
-    /// Where features are detected.
+    /// The stage that detects features.
     pub stage: DetectionStage,
-    /// Whether there is no paper behind the scene.
+    /// Whether the background is transparent.
     pub is_transparent: bool,
-    /// The light, and what cuts the scene.
+    /// Light and clip planes.
     pub lighting: Lighting,
-    /// Where shaders are taken from instead of those that are shipped.
+    /// A folder that replaces the built-in shaders.
     pub shaders: Option<PathBuf>,
 }
 
 impl Default for PictureOptions {
-    /// 1024 x 1024 pixels of 4 samples.
+    /// 1024 x 1024 pixels with 4 samples.
     fn default() -> Self {
         Self {
             size: [1024; 2],
@@ -72,7 +72,34 @@ impl PictureOptions {
     }
 }
 
-/// A scene on the GPU with everything that its pictures need.
+/// The scene and its techniques.
+#[derive(Debug, Clone, Copy)]
+pub struct PictureInput<'a> {
+    /// Models in their places.
+    pub scene: &'a Scene,
+    /// The technique of the scene.
+    pub technique: &'a Technique,
+    /// Techniques of single objects, by [`PlacedObject::override_index`]. Only their fills
+    /// and strokes are used.
+    ///
+    /// [`PlacedObject::override_index`]: crate::scene::models::PlacedObject::override_index
+    pub overrides: &'a [Technique],
+}
+
+impl<'a> PictureInput<'a> {
+    /// A scene with one technique for all objects.
+    #[must_use]
+    pub const fn new(scene: &'a Scene, technique: &'a Technique) -> Self {
+        Self { scene, technique, overrides: &[] }
+    }
+
+    const fn of_graph(self, plan: &'a Plan, options: &'a GraphOptions) -> GraphInput<'a> {
+        let Self { scene, technique, overrides } = self;
+        GraphInput { scene, technique, plan, overrides, options }
+    }
+}
+
+/// A scene on the GPU, ready to draw.
 #[derive(Debug)]
 pub struct PictureRenderer {
     gpu: Gpu,
@@ -85,21 +112,20 @@ pub struct PictureRenderer {
     timer: Option<GpuTimer>,
 }
 
-/// What a frame cost and drew.
+/// Counts and times of a frame.
 #[derive(Debug, Clone)]
 pub struct FrameStatistics {
-    /// The counts of all meshes, summed; none where vertex shaders detect.
+    /// The counts of all meshes, summed; `None` if vertex shaders detect.
     pub tally: Option<Tally>,
-    /// Each pass with its milliseconds on the GPU, where the adapter has
-    /// timestamps.
+    /// Each pass with its milliseconds on the GPU; `None` without timestamp queries.
     pub passes: Vec<(String, Option<f64>)>,
-    /// From the submission until the GPU was done.
+    /// Milliseconds from the submission until the GPU is done.
     pub frame_ms: f64,
 }
 
 impl FrameStatistics {
-    /// Those of two parts of one picture: times are added up, counts are of the whole
-    /// scene in both.
+    /// Adds the times of another tile of the same picture. The counts are those of the
+    /// whole scene in both.
     #[must_use]
     pub fn plus(mut self, other: Self) -> Self {
         for (sum, time) in self.passes.iter_mut().zip(other.passes) {
@@ -109,7 +135,7 @@ impl FrameStatistics {
     }
 }
 
-/// What a picture drew and cost, not yet read.
+/// Statistics that are not read yet.
 #[derive(Debug)]
 pub struct PendingStatistics {
     tallies: Vec<PendingRead<Tally>>,
@@ -118,29 +144,17 @@ pub struct PendingStatistics {
 }
 
 impl PictureRenderer {
-    /// Checks `technique`, uploads the scene, and builds the pipelines. An object whose
-    /// look is a number of `looks` takes what is drawn object by object, its fill and
-    /// its strokes, from there.
+    /// Checks the technique, uploads the scene, and builds the pipelines.
     ///
     /// # Errors
-    /// Where something is wrong with the technique or its shaders, or the picture or a
-    /// mesh is too large for the adapter.
-    pub fn new(
-        gpu: &Gpu,
-        scene: &Scene,
-        technique: &Technique,
-        looks: &[Technique],
-        options: &PictureOptions,
-    ) -> Result<Self, Error> {
+    /// If the technique or its shaders have mistakes, or the picture or a mesh is too large
+    /// for the adapter.
+    pub fn new(gpu: &Gpu, input: PictureInput, options: &PictureOptions) -> Result<Self, Error> {
         check_size(gpu, options.size)?;
-        let plan = plan_of(technique, options)?;
-        let input = GraphInput {
-            scene,
-            technique,
-            plan: &plan,
-            overrides: looks,
-            options: &options.of_graph(),
-        };
+        let scene = input.scene;
+        let plan = plan_of(input.technique, options)?;
+        let graph_options = options.of_graph();
+        let input = input.of_graph(&plan, &graph_options);
         let made = gpu.make(|| PassGraph::new(gpu, &input));
         let graph =
             made.map_err(|error| resource_error(error, options.size, options.samples))??;
@@ -155,32 +169,22 @@ impl PictureRenderer {
         })
     }
 
-    /// Goes on with a technique, looks and options that have changed; what did not change
-    /// stays on the GPU, and textures keep what is in them.
+    /// Takes a changed technique, overrides or options. Everything else stays on the GPU, and
+    /// textures keep their content.
     ///
     /// # Errors
-    /// As [`Self::new`]. Then the renderer goes on drawing as before, or one transparent
-    /// pixel if memory ran out.
-    pub fn reload(
-        &mut self,
-        scene: &Scene,
-        technique: &Technique,
-        looks: &[Technique],
-        options: &PictureOptions,
-    ) -> Result<(), Error> {
+    /// As [`Self::new`]. The renderer then draws as before, or one transparent pixel if
+    /// memory ran out.
+    pub fn reload(&mut self, input: PictureInput, options: &PictureOptions) -> Result<(), Error> {
         if (options.layout, options.stage) != (self.options.layout, self.options.stage) {
-            *self = Self::new(&self.gpu, scene, technique, looks, options)?;
+            *self = Self::new(&self.gpu, input, options)?;
             return Ok(());
         }
         check_size(&self.gpu, options.size)?;
-        let plan = plan_of(technique, options)?;
-        let input = GraphInput {
-            scene,
-            technique,
-            plan: &plan,
-            overrides: looks,
-            options: &options.of_graph(),
-        };
+        let scene = input.scene;
+        let plan = plan_of(input.technique, options)?;
+        let graph_options = options.of_graph();
+        let input = input.of_graph(&plan, &graph_options);
         let (gpu, graph) = (&self.gpu, &mut self.graph);
         let change = gpu
             .make(|| graph.change(gpu, &input))
@@ -193,11 +197,11 @@ impl PictureRenderer {
         Ok(())
     }
 
-    /// Goes on in another size; pipelines and meshes stay.
+    /// Changes the size; pipelines and meshes stay.
     ///
     /// # Errors
-    /// If it is too large for the adapter, or memory runs out; then the renderer draws one
-    /// transparent pixel until a [`Self::reload`].
+    /// If the size is too large for the adapter, or memory runs out; the renderer then draws
+    /// one transparent pixel until a [`Self::reload`].
     pub fn resize(&mut self, size: [u32; 2]) -> Result<(), Error> {
         check_size(&self.gpu, size)?;
         let (gpu, plan, samples) = (&self.gpu, &self.plan, self.options.samples);
@@ -207,7 +211,7 @@ impl PictureRenderer {
         Ok(())
     }
 
-    /// Drops everything that was built, which cannot be used after memory ran out.
+    /// Drops the whole graph, which cannot be used after memory ran out.
     fn lose_graph(&mut self, error: ResourceError, size: [u32; 2], samples: u32) -> Error {
         self.graph = PassGraph::empty(&self.gpu);
         self.plan = Plan::default();
@@ -215,14 +219,14 @@ impl PictureRenderer {
         resource_error(error, size, samples)
     }
 
-    /// How it draws.
+    /// The options in effect.
     #[must_use]
     pub const fn options(&self) -> &PictureOptions {
         &self.options
     }
 
-    /// Another light, and other planes that cut the scene; false where that needs a
-    /// [`Self::reload`], as there were none before, or are none any more.
+    /// Sets light and clip planes. Returns false, and changes nothing, if the first plane
+    /// comes or the last one goes, which needs a [`Self::reload`].
     pub fn set_lighting(&mut self, lighting: &Lighting) -> bool {
         let is_cut = |lighting: &Lighting| !lighting.clip_planes.is_empty();
         let can = is_cut(lighting) == is_cut(&self.options.lighting);
@@ -235,35 +239,35 @@ impl PictureRenderer {
     /// Draws one picture, with premultiplied alpha.
     ///
     /// # Errors
-    /// Where the device is lost, or an image cannot be read.
+    /// If the device is lost, or an image cannot be read.
     pub fn render(&mut self, camera: &Camera) -> Result<(RgbaImage, FrameStatistics), Error> {
         let started = Instant::now();
         self.draw(camera)?;
         self.read(started)
     }
 
-    /// Draws one part of a picture for itself, as the first picture that there is; the
-    /// part must be of this renderer's size. Where strokes are linked, `overview` must
-    /// have drawn the whole picture last.
+    /// Draws one tile of a picture as if no picture had been drawn before. The tile must
+    /// have this renderer's size. If strokes are linked, `overview` must have drawn the
+    /// whole picture last.
     ///
     /// # Errors
     /// As [`Self::render`].
-    pub fn render_part(
+    pub fn render_tile(
         &mut self,
         view: &View,
-        part: Tile,
+        tile: Tile,
         overview: Option<&Self>,
     ) -> Result<(RgbaImage, FrameStatistics), Error> {
         let started = Instant::now();
         let overview = overview.map(|overview| overview.graph.framebuffer());
-        self.draw_first(view, Some(TileInput { tile: part, overview }))?;
+        self.draw_first(view, Some(TileInput { tile, overview }))?;
         self.read(started)
     }
 
-    /// Draws the whole picture for itself, as the first one that there is.
+    /// Draws the whole picture as if none had been drawn before.
     ///
     /// # Errors
-    /// Where an image cannot be read.
+    /// If an image cannot be read.
     pub fn draw_overview(&mut self, view: &View) -> Result<(), Error> {
         self.draw_first(view, None)
     }
@@ -276,7 +280,7 @@ impl PictureRenderer {
         self.submit(view, tile)
     }
 
-    /// Waits for the picture that was submitted, and reads it.
+    /// Waits for the submitted picture and reads it.
     fn read(&self, started: Instant) -> Result<(RgbaImage, FrameStatistics), Error> {
         self.gpu
             .device
@@ -289,11 +293,11 @@ impl PictureRenderer {
         Ok((picture, statistics))
     }
 
-    /// The stroke graph of an object in the last picture; nothing where its strokes are
-    /// not linked.
+    /// The stroke graph of an object in the last picture; `None` if its strokes are not
+    /// linked.
     ///
     /// # Errors
-    /// Where the device is lost.
+    /// If the device is lost.
     pub fn read_graph(&self, object: usize) -> Result<Option<GraphReadback>, Error> {
         let group = self.graph.stroke_groups().next();
         let Some(object) = group.and_then(|group| group.drawing.objects().get(object)) else {
@@ -302,13 +306,13 @@ impl PictureRenderer {
         Ok(object.read_graph(&self.gpu)?)
     }
 
-    /// The texture that passes call `<generated>:name`, as it is after the last picture.
+    /// The texture `<generated>:name` after the last picture.
     #[must_use]
     pub fn generated(&self, name: &str) -> Option<&wgpu::Texture> {
         self.graph.generated(&self.plan, name)
     }
 
-    /// The textures that passes draw for each other.
+    /// The textures between passes.
     #[must_use]
     pub fn generated_textures(&self) -> Vec<PassTexture> {
         let textures = self.plan.textures.iter();
@@ -319,22 +323,22 @@ impl PictureRenderer {
         textures.map(of_plan).collect()
     }
 
-    /// The picture that was drawn last, or is being drawn.
+    /// The texture of the last submitted picture.
     #[must_use]
     pub const fn picture(&self) -> &wgpu::Texture {
         self.graph.picture()
     }
 
-    /// Submits a picture and does not wait for it.
+    /// Submits a picture without waiting for it.
     ///
     /// # Errors
-    /// Where an image cannot be read.
+    /// If an image cannot be read.
     pub fn draw(&mut self, camera: &Camera) -> Result<(), Error> {
         let view = self.view(camera, self.options.size);
         self.submit(&view, None)
     }
 
-    /// How a camera sees the scene in a picture of a size.
+    /// The view of a camera in a picture of a size in pixels.
     #[must_use]
     pub fn view(&self, camera: &Camera, [width, height]: [u32; 2]) -> View {
         camera.view(&self.bounds, f64::from(width) / f64::from(height))
@@ -353,10 +357,10 @@ impl PictureRenderer {
         Ok(())
     }
 
-    /// Begins to read what the last picture drew and cost.
+    /// Starts reading the statistics of the last picture.
     ///
     /// # Errors
-    /// Where the device is lost.
+    /// If the device is lost.
     pub fn begin_statistics(&self) -> Result<PendingStatistics, Error> {
         let objects = self.graph.counted_objects().iter();
         let tallies = objects.map(|object| object.begin_read_tallies(&self.gpu));
@@ -366,11 +370,11 @@ impl PictureRenderer {
         Ok(PendingStatistics { tallies, ticks, started: Instant::now() })
     }
 
-    /// What a picture drew and cost, once that is known; `pending` is of the last picture
-    /// of this renderer, which was not reloaded since.
+    /// The statistics, once they are known. `pending` must be of the last picture, without a
+    /// reload since.
     ///
     /// # Errors
-    /// Where the device is lost.
+    /// If the device is lost.
     pub fn statistics(
         &self,
         pending: &PendingStatistics,

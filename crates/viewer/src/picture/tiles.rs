@@ -1,16 +1,16 @@
-//! Pictures of any size: what is too large for a texture is drawn in parts.
+//! Pictures of any size: one that is too large for a texture is drawn in tiles.
 //!
 //! ```text
-//!   +----------+----------+---     each part is drawn with a margin around it, so that
-//!   |  +- - - -|- -+      |        what looks at its neighbourhood (detectors, wide
-//!   |  | part 1|   |part 2|        lines, blurs) finds in it what it finds in the whole
+//!   +----------+----------+---     Each tile is drawn with a margin, so that passes that
+//!   |  +- - - -|- -+      |        read neighboring pixels (detectors, wide lines, blurs)
+//!   |  | tile 1|   |tile 2|        find the same pixels as in the whole picture.
 //!   +--|-------+---|------+---
 //!      +- - - - - -+
 //! ```
 //!
-//! Where strokes are linked, the whole picture is drawn before them as large as one part.
-//! Its depth tells all parts alike where those strokes are seen, so that they begin, end
-//! and taper at the same places everywhere.
+//! If strokes are linked, the whole picture is first drawn in the size of one tile. Its
+//! depth decides for all tiles where those strokes are visible, so that they begin, end
+//! and taper at the same places in every tile.
 //!
 //! Rejected: drawing large and cutting with a viewport, since a viewport may not be
 //! larger than a texture either.
@@ -22,24 +22,22 @@ use strokes::gpu::device::Gpu;
 use strokes::view::tile::Tile;
 
 use crate::error::Error;
-use crate::picture::renderer::{FrameStatistics, PictureOptions, PictureRenderer};
-use crate::scene::models::Scene;
-use crate::technique::Technique;
+use crate::picture::renderer::{FrameStatistics, PictureInput, PictureOptions, PictureRenderer};
 use crate::technique::core::CoreComponent;
 use crate::technique::core_view::Strokes;
 use crate::technique::pass::Pass;
 
-/// The most pixels that a part has a side, with its margins.
-pub const MAX_PART_PX: u32 = 4096;
+/// The longest side of a tile in pixels, including its margins.
+const MAX_TILE_PX: u32 = 4096;
 
-/// How far a part is drawn beyond what is taken of it, in pixels.
-pub const MARGIN_PX: u32 = 256;
+/// The margin on each side of a tile, in pixels.
+const MARGIN_PX: u32 = 256;
 
-/// Parts begin at multiples of this, so that textures of a part's halves and quarters lie
-/// as those of the whole.
+/// Tiles begin at multiples of this, so that the texels of textures of half and quarter
+/// size lie where those of the whole picture do.
 const STEP_PX: u32 = 64;
 
-/// A picture that needs more memory on the GPU than this, in bytes, is drawn in parts.
+/// A picture that needs more GPU memory than this, in bytes, is drawn in tiles.
 const MAX_BYTES: u64 = 2 << 30;
 
 /// Draws pictures of any size.
@@ -48,123 +46,110 @@ pub struct AnySizeRenderer {
     gpu: Gpu,
     kind: Kind,
     size: [u32; 2],
-    max_part_px: u32,
+    max_tile_px: u32,
 }
 
 #[derive(Debug)]
 enum Kind {
     Whole(Box<PictureRenderer>),
-    Parts {
-        part: Box<PictureRenderer>,
-        /// Where strokes are linked.
+    Tiles {
+        tile: Box<PictureRenderer>,
+        /// Draws the whole picture, if strokes are linked.
         overview: Option<Box<PictureRenderer>>,
-        layout: PartLayout,
+        layout: TileLayout,
     },
 }
 
-/// Is told how many parts are done, of how many; an error ends the picture.
+/// Receives the number of tiles that are done and of all tiles, before each tile and after
+/// the last. An error cancels the picture. Never called for a picture drawn at once.
 pub type Progress<'a> = &'a mut dyn FnMut(u32, u32) -> Result<(), Error>;
 
 impl AnySizeRenderer {
     /// As [`PictureRenderer::new`], for a picture of any size.
     ///
     /// # Errors
-    /// As there; the picture cannot be too large.
-    pub fn new(
-        gpu: &Gpu,
-        scene: &Scene,
-        technique: &Technique,
-        looks: &[Technique],
-        options: &PictureOptions,
-    ) -> Result<Self, Error> {
+    /// As [`PictureRenderer::new`], but no size is too large.
+    pub fn new(gpu: &Gpu, input: PictureInput, options: &PictureOptions) -> Result<Self, Error> {
         let limit = gpu.device.limits().max_texture_dimension_2d;
         let fits = options.size.iter().all(|&side| side <= limit)
             && Targets::byte_count(options.size, options.samples) <= MAX_BYTES;
-        let max_part_px = if fits { u32::MAX } else { limit.min(MAX_PART_PX) };
-        Self::with_parts(gpu, scene, technique, looks, options, max_part_px)
+        let max_tile_px = if fits { u32::MAX } else { limit.min(MAX_TILE_PX) };
+        Self::with_tiles(gpu, input, options, max_tile_px)
     }
 
-    /// The same in parts of at most so many pixels a side, margins and all; at once where
-    /// the picture is not larger.
+    /// As [`Self::new`], in tiles with sides of at most `max_tile_px` pixels, including
+    /// margins; at once if the picture is no larger.
     ///
     /// # Errors
     /// As [`PictureRenderer::new`].
-    pub fn with_parts(
+    pub fn with_tiles(
         gpu: &Gpu,
-        scene: &Scene,
-        technique: &Technique,
-        looks: &[Technique],
+        input: PictureInput,
         options: &PictureOptions,
-        max_part_px: u32,
+        max_tile_px: u32,
     ) -> Result<Self, Error> {
         let renderer = |size| {
             let options = PictureOptions { size, ..options.clone() };
-            PictureRenderer::new(gpu, scene, technique, looks, &options).map(Box::new)
+            PictureRenderer::new(gpu, input, &options).map(Box::new)
         };
         let size = options.size;
-        let kind = if size.iter().all(|&side| side <= max_part_px) {
+        let kind = if size.iter().all(|&side| side <= max_tile_px) {
             Kind::Whole(renderer(size)?)
         } else {
-            let layout = PartLayout::new(size, max_part_px);
-            Kind::Parts {
-                part: renderer(layout.part)?,
-                overview: links_strokes(technique, looks)
-                    .then(|| renderer(overview_size(size, max_part_px)))
+            let layout = TileLayout::new(size, max_tile_px);
+            Kind::Tiles {
+                tile: renderer(layout.tile)?,
+                overview: links_strokes(input)
+                    .then(|| renderer(overview_size(size, max_tile_px)))
                     .transpose()?,
                 layout,
             }
         };
-        Ok(Self { gpu: gpu.clone(), kind, size, max_part_px })
+        Ok(Self { gpu: gpu.clone(), kind, size, max_tile_px })
     }
 
     /// As [`PictureRenderer::reload`]; the size stays.
     ///
     /// # Errors
-    /// As there.
-    pub fn reload(
-        &mut self,
-        scene: &Scene,
-        technique: &Technique,
-        looks: &[Technique],
-        options: &PictureOptions,
-    ) -> Result<(), Error> {
+    /// As [`PictureRenderer::reload`].
+    pub fn reload(&mut self, input: PictureInput, options: &PictureOptions) -> Result<(), Error> {
         let reload = |renderer: &mut PictureRenderer| {
             let options = PictureOptions { size: renderer.options().size, ..options.clone() };
-            renderer.reload(scene, technique, looks, &options)
+            renderer.reload(input, &options)
         };
-        let is_linked = links_strokes(technique, looks);
+        let is_linked = links_strokes(input);
         match &mut self.kind {
-            Kind::Parts { part, overview: Some(overview), .. } => {
-                reload(part)?;
+            Kind::Tiles { tile, overview: Some(overview), .. } => {
+                reload(tile)?;
                 reload(overview)
             }
-            // Strokes that are linked from now on ask for an overview.
-            Kind::Parts { .. } if is_linked => {
+            // Strokes that are now linked need an overview.
+            Kind::Tiles { .. } if is_linked => {
                 let options = PictureOptions { size: self.size, ..options.clone() };
-                let (gpu, most) = (self.gpu.clone(), self.max_part_px);
-                *self = Self::with_parts(&gpu, scene, technique, looks, &options, most)?;
+                let (gpu, most) = (self.gpu.clone(), self.max_tile_px);
+                *self = Self::with_tiles(&gpu, input, &options, most)?;
                 Ok(())
             }
-            Kind::Whole(part) | Kind::Parts { part, .. } => reload(part),
+            Kind::Whole(renderer) | Kind::Tiles { tile: renderer, .. } => reload(renderer),
         }
     }
 
-    /// Draws one picture, with premultiplied alpha. Times of parts are added up.
+    /// Draws one picture, with premultiplied alpha. The times are sums over the tiles.
     ///
     /// # Errors
-    /// Where the device is lost, an image cannot be read, there is no memory for the
-    /// picture, or `progress` says so.
+    /// If the device is lost, an image cannot be read, memory does not hold the picture, or
+    /// `progress` fails.
     pub fn render(
         &mut self,
         camera: &Camera,
         progress: Progress,
     ) -> Result<(RgbaImage, FrameStatistics), Error> {
-        let (part, overview, layout) = match &mut self.kind {
+        let (tile, overview, layout) = match &mut self.kind {
             Kind::Whole(renderer) => return renderer.render(camera),
-            Kind::Parts { part, overview, layout } => (part, overview, layout),
+            Kind::Tiles { tile, overview, layout } => (tile, overview, layout),
         };
         let mut picture = empty_picture(self.size)?;
-        let view = part.view(camera, self.size);
+        let view = tile.view(camera, self.size);
         if let Some(overview) = overview {
             overview.draw_overview(&view)?;
         }
@@ -174,7 +159,7 @@ impl AnySizeRenderer {
         for (done, place) in (0..).zip(&places) {
             progress(done, total)?;
             let (drawn, statistics) =
-                part.render_part(&view, layout.part_at(place), overview.as_deref())?;
+                tile.render_tile(&view, layout.tile_at(place), overview.as_deref())?;
             let cut = [place.kept[0] - place.drawn[0], place.kept[1] - place.drawn[1]];
             let [width, height] = place.size;
             let kept = image::imageops::crop_imm(&drawn, cut[0], cut[1], width, height);
@@ -186,14 +171,15 @@ impl AnySizeRenderer {
             });
         }
         progress(total, total)?;
-        let statistics = sum.ok_or_else(|| Error::Internal("a picture without parts".into()))?;
+        let statistics = sum.ok_or_else(|| Error::Internal("a picture without tiles".into()))?;
         Ok((picture, statistics))
     }
 }
 
-/// Whether any strokes that are drawn are linked.
-fn links_strokes(technique: &Technique, looks: &[Technique]) -> bool {
-    let passes = std::iter::once(technique).chain(looks).flat_map(|look| &look.passes);
+/// Whether any rendered pass of strokes links them.
+fn links_strokes(input: PictureInput) -> bool {
+    let techniques = std::iter::once(input.technique).chain(input.overrides);
+    let passes = techniques.flat_map(|technique| &technique.passes);
     let is_linked = |pass: &Pass| {
         pass.component.core == CoreComponent::Strokes
             && pass.is_rendered()
@@ -202,35 +188,35 @@ fn links_strokes(technique: &Technique, looks: &[Technique]) -> bool {
     passes.into_iter().any(is_linked)
 }
 
-/// How a picture is cut.
+/// How a picture is cut into tiles; sizes in pixels.
 #[derive(Debug, Clone, PartialEq)]
-struct PartLayout {
+struct TileLayout {
     picture: [u32; 2],
-    /// The size that is drawn.
-    part: [u32; 2],
-    /// From one part to the next.
+    /// Size of a tile, including its margins.
+    tile: [u32; 2],
+    /// Distance from one tile to the next.
     step: [u32; 2],
 }
 
-/// Where a part lies, in pixels from the upper left corner of the picture.
+/// The place of a tile, in pixels from the upper left corner of the picture.
 #[derive(Debug, Clone, PartialEq)]
-struct PartPlace {
-    /// The corner of what is drawn.
+struct TilePlace {
+    /// Corner of the tile, including its margins.
     drawn: [u32; 2],
-    /// The corner of what is taken of it.
+    /// Corner without the margins.
     kept: [u32; 2],
-    /// The size of what is taken of it.
+    /// Size without the margins.
     size: [u32; 2],
 }
 
-impl PartLayout {
-    fn new(picture: [u32; 2], max_part_px: u32) -> Self {
-        let inner = max_part_px.saturating_sub(2 * MARGIN_PX) / STEP_PX * STEP_PX;
+impl TileLayout {
+    fn new(picture: [u32; 2], max_tile_px: u32) -> Self {
+        let inner = max_tile_px.saturating_sub(2 * MARGIN_PX) / STEP_PX * STEP_PX;
         let step = inner.max(STEP_PX);
-        let is_cut = picture.map(|side| side > max_part_px);
+        let is_cut = picture.map(|side| side > max_tile_px);
         Self {
             picture,
-            part: [0, 1].map(|axis| match is_cut[axis] {
+            tile: [0, 1].map(|axis| match is_cut[axis] {
                 true => step + 2 * MARGIN_PX,
                 false => picture[axis],
             }),
@@ -238,13 +224,13 @@ impl PartLayout {
         }
     }
 
-    /// Row by row.
-    fn places(&self) -> Vec<PartPlace> {
+    /// The tiles, row by row.
+    fn places(&self) -> Vec<TilePlace> {
         let [columns, rows] = [0, 1].map(|axis| self.picture[axis].div_ceil(self.step[axis]));
         let place = |column, row| {
             let at = [column, row];
             let kept: [u32; 2] = [0, 1].map(|axis: usize| at[axis] * self.step[axis]);
-            PartPlace {
+            TilePlace {
                 drawn: kept.map(|side| side.saturating_sub(MARGIN_PX)),
                 kept,
                 size: [0, 1].map(|axis| self.step[axis].min(self.picture[axis] - kept[axis])),
@@ -253,14 +239,14 @@ impl PartLayout {
         (0..rows).flat_map(|row| (0..columns).map(move |column| place(column, row))).collect()
     }
 
-    fn part_at(&self, place: &PartPlace) -> Tile {
+    fn tile_at(&self, place: &TilePlace) -> Tile {
         #[expect(clippy::cast_precision_loss, reason = "pictures have fewer pixels a side")]
         let px = |[x, y]: [u32; 2]| glam::Vec2::new(x as f32, y as f32);
-        Tile { picture_px: px(self.picture), corner_px: px(place.drawn), size_px: px(self.part) }
+        Tile { picture_px: px(self.picture), corner_px: px(place.drawn), size_px: px(self.tile) }
     }
 }
 
-/// A picture of the same shape, of at most so many pixels a side.
+/// The size of a picture of the same shape with sides of at most `max_px` pixels.
 fn overview_size(size: [u32; 2], max_px: u32) -> [u32; 2] {
     let largest = u64::from(size[0].max(size[1]).max(1));
     size.map(|side| {
@@ -269,7 +255,7 @@ fn overview_size(size: [u32; 2], max_px: u32) -> [u32; 2] {
     })
 }
 
-/// A picture of nothing, where there is memory for it.
+/// A transparent picture; an error if memory does not hold it.
 fn empty_picture(size: [u32; 2]) -> Result<RgbaImage, Error> {
     let [width, height] = size;
     let too_large = || Error::NoMemoryForPicture { size };
@@ -287,15 +273,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_cover_every_pixel_once() {
+    fn tiles_cover_every_pixel_once() {
         for (size, max_px) in [([1500, 1100], 768), ([900, 5000], 1024), ([641, 1300], 640)] {
-            let layout = PartLayout::new(size, max_px);
+            let layout = TileLayout::new(size, max_px);
             let mut covered = vec![0_u8; (size[0] * size[1]) as usize];
             for place in layout.places() {
                 let ends = [0, 1].map(|axis| place.kept[axis] + place.size[axis]);
                 assert!(place.drawn[0] <= place.kept[0] && place.drawn[1] <= place.kept[1]);
                 assert!(ends[0] <= size[0] && ends[1] <= size[1], "{place:?}");
-                let drawn = [0, 1].map(|axis| place.drawn[axis] + layout.part[axis]);
+                let drawn = [0, 1].map(|axis| place.drawn[axis] + layout.tile[axis]);
                 assert!(ends[0] <= drawn[0] && ends[1] <= drawn[1], "{place:?}");
                 for y in place.kept[1]..place.kept[1] + place.size[1] {
                     for x in place.kept[0]..place.kept[0] + place.size[0] {

@@ -1,4 +1,4 @@
-//! A camera that goes around, as numbered pictures or as one that moves.
+//! A camera that turns around the scene, as numbered pictures or an animation.
 
 use std::f64::consts::TAU;
 use std::ffi::OsStr;
@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::picture::animation::{AnimationKind, encode_animation};
 use crate::picture::png::{as_stored, encode_png};
 
-/// The camera at one of `steps` around its target, to the left.
+/// The camera at `step` of `steps` around its target, turning left.
 #[must_use]
 pub fn camera_at(camera: &Camera, step: u32, steps: u32) -> Camera {
     let axis = camera.up.normalize_or_zero();
@@ -21,8 +21,8 @@ pub fn camera_at(camera: &Camera, step: u32, steps: u32) -> Camera {
     Camera { eye: camera.target + turn * (camera.eye - camera.target), ..*camera }
 }
 
-/// Writes all pictures, which `draw` gives with premultiplied alpha: as an animation where
-/// the path ends so, else numbered.
+/// Writes pictures that `draw` returns with premultiplied alpha: as an animation if the
+/// ending of `path` names one, else as numbered PNG files.
 ///
 /// # Errors
 /// The first error of `draw`, [`Error::Encode`] or [`Error::Write`].
@@ -46,7 +46,7 @@ pub fn write(
     Ok(())
 }
 
-/// `turn.png` becomes `turn-00.png`, with as many digits as the last one needs.
+/// `turn.png` becomes `turn-00.png`, with as many digits as the last number needs.
 fn numbered(path: &Path, step: u32, steps: u32) -> PathBuf {
     let digits = (steps - 1).checked_ilog10().map_or(1, |log| log as usize + 1);
     let mut name = path.file_stem().unwrap_or(OsStr::new("picture")).to_owned();

@@ -1,35 +1,35 @@
-//! The light of a picture, and the planes that cut the scene.
+//! Light and clip planes.
 
 use edgemesh::edge_mesh::{Bounds, MeshFrame};
 use edgemesh::view::camera::View;
 use glam::{DVec3, Vec3};
 use strokes::view::frame::{MAX_CLIP_PLANES, Surroundings};
 
-/// Where the light is.
+/// A white light source.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Light {
-    /// Far away in a direction of the camera's space: right, up, toward the viewer.
+    /// A direction in camera space: right, up, toward the viewer.
     Camera(DVec3),
-    /// Far away in a direction of the world.
+    /// A direction in world space.
     World(DVec3),
-    /// At a point, in the units of the file.
+    /// A point, in units of the files.
     Point(DVec3),
 }
 
-/// The light of a picture, and the planes that cut the scene.
+/// Light and clip planes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lighting {
-    /// Where the light is.
+    /// The light.
     pub light: Light,
-    /// Its colour.
+    /// Color of the light: red, green, blue, 0 to 1.
     pub color: [f32; 3],
-    /// What is drawn is where n . p + d is not negative for any plane (n, d), in the
-    /// units of the file.
+    /// Planes (n, d): points with n . p + d < 0 for any plane are cut away. In units of the
+    /// files.
     pub clip_planes: Vec<[f64; 4]>,
 }
 
 impl Default for Lighting {
-    /// From the upper left, as draughtsmen have it.
+    /// From the upper left, as in technical drawing.
     fn default() -> Self {
         let light = Light::Camera(DVec3::new(-0.5, 0.7, 1.0));
         Self { light, color: [1.0; 3], clip_planes: Vec::new() }
@@ -37,7 +37,7 @@ impl Default for Lighting {
 }
 
 impl Lighting {
-    /// The same for a view of a scene in a box that lies in `frame`.
+    /// Light and clip planes for shaders, in a view of a scene with `bounds` in `frame`.
     #[must_use]
     pub fn surroundings(&self, view: &View, bounds: &Bounds, frame: &MeshFrame) -> Surroundings {
         let axis = |row: usize| view.clip_from_world.row(row).truncate().normalize_or_zero();
@@ -53,7 +53,7 @@ impl Lighting {
         };
         let plane = |&[x, y, z, d]: &[f64; 4]| {
             let normal = DVec3::new(x, y, z);
-            // A point of the mesh is at p / scale + origin in the file.
+            // A point p of the mesh is at p / scale + origin in the file.
             let offset = frame.scale * (normal.dot(frame.origin) + d);
             normal.extend(offset).as_vec4().to_array()
         };
@@ -68,10 +68,10 @@ impl Lighting {
     }
 }
 
-/// Reads a light: `X,Y,Z` in the camera's space, `world:X,Y,Z`, or `point:X,Y,Z`.
+/// Reads `X,Y,Z` (camera space), `world:X,Y,Z` or `point:X,Y,Z`.
 ///
 /// # Errors
-/// What it should be.
+/// The expected form.
 pub fn parse_light(text: &str) -> Result<Light, String> {
     let (kind, numbers) = text.split_once(':').unwrap_or(("camera", text));
     let what = || {
@@ -89,10 +89,10 @@ pub fn parse_light(text: &str) -> Result<Light, String> {
     }
 }
 
-/// Reads a clip plane: `NX,NY,NZ,D`.
+/// Reads `NX,NY,NZ,D`.
 ///
 /// # Errors
-/// What it should be.
+/// The expected form.
 pub fn parse_clip_plane(text: &str) -> Result<[f64; 4], String> {
     let what = || "needs four numbers as NX,NY,NZ,D".to_owned();
     let plane: [f64; 4] = numbers_of(text).ok_or_else(what)?;

@@ -1,9 +1,9 @@
-//! What is drawn: models in their places, and the light that falls on them.
+//! Scenes: models in their places, and the light.
 //!
-//! - [`scene_file`]: objects as a text file has them.
-//! - [`models`]: models in memory, and where they stand.
-//! - [`object_techniques`]: the techniques that objects of scene files have.
-//! - [`lighting`]: the light, and planes that cut the scene.
+//! - [`scene_file`]: scene files.
+//! - [`models`]: models in memory, with their places.
+//! - [`object_techniques`]: the overrides of scene files.
+//! - [`lighting`]: light and clip planes.
 
 pub mod lighting;
 pub mod models;

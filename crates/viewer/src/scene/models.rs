@@ -1,4 +1,4 @@
-//! Models in memory, and where they stand.
+//! Models in memory, with their places.
 
 use std::path::PathBuf;
 
@@ -10,18 +10,18 @@ use glam::DMat4;
 use crate::error::Error;
 use crate::scene::scene_file::SceneObject;
 
-/// Models in memory.
+/// Models in memory, with their places.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// Each model with its name and what was repaired in it.
+    /// The models, each with its name and its report.
     pub models: Vec<Loaded>,
-    /// Where they stand, and how they look.
+    /// The objects; a model can be in several.
     pub objects: Vec<PlacedObject>,
-    /// The box around all of them.
+    /// The box around all objects.
     pub bounds: Bounds,
-    /// Where the scene lies in the files, the same for all models.
+    /// The mesh frame of all models.
     pub frame: MeshFrame,
-    /// The angles in radians from which edges are ridges and valleys in the meshes.
+    /// The crease angles of the meshes in radians, for ridges and valleys.
     pub thresholds: [f64; 2],
 }
 
@@ -30,16 +30,16 @@ pub struct Scene {
 pub struct PlacedObject {
     /// Index into [`Scene::models`].
     pub model: usize,
-    /// Index into the techniques that objects have of their own; any other number for
-    /// that of the scene.
-    pub look: usize,
-    /// Takes the model to the scene.
+    /// Index into the overrides, the techniques of single objects; past their end for the
+    /// technique of the scene.
+    pub override_index: usize,
+    /// Transform from the model to the scene.
     pub world_from_object: DMat4,
 }
 
 impl Scene {
-    /// Reads and builds the models of `objects`, each file once. Object number n
-    /// has look number n.
+    /// Reads and builds the models of `objects`, each file once. Each object has the override
+    /// of its own index.
     ///
     /// # Errors
     /// [`Error::Load`] for the first model that cannot be loaded, or if `progress` cancels.
@@ -50,16 +50,16 @@ impl Scene {
     ) -> Result<Self, Error> {
         let mut paths: Vec<PathBuf> = Vec::new();
         let mut placed = Vec::new();
-        for (look, object) in objects.iter().enumerate() {
+        for (override_index, object) in objects.iter().enumerate() {
             let known = paths.iter().position(|path| *path == object.model);
             let model = known.unwrap_or(paths.len());
             if known.is_none() {
                 paths.push(object.model.clone());
             }
             let world_from_object = object.scene_from_model;
-            placed.push(PlacedObject { model, look, world_from_object });
+            placed.push(PlacedObject { model, override_index, world_from_object });
         }
-        // Transforms are in the numbers of the files.
+        // Transforms are in units of the files.
         let is_moved = placed.iter().any(|object| object.world_from_object != DMat4::IDENTITY);
         Ok(Self {
             thresholds: options.crease_angles_rad(),
@@ -67,15 +67,16 @@ impl Scene {
         })
     }
 
-    /// A scene of models that are in one frame, each once where it is.
+    /// A scene with each model once, without transforms. All must be in one frame.
     #[must_use]
     pub fn of(models: Vec<Loaded>) -> Self {
-        let in_place = |model| PlacedObject { model, look: 0, world_from_object: DMat4::IDENTITY };
+        let in_place =
+            |model| PlacedObject { model, override_index: 0, world_from_object: DMat4::IDENTITY };
         let objects = (0..models.len()).map(in_place).collect();
         Self::placed(models, objects)
     }
 
-    /// A scene of models that are in one frame, in their places.
+    /// A scene of models in one frame, in their places.
     #[must_use]
     pub fn placed(models: Vec<Loaded>, objects: Vec<PlacedObject>) -> Self {
         let boxes = objects.iter().filter_map(|object| {

@@ -1,4 +1,4 @@
-//! The techniques of the objects of scene files.
+//! The overrides of scene files.
 
 use super::scene_file::SceneObject;
 use crate::error::Error;
@@ -6,12 +6,11 @@ use crate::technique::Technique;
 use crate::technique::library::Library;
 use crate::technique::mistake::Mistakes;
 
-/// The technique of each object: its own or `default`, with what it sets; empty if no object
-/// has a technique or a setting. `warn` receives what was put right.
+/// The technique of each object: its own or `default`, with its settings; empty if no object
+/// has a technique or a setting. `warn` receives warnings.
 ///
 /// # Errors
-/// [`Error::Technique`] for a technique that is wrong, [`Error::ObjectSetting`] for a setting
-/// that does not fit.
+/// [`Error::Technique`], [`Error::ObjectSetting`].
 pub fn object_techniques(
     objects: &[SceneObject],
     library: &Library,

@@ -1,4 +1,4 @@
-//! Scene files: objects in their places, each with a look of its own.
+//! Scene files: objects in their places, each with an optional technique.
 //!
 //! ```toml
 //! [[object]]
@@ -10,8 +10,8 @@
 //! set = ["contour.color=#a03010"]
 //! ```
 //!
-//! An object is scaled, then turned, then moved, in the numbers of the files: where
-//! any object is, models far from the origin are not recentred.
+//! An object is scaled, then turned, then moved, in units of the files. Therefore models far
+//! from the origin are not recentered if any object has a transform.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -22,21 +22,21 @@ use toml::Spanned;
 
 use crate::error::SceneFileError;
 
-/// An object as its scene file has it.
+/// An object of a scene file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneObject {
     /// The model's file.
     pub model: PathBuf,
-    /// Takes the model to the scene, in the units of the files.
+    /// Transform from the model to the scene, in units of the files.
     pub scene_from_model: DMat4,
-    /// The technique, or `None` for the command line's.
+    /// Name or file of the technique; `None` for that of the command line.
     pub technique: Option<String>,
-    /// Variables that differ.
+    /// Settings of the technique.
     pub settings: Vec<String>,
 }
 
 impl SceneObject {
-    /// A model in its own place, with the command line's technique.
+    /// A model without a transform, with the technique of the command line.
     #[must_use]
     pub fn plain(model: &Path) -> Self {
         let model = model.to_owned();
@@ -71,7 +71,7 @@ enum Scale {
     Axes([f64; 3]),
 }
 
-/// Whether a path is that of a scene file.
+/// Whether a path names a scene file.
 #[must_use]
 pub fn is_scene_file(path: &Path) -> bool {
     path.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"))
@@ -93,10 +93,8 @@ pub fn objects_of(paths: &[PathBuf]) -> Result<Vec<SceneObject>, SceneFileError>
     Ok(objects)
 }
 
-/// Reads a scene file.
-///
 /// # Errors
-/// [`SceneFileError`], if it cannot be read, or for the first line that is wrong.
+/// [`SceneFileError`], if the file cannot be read, or for the first wrong line.
 pub fn read_scene_file(path: &Path) -> Result<Vec<SceneObject>, SceneFileError> {
     let text = std::fs::read_to_string(path)
         .map_err(|reason| SceneFileError::Io { path: path.to_owned(), reason })?;
@@ -119,7 +117,7 @@ fn parse(path: &Path, text: &str) -> Result<Vec<SceneObject>, SceneFileError> {
         .into_iter()
         .map(|entry| {
             if entry.model.get_ref().is_empty() {
-                return Err(wrong(Some(entry.model.span()), "model needs the name of a file"));
+                return Err(wrong(Some(entry.model.span()), "model needs a file name"));
             }
             let scale = entry.scale.as_ref().map_or(DVec3::ONE, |scale| match *scale.get_ref() {
                 Scale::Even(scale) => DVec3::splat(scale),

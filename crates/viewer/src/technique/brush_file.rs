@@ -5,7 +5,7 @@ use std::io::Cursor;
 use strokes::style::brush::{Brush, BrushError, MAX_SIDE};
 use thiserror::Error;
 
-/// An image cannot be a brush.
+/// Why an image cannot be a brush.
 #[derive(Debug, Error)]
 pub enum BrushFileError {
     /// It is not a PNG.
@@ -26,10 +26,10 @@ pub enum BrushFileError {
     },
 }
 
-/// A built-in brush, by a name of [`edgemesh_brushes::BRUSH_NAMES`]; none for other names.
+/// A built-in brush, by a name of [`edgemesh_brushes::BRUSH_NAMES`]; `None` for other names.
 ///
 /// # Errors
-/// If the embedded image cannot be read, which a test excludes.
+/// If the embedded image cannot be read; a test excludes this.
 #[must_use]
 pub fn shipped_brush(name: &str) -> Option<Result<Brush, BrushFileError>> {
     let image = edgemesh_brushes::image("brushes", name)?;

@@ -1,25 +1,24 @@
-//! The difference of two techniques as settings of a command line.
+//! The difference between two techniques as settings of a command line.
 //!
 //! The window changes values in place. A copied command, and the text in a saved picture,
-//! must lead to the same values; so settings are computed from the technique as it is and
-//! as it was read.
+//! must give the same values; so settings are computed from the original and the changed
+//! technique.
 
 use super::Technique;
 use super::pass::Pass;
 use super::value::{Value, VariableType, color_text};
 
 /// The settings for `--set` that lead from `before` to `after`, which has the passes of
-/// `before` and passes split from them for classes of edges; none if no settings lead
-/// there.
+/// `before` and passes split from them for line classes; `None` if no settings do.
 ///
-/// [`Technique::set`] changes a pass and all passes split from it. So splits come first,
-/// then values of the other passes, then values of the split ones.
+/// [`Technique::set`] changes a pass and all passes split from it. So splits come first, then
+/// values of the other passes, then values of the split ones.
 #[must_use]
 pub fn changes(before: &Technique, after: &Technique) -> Option<Vec<String>> {
     let mut settings = Vec::new();
     let mut reached = before.clone();
     let is_new = |pass: &&Pass| before.pass(&pass.name).is_none();
-    // A new pass is inserted right after its origin: so the last one is made first.
+    // A new pass is inserted right after its origin, so the last one is made first.
     for pass in after.passes.iter().rev().filter(is_new) {
         let (index, _) = pass.component.variable("render")?;
         add(&mut settings, &mut reached, pass, index)?;

@@ -1,7 +1,7 @@
-//! Splits a pass of strokes so that one class of edges has a pass alone.
+//! Splits a pass of strokes so that one line class has a separate pass.
 //!
-//! The variable `classes` of a pass of `strokes` selects what it draws. Setting a variable
-//! of a class, as in `--set ridge.width=4`, splits the pass that draws the class.
+//! The variable `classes` of a pass of `strokes` selects what it draws. Setting a variable of
+//! a class, as in `--set ridge.width=4`, splits the pass that draws the class.
 
 use edgemesh::line::class::LineClass;
 
@@ -13,7 +13,7 @@ use super::value::Value;
 /// The prefix of the names of passes that draw the hidden part of a class.
 const HIDDEN: &str = "hidden_";
 
-/// The class and the visibility that a name such as `ridge` or `hidden_ridge` means.
+/// The class and the visibility of a name such as `ridge` or `hidden_ridge`.
 fn class_of(name: &str) -> Option<(LineClass, Visibility)> {
     let (class_name, visibility) = match name.strip_prefix(HIDDEN) {
         Some(class_name) => (class_name, Visibility::Hidden),
@@ -23,14 +23,14 @@ fn class_of(name: &str) -> Option<(LineClass, Visibility)> {
     Some((class, visibility))
 }
 
-/// Whether a name is that of a class, visible or hidden.
+/// Whether a name is a class, visible or hidden.
 pub(crate) fn is_class(name: &str) -> bool {
     class_of(name).is_some()
 }
 
 /// Splits the class called `name` (`ridge`, or `hidden_ridge` for its hidden part) off the
 /// pass of strokes that draws it. The new pass has that name and follows the other one.
-/// Returns none if the name is not a class or no pass draws it.
+/// Returns `None` if the name is not a class or no pass draws it.
 pub(crate) fn split(passes: &mut Vec<Pass>, name: &str) -> Option<Vec<usize>> {
     let (class, visibility) = class_of(name)?;
     let lines_of =

@@ -26,7 +26,7 @@ use super::mistake::{Mistake, Mistakes, Place};
 use super::toml_file::{Entry, Node};
 use super::value::VariableType;
 
-/// A component as it is written in its file.
+/// A component as in its file, before its parent is known.
 #[derive(Debug, Clone)]
 pub(crate) struct ComponentDraft {
     pub(crate) name: String,
@@ -38,7 +38,7 @@ pub(crate) struct ComponentDraft {
     place: Place,
 }
 
-/// What a component is based on, and where its file says so.
+/// The parent or core component of a draft, and its place in the file.
 #[derive(Debug, Clone)]
 struct BaseEntry {
     base: Base,
@@ -49,7 +49,7 @@ struct BaseEntry {
 enum Base {
     Core(CoreComponent),
     Inherits(String),
-    /// An unknown one, for which there is a mistake already.
+    /// An unknown one, which was reported.
     Unknown,
 }
 
@@ -72,7 +72,7 @@ const PROPERTIES: [&str; 13] = [
 /// The keys of a pass that are not variables.
 pub(crate) const PASS_KEYS: [&str; 2] = ["name", "component"];
 
-/// The drafts of a file's `component` table.
+/// Reads the `component` table of a file.
 pub(crate) fn drafts(node: &Node, mistakes: &mut Mistakes) -> Vec<ComponentDraft> {
     let mut drafts = Vec::new();
     for component in node.table(mistakes).unwrap_or_default() {
@@ -125,8 +125,8 @@ fn draft(component: &Entry, entries: &[Entry], mistakes: &mut Mistakes) -> Compo
     draft
 }
 
-/// Makes descriptors of drafts, which can inherit from each other and from `known`; none
-/// for drafts with mistakes.
+/// Resolves drafts, which can inherit from each other and from `known`. Drafts with mistakes
+/// become `None`.
 pub(crate) fn resolve(
     drafts: &[ComponentDraft],
     known: &BTreeMap<String, SharedDescriptor>,
@@ -153,7 +153,7 @@ pub(crate) fn resolve(
 struct Resolver<'a> {
     drafts: BTreeMap<&'a str, &'a ComponentDraft>,
     known: &'a BTreeMap<String, SharedDescriptor>,
-    /// None for drafts with mistakes.
+    /// `None` for drafts with mistakes.
     resolved: BTreeMap<String, Option<SharedDescriptor>>,
     /// The drafts that are being resolved, each the child of the next.
     open: Vec<String>,
@@ -226,7 +226,7 @@ impl Resolver<'_> {
         place: &Place,
         mistakes: &mut Mistakes,
     ) -> Option<SharedDescriptor> {
-        // A component can modify the built-in one with the same name.
+        // A component can modify the built-in one of the same name.
         if parent == draft.name
             && let Some(known) = self.known.get(parent)
         {

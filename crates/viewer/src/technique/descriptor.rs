@@ -48,7 +48,7 @@ pub struct VariableDescriptor {
     pub one_of: Vec<String>,
     /// The image directory that bare image names are searched in.
     pub directory: Option<String>,
-    /// Where it is described.
+    /// The place of its description.
     pub place: Place,
 }
 
@@ -116,7 +116,7 @@ pub struct ComponentDescriptor {
     pub inherits: Option<String>,
     /// Its variables: inherited ones first.
     pub variables: Vec<VariableDescriptor>,
-    /// Where it is described.
+    /// The place of its description.
     pub place: Place,
 }
 

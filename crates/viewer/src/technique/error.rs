@@ -1,4 +1,4 @@
-//! What is wrong with a technique.
+//! Why a technique cannot be drawn.
 
 use edgemesh_shaders::ShaderError;
 use thiserror::Error;
@@ -13,25 +13,25 @@ pub enum TechniqueError {
     /// first one.
     #[error("{}", .0.text())]
     Mistakes(Mistakes),
-    /// A shader of the stroke renderer is wrong.
+    /// A shader of the stroke renderer is invalid.
     #[error(transparent)]
     Shader(#[from] ShaderError),
     /// The programs of a pass do not fit together.
     #[error("the pass '{pass}' cannot be built: its programs do not fit together: {reason}")]
     Programs {
-        /// The pass.
+        /// Name of the pass.
         pass: String,
-        /// What the device said.
+        /// The error of the device.
         reason: String,
     },
 }
 
-/// A setting `PASS.VARIABLE=VALUE` does not fit a technique.
+/// A setting `PASS.VARIABLE=VALUE` that does not fit a technique.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{assignment}: {what}")]
 pub struct SettingError {
     /// The setting.
     pub assignment: String,
-    /// What is wrong with it, with the names that exist.
+    /// The mistake, with the names that exist.
     pub what: String,
 }

@@ -29,7 +29,7 @@ impl ImageFile {
         }
     }
 
-    /// When the file was changed; none for built-in images.
+    /// Time of the last change; `None` for built-in images.
     #[must_use]
     pub fn changed(&self) -> Option<SystemTime> {
         match self {

@@ -73,8 +73,8 @@ impl Library {
         Self { components, techniques, folder: folder.map(Path::to_owned), mistakes }
     }
 
-    /// The default of the user's folder: `edgemesh` in `$XDG_CONFIG_HOME`, or in
-    /// `~/.config`; none if it does not exist.
+    /// The user's folder by default: `edgemesh` in `$XDG_CONFIG_HOME` or `~/.config`; `None`
+    /// if it does not exist.
     #[must_use]
     pub fn default_folder() -> Option<PathBuf> {
         let config = std::env::var_os("XDG_CONFIG_HOME").filter(|path| !path.is_empty());
@@ -128,7 +128,7 @@ impl Library {
     /// Reads a technique from a file. Returns warnings too.
     ///
     /// # Errors
-    /// If the file cannot be read; all mistakes in it.
+    /// If the file cannot be read, or all mistakes in it.
     pub fn technique_file(&self, path: &Path) -> Result<(Technique, Mistakes), Mistakes> {
         let source = SourceText::read(path).map_err(Mistakes::of)?;
         let name = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());

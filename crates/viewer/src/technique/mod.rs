@@ -66,7 +66,7 @@ pub struct Technique {
 }
 
 impl Technique {
-    /// The pass with a name.
+    /// The pass called `name`.
     #[must_use]
     pub fn pass(&self, name: &str) -> Option<&Pass> {
         self.passes.iter().find(|pass| pass.name == name)
@@ -75,11 +75,11 @@ impl Technique {
     /// Sets a variable from `PASS.VARIABLE=VALUE`, as on a command line; hyphens in names
     /// count as underscores. Returns warnings.
     ///
-    /// `PASS` can also be a class of edges, such as `ridge` or `hidden-ridge`: the pass of
-    /// strokes that draws it is split, and the new pass for this class alone is changed.
+    /// `PASS` can also be a line class, such as `ridge` or `hidden-ridge`: the pass of
+    /// strokes that draws it is split, and the new pass for this class is changed.
     ///
     /// # Errors
-    /// The first mistake, with the names that are possible.
+    /// The first mistake, with the possible names.
     pub fn set(&mut self, assignment: &str) -> Result<Mistakes, SettingError> {
         self.assign(assignment)
             .map_err(|what| SettingError { assignment: assignment.to_owned(), what })
@@ -133,7 +133,7 @@ impl Technique {
         Ok(())
     }
 
-    /// The indices of the passes that a name in `--set` means: the pass with this name and
+    /// The indices of the passes that a name in `--set` selects: the pass with this name and
     /// those split from it, or the pass of a class, which is made if there is none.
     fn targets(&mut self, name: &str) -> Result<Vec<usize>, String> {
         let is_target = |pass: &Pass| pass.name == name || pass.split_from.as_deref() == Some(name);

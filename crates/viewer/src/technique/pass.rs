@@ -17,13 +17,13 @@ pub struct Pass {
     values: Vec<Value>,
     /// Where each value was set; none for defaults and command lines.
     places: Vec<Option<Place>>,
-    /// Where the pass stands in its file.
+    /// The place of the pass in its file.
     pub place: Place,
-    /// The name of the pass that this one was split from for a class of edges, if any.
+    /// The pass that this one was split from for a line class, if any.
     pub split_from: Option<String>,
 }
 
-/// Compares what passes do; where their values were set does not count.
+/// Compares what passes do; the places of values do not count.
 impl PartialEq for Pass {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name
@@ -104,7 +104,7 @@ impl Pass {
         &self.values
     }
 
-    /// Where a variable was set, or else where the pass stands.
+    /// The place where a variable was set, or else that of the pass.
     #[must_use]
     pub(super) fn place_of(&self, variable: &str) -> &Place {
         let index = self.component.variable(variable).map(|found| found.0);

@@ -29,20 +29,20 @@ use super::{Technique, image_file, plan_params};
 pub struct Plan {
     /// One plan per pass of the technique.
     pub passes: Vec<PassPlan>,
-    /// The textures that passes write.
+    /// The textures between passes.
     pub textures: Vec<TexturePlan>,
-    /// Values that are replaced by others.
+    /// Warnings about values that are replaced.
     pub warnings: Mistakes,
 }
 
-/// What a pass needs.
+/// The requirements of a pass.
 #[derive(Debug, Clone)]
 pub struct PassPlan {
     /// The variables of its core component.
     pub core: CoreView,
-    /// When it runs.
+    /// The frames in which it runs.
     pub run: RunMode,
-    /// Where it draws.
+    /// The target.
     pub target: Target,
     /// Its programs.
     pub programs: PassPrograms,
@@ -52,7 +52,7 @@ pub struct PassPlan {
     pub is_in_place: bool,
 }
 
-/// Where a pass draws.
+/// The target of a pass.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Target {
     /// The picture.
@@ -69,7 +69,7 @@ pub enum Target {
 /// A texture that a pass reads.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TextureRead {
-    /// The name of its variable.
+    /// The variable with the texture.
     pub variable: String,
     /// The texture.
     pub source: ReadSource,
@@ -88,7 +88,7 @@ pub enum ReadSource {
     Image(image_file::ImageFile),
 }
 
-/// A texture that passes write.
+/// A texture between passes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TexturePlan {
     /// Its name, without the directory `<generated>`.
@@ -294,7 +294,7 @@ impl Planner<'_> {
         self.textures.len() - 1
     }
 
-    /// What the pass at index `at` reads.
+    /// The textures that the pass at index `at` reads.
     fn reads(
         &mut self,
         technique: &Technique,

@@ -35,7 +35,7 @@ pub enum TextureFormat {
 /// Limits). A test in `pass_graph/textures.rs` compares it with wgpu's default.
 pub const MAX_OUTPUT_BYTES_PER_PIXEL: u32 = 32;
 
-/// A texture that passes draw for each other.
+/// A texture between passes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PassTexture {
     /// Its name, without the directory `<generated>`.

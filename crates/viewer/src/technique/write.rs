@@ -1,7 +1,7 @@
 //! A changed technique as a technique file.
 //!
-//! The text is that of the file that the technique was read from, with its comments and
-//! components; only changed values differ.
+//! The text of the original file is kept, with its comments and components; only changed
+//! values differ.
 
 use thiserror::Error;
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, TomlError};
@@ -12,11 +12,11 @@ use super::descriptor::VariableDescriptor;
 use super::pass::Pass;
 use super::value::{Value, VariableType, color_text};
 
-/// A changed technique cannot be saved: the text of its original file does not parse.
+/// Why a changed technique cannot be saved: its original file does not parse again.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WriteTechniqueError {
-    /// It is not TOML.
+    /// The file is not TOML.
     #[error("the technique cannot be saved: {0}")]
     Syntax(#[from] TomlError),
     /// Its passes are not an array of tables.
@@ -24,11 +24,10 @@ pub enum WriteTechniqueError {
     Passes,
 }
 
-/// The text of a file for a technique that was read from a file and then changed; `about`
-/// becomes its description.
+/// The text of a file for a changed technique; `about` becomes its description.
 ///
 /// # Errors
-/// If the text of the original file cannot be parsed again.
+/// If the text of the original file does not parse.
 pub fn file_text(technique: &Technique, about: &str) -> Result<String, WriteTechniqueError> {
     let source = technique.passes.first().map_or("", |pass| &pass.place.source.text);
     let mut document: DocumentMut = source.parse()?;

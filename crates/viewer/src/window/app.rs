@@ -1,5 +1,5 @@
-//! One frame of the window: what has arrived is taken, hands move, the canvas draws,
-//! panels show; what panels ask is done.
+//! One frame of the window: results of other threads are taken, the pointer and keys act, the
+//! canvas draws, panels are shown, and their requests are carried out.
 
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
@@ -12,10 +12,10 @@ use egui::{CentralPanel, Panel, Sense, Ui};
 
 use super::background::{Background, Tell};
 use super::canvas::Canvas;
-use super::device_loss::{Kept, Lost, watch_device};
+use super::device_loss::{DeviceLoss, WindowHandover, watch_device};
 use super::error_text::{error_text, saving_text};
 use super::hands::Hands;
-use super::loading::{self, Built, LoadedScene, Loading, ToLoad};
+use super::loading::{self, BuildKey, LoadOrder, LoadedScene, Loading};
 use super::saving::{self, Order};
 use super::session::{Request, Session, Work};
 use super::thumbnails::{self, Thumbnail};
@@ -24,39 +24,39 @@ use super::{desktop, panels, style};
 use crate::error::Error;
 use crate::technique::write::file_text;
 
-/// The key under which the window remembers.
+/// The storage key of [`Remembered`](super::remembered::Remembered).
 const REMEMBERED: &str = "remembered";
 
-/// How often what the GPU tells is asked for while it is not there.
+/// How soon statistics are asked for again if the GPU does not have them yet.
 const ASK_AGAIN: Duration = Duration::from_millis(15);
 
-/// The window.
+/// The program's window.
 pub(super) struct Window {
     session: Session,
     canvas: Canvas,
     hands: Hands,
-    /// What is loaded once it is known how large the picture is.
-    to_load: Option<ToLoad>,
+    /// Models to load once the size of the picture is known.
+    to_load: Option<LoadOrder>,
     loading: Option<Loading>,
     saving: Vec<Background<String>>,
     watching: Option<Watching>,
     thumbnails: Option<(Background<()>, Receiver<Thumbnail>)>,
-    /// What was not done yet, as marks would have been lost; it was told.
+    /// What was refused because unsaved marks would be lost; asking for it again does it.
     warned_of: Option<&'static str>,
-    /// What dialogs on other threads have led to.
+    /// Results of dialogs on other threads.
     arrived: Receiver<Arrival>,
     sender: Sender<Arrival>,
-    /// The size of the picture, in pixels.
+    /// Size of the picture in pixels.
     size: [u32; 2],
     title: String,
-    kept: Arc<Mutex<Option<Kept>>>,
-    lost: Arc<Lost>,
-    /// Whether the device is lost on purpose: before a frame or within one.
+    handover: Arc<Mutex<Option<WindowHandover>>>,
+    loss: Arc<DeviceLoss>,
+    /// Whether to lose the device on purpose: false before a frame, true within one.
     is_to_be_lost: Option<bool>,
     faults: Arc<Mutex<Vec<String>>>,
 }
 
-/// What comes from other threads.
+/// A result of another thread.
 enum Arrival {
     Files(Vec<PathBuf>),
     TechniqueFile(PathBuf),
@@ -69,17 +69,17 @@ enum Arrival {
 impl Window {
     pub(super) fn new(
         context: &eframe::CreationContext,
-        kept: Arc<Mutex<Option<Kept>>>,
-        lost: Arc<Lost>,
+        handover: Arc<Mutex<Option<WindowHandover>>>,
+        loss: Arc<DeviceLoss>,
     ) -> Result<Self, Error> {
         let missing = |what: &str| Error::Window(what.to_owned());
-        let before = kept.lock().unwrap_or_else(PoisonError::into_inner).take();
-        let Kept { mut session, to_load, is_new } =
-            before.ok_or_else(|| missing("there is nothing to show"))?;
+        let before = handover.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let WindowHandover { mut session, to_load, is_new } =
+            before.ok_or_else(|| missing("there is no session to show"))?;
         let window = context.wgpu_render_state.clone();
         let window = window.ok_or_else(|| missing("the window has no device"))?;
         let faults = Arc::new(Mutex::new(Vec::new()));
-        watch_device(&window.device, &context.egui_ctx, &lost, &faults);
+        watch_device(&window.device, &context.egui_ctx, &loss, &faults);
         if is_new {
             let stored = context.storage.and_then(|storage| eframe::get_value(storage, REMEMBERED));
             session.remembered = stored.unwrap_or_default();
@@ -108,14 +108,14 @@ impl Window {
             sender,
             size: [1, 1],
             title: String::new(),
-            kept,
-            lost,
+            handover,
+            loss,
             is_to_be_lost: None,
             faults,
         })
     }
 
-    fn take_loaded(&mut self, what: ToLoad, loaded: LoadedScene) {
+    fn take_loaded(&mut self, what: LoadOrder, loaded: LoadedScene) {
         let LoadedScene { models, scene, objects, renderer } = loaded;
         if let Some(recipe) = what.recipe {
             self.session.recipe = recipe;
@@ -126,15 +126,15 @@ impl Window {
         self.canvas.take_scene(scene, renderer);
     }
 
-    /// Begins to load models; what was being loaded is no longer wanted.
-    fn load(&mut self, what: ToLoad, context: &egui::Context) {
+    /// Starts loading models, and cancels the load before.
+    fn load(&mut self, what: LoadOrder, context: &egui::Context) {
         let recipe = what.recipe.as_ref().unwrap_or(&self.session.recipe);
         let request = loading::Request {
             models: what.models.clone(),
             load: recipe.load_options(),
             gpu: Some(self.canvas.gpu().clone()),
             library: self.session.library.clone(),
-            built: Built {
+            build_key: BuildKey {
                 technique: recipe.appearance.technique.clone(),
                 is_transparent: recipe.appearance.is_transparent,
             },
@@ -146,28 +146,28 @@ impl Window {
         self.loading = Some(Loading { what, work });
     }
 
-    /// Loads models instead of those that are there, unless marks would be lost.
-    fn replace(&mut self, what: ToLoad, context: &egui::Context) {
+    /// Loads models in place of the open ones, unless unsaved marks would be lost.
+    fn replace(&mut self, what: LoadOrder, context: &egui::Context) {
         if !self.would_lose_marks("open") {
             self.load(what, context);
         }
     }
 
-    /// Whether marks that were not saved keep from doing something. It is told; what is
-    /// asked for again is done.
+    /// Whether unsaved marks forbid an action. The first time it is reported; the second time
+    /// the action is allowed.
     fn would_lose_marks(&mut self, what: &'static str) -> bool {
         let is_told = self.warned_of == Some(what);
         if !self.session.marking.has_changes() || is_told {
             return false;
         }
         self.warned_of = Some(what);
-        self.session.messages.error(format!(
-            "There are marks that were not saved: save them under Lines, or {what} again"
-        ));
+        self.session
+            .messages
+            .error(format!("Some marks are not saved: save them under Lines, or {what} again"));
         true
     }
 
-    /// Takes what other threads have made.
+    /// Takes the results of other threads.
     fn take_arrivals(&mut self, context: &egui::Context) {
         if let Some(loaded) = self.loading.as_ref().and_then(|loading| loading.work.take())
             && let Some(Loading { what, .. }) = self.loading.take()
@@ -222,13 +222,13 @@ impl Window {
         }
     }
 
-    /// Watches the files of the technique, and reads them when they have changed.
+    /// Watches the files of the technique and reads them again when they change.
     fn follow_files(&mut self, context: &egui::Context) {
         let folders = self.session.watched_folders();
         if self.watching.as_ref().is_none_or(|watching| !watching.is_of(&folders)) {
             let context = context.clone();
             let started = Watching::start(&folders, move || context.request_repaint());
-            // Without it files are read when they are opened.
+            // Without a watcher, files are read only when they are opened.
             self.watching = started.inspect_err(|what| log::warn!("{what}")).ok();
         }
         let Some(change) = self.watching.as_ref().and_then(Watching::take) else { return };
@@ -241,7 +241,7 @@ impl Window {
         }
     }
 
-    /// Does what panels and keys ask.
+    /// Carries out the requests of panels and keys.
     fn answer(&mut self, context: &egui::Context, time: f64) {
         for request in std::mem::take(&mut self.session.requests) {
             match request {
@@ -252,7 +252,7 @@ impl Window {
                 Request::Open(files) => self.open_files(files, context),
                 Request::Reload => {
                     let models = self.session.recipe.models.clone();
-                    self.replace(ToLoad { models, recipe: None }, context);
+                    self.replace(LoadOrder { models, recipe: None }, context);
                 }
                 Request::Cancel(None) => self.loading = None,
                 Request::Cancel(Some(saving)) => {
@@ -304,7 +304,7 @@ impl Window {
     fn lose_where_wanted(&mut self, is_within_frame: bool) {
         if self.is_to_be_lost == Some(is_within_frame) {
             self.is_to_be_lost = None;
-            self.lost.lose();
+            self.loss.lose();
         }
     }
 
@@ -332,7 +332,7 @@ impl Window {
         }
     }
 
-    /// Does not close at once where marks would be lost.
+    /// Cancels the first attempt to close the window if unsaved marks would be lost.
     fn hold_close(&mut self, context: &egui::Context) {
         let is_closing = context.input(|input| input.viewport().close_requested());
         if is_closing && self.would_lose_marks("close") {
@@ -340,7 +340,7 @@ impl Window {
         }
     }
 
-    /// Asks for files by a dialog on a thread of its own.
+    /// Opens a file dialog on another thread.
     fn ask(
         &self,
         context: &egui::Context,
@@ -376,17 +376,17 @@ impl Window {
         }
     }
 
-    /// Draws a picture, or a turntable, of the size that is asked for.
+    /// Draws and saves a picture or a turntable, in the size chosen under Output.
     fn save_picture(&mut self, path: PathBuf, turntable: Option<u32>, context: &egui::Context) {
         let Some(scene) = self.session.scene.clone() else { return };
-        let looks = match self.session.object_looks() {
-            Ok(looks) => looks,
+        let overrides = match self.session.object_overrides() {
+            Ok(overrides) => overrides,
             Err(error) => return self.session.messages.error(error_text(&error)),
         };
         let order = Order {
             recipe: self.session.recipe.clone(),
             scene,
-            looks,
+            overrides,
             size: self.session.remembered.picture_size.unwrap_or(self.size),
             path: with_ending(path, turntable.is_some()),
             turntable,
@@ -406,7 +406,7 @@ impl Window {
         self.saving.push(Background::start(wake, body));
     }
 
-    /// Has the pixels of the next frame, panels and all, sent to be saved.
+    /// Requests the pixels of the next frame, including panels, and sends them to be saved.
     fn take_window_pixels(&self, path: PathBuf, context: &egui::Context) {
         let (sender, waker) = (self.sender.clone(), context.clone());
         context.request_screenshot(move |pixels| {
@@ -416,18 +416,18 @@ impl Window {
         });
     }
 
-    /// Opens files: models, a technique, or a picture that carries its recipe.
+    /// Opens files: models, a technique, or a picture that contains its recipe.
     fn open_files(&mut self, files: Vec<PathBuf>, context: &egui::Context) {
         let has_ending = |path: &PathBuf, wanted: &str| {
             path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(wanted))
         };
         let [file] = &files[..] else {
-            return self.replace(ToLoad { models: files, recipe: None }, context);
+            return self.replace(LoadOrder { models: files, recipe: None }, context);
         };
         if has_ending(file, "png") {
             let Some(words) = saving::words_in(file) else {
                 let name = file.display();
-                let what = format!("{name}: this picture carries no recipe; open a model instead");
+                let what = format!("{name}: this picture contains no recipe; open a model instead");
                 return self.session.messages.error(what);
             };
             match self.session.take_words(&words) {
@@ -435,18 +435,18 @@ impl Window {
                 Ok(None) => {}
                 Ok(Some(recipe)) => {
                     let models = recipe.models.clone();
-                    self.replace(ToLoad { models, recipe: Some(recipe) }, context);
+                    self.replace(LoadOrder { models, recipe: Some(recipe) }, context);
                 }
             }
         } else if has_ending(file, "toml") && is_technique_file(file) {
             let name = file.display().to_string();
             self.session.take_technique(&name);
         } else {
-            self.replace(ToLoad { models: files, recipe: None }, context);
+            self.replace(LoadOrder { models: files, recipe: None }, context);
         }
     }
 
-    /// The picture, or two with a line between them.
+    /// Paints the picture, or two with a line between them.
     fn paint(&mut self, ui: &mut Ui, rect: egui::Rect) {
         let Some(picture) = self.canvas.picture() else {
             let is_waiting = self.loading.is_some() || self.to_load.is_some();
@@ -466,7 +466,7 @@ impl Window {
         comparison.share = panels::comparison_line(ui, rect, comparison.share, names);
     }
 
-    /// The picture, and what hands do over it.
+    /// Shows the picture and handles the pointer over it.
     fn picture(&mut self, ui: &mut Ui) {
         let rect = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
@@ -494,7 +494,7 @@ impl Window {
     }
 }
 
-/// A file name that ends as one of a picture does.
+/// Appends the ending of a picture file if `path` has none.
 fn with_ending(path: PathBuf, is_turntable: bool) -> PathBuf {
     let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
     let known = if is_turntable { &["apng", "gif", "png"][..] } else { &["png"] };
@@ -513,8 +513,8 @@ fn is_technique_file(path: &std::path::Path) -> bool {
     text.lines().any(|line| line.trim_start().starts_with("[[pass]]"))
 }
 
-/// A window that is gone leaves what the next one needs, should its device be lost: even
-/// where that ends it in the midst of a frame.
+/// Leaves the session for the next window, even if a lost device ends this one in the middle
+/// of a frame.
 impl Drop for Window {
     fn drop(&mut self) {
         let Session { library, recipe, remembered, .. } = &self.session;
@@ -525,8 +525,8 @@ impl Drop for Window {
         }
         let loading = self.loading.take().map(|loading| loading.what);
         let to_load = loading.or_else(|| self.to_load.take());
-        *self.kept.lock().unwrap_or_else(PoisonError::into_inner) =
-            Some(Kept { session, to_load, is_new: false });
+        *self.handover.lock().unwrap_or_else(PoisonError::into_inner) =
+            Some(WindowHandover { session, to_load, is_new: false });
     }
 }
 
@@ -534,9 +534,9 @@ impl eframe::App for Window {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
         self.lose_where_wanted(false);
-        self.lost.is_shown.store(true, Ordering::Relaxed);
-        if self.lost.is_lost() {
-            // Nothing is drawn on it any more.
+        self.loss.is_shown.store(true, Ordering::Relaxed);
+        if self.loss.is_lost() {
+            // Nothing can be drawn on the lost device.
             context.send_viewport_cmd(egui::ViewportCommand::Close);
             return;
         }
@@ -575,7 +575,7 @@ impl eframe::App for Window {
         }
         self.answer(&context, time);
         self.hold_close(&context);
-        // Within a frame: what is painted after this finds no device.
+        // Within a frame: painting after this fails for want of a device.
         self.lose_where_wanted(true);
         let title = format!("{} – Edgemesh", self.session.recipe.title());
         if title != self.title {

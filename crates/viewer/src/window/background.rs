@@ -1,5 +1,5 @@
-//! Work on threads of its own, while the window goes on: it says what it does, can be
-//! cancelled, and cannot take the window with it.
+//! Work on other threads. It reports its stage, can be canceled, and a panic in it does not
+//! end the window.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, channel};
@@ -8,21 +8,21 @@ use std::time::Instant;
 
 use crate::error::Error;
 
-/// What is told while work is done: each stage as it begins; false ends the work.
+/// Reports the stage that begins; returns false if the work is canceled.
 pub type Tell<'a> = &'a (dyn Fn(&str) -> bool + Sync);
 
-/// Work under way. What is dropped is cancelled: it ends at its next stage.
+/// Work on another thread. Dropping it cancels it: it ends at its next stage.
 #[derive(Debug)]
 pub struct Background<T> {
     result: Receiver<Result<T, Error>>,
     stage: Arc<Mutex<String>>,
-    is_cancelled: Arc<AtomicBool>,
-    /// Since when.
+    is_canceled: Arc<AtomicBool>,
+    /// When the work started.
     pub started: Instant,
 }
 
 impl<T: Send + 'static> Background<T> {
-    /// Begins; `wake` is called whenever there is something new to show.
+    /// Starts `body` on a thread. `wake` is called whenever the stage changes and at the end.
     #[must_use]
     pub fn start(
         wake: impl Fn() + Send + Sync + 'static,
@@ -30,34 +30,34 @@ impl<T: Send + 'static> Background<T> {
     ) -> Self {
         let (sender, result) = channel();
         let stage = Arc::new(Mutex::new(String::new()));
-        let is_cancelled = Arc::new(AtomicBool::new(false));
-        let (told, cancelled) = (stage.clone(), is_cancelled.clone());
+        let is_canceled = Arc::new(AtomicBool::new(false));
+        let (told, canceled) = (stage.clone(), is_canceled.clone());
         std::thread::spawn(move || {
             let tell = |what: &str| {
                 what.clone_into(&mut told.lock().unwrap_or_else(PoisonError::into_inner));
                 wake();
-                !cancelled.load(Ordering::Relaxed)
+                !canceled.load(Ordering::Relaxed)
             };
-            // A fault of ours must not take the window with it.
+            // A panic in the work must not end the window.
             let work = std::panic::AssertUnwindSafe(|| body(&tell));
             let done = std::panic::catch_unwind(work).unwrap_or_else(|_| {
                 let stage = told.lock().unwrap_or_else(PoisonError::into_inner).clone();
                 Err(Error::Internal(format!("internal error while {stage}; please report it")))
             });
-            // Nobody waits for what was cancelled.
+            // The receiver is gone if the work was canceled.
             let _ = sender.send(done);
             wake();
         });
-        Self { result, stage, is_cancelled, started: Instant::now() }
+        Self { result, stage, is_canceled, started: Instant::now() }
     }
 
-    /// What is being done.
+    /// The current stage.
     #[must_use]
     pub fn stage(&self) -> String {
         self.stage.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// What came out, once it is done.
+    /// The result, once the work is done; `None` before, and after it was taken.
     #[must_use]
     pub fn take(&self) -> Option<Result<T, Error>> {
         self.result.try_recv().ok()
@@ -65,7 +65,7 @@ impl<T: Send + 'static> Background<T> {
 
     /// Ends the work at its next stage.
     pub fn cancel(&self) {
-        self.is_cancelled.store(true, Ordering::Relaxed);
+        self.is_canceled.store(true, Ordering::Relaxed);
     }
 
     #[cfg(test)]
@@ -76,7 +76,7 @@ impl<T: Send + 'static> Background<T> {
 
 impl<T> Drop for Background<T> {
     fn drop(&mut self) {
-        self.is_cancelled.store(true, Ordering::Relaxed);
+        self.is_canceled.store(true, Ordering::Relaxed);
     }
 }
 
@@ -85,7 +85,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn work_tells_its_stages_and_ends_where_it_is_cancelled() {
+    fn work_tells_its_stages_and_ends_where_it_is_canceled() {
         let (sender, receiver) = channel();
         let (go_on, wait) = channel::<()>();
         let work = Background::start(

@@ -1,8 +1,8 @@
-//! The picture of the window: a renderer that follows the session, and its texture in
-//! the window.
+//! The picture of the window: a renderer that follows the session, and its texture in the
+//! window.
 //!
-//! It draws only when something of the recipe or the size has changed. What cannot be
-//! drawn is told, and the last good picture stays.
+//! A picture is drawn only if the recipe or the size has changed. If it cannot be drawn, the
+//! error is reported and the last good picture stays.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -12,7 +12,7 @@ use strokes::gpu::device::Gpu;
 
 use super::error_text::error_text;
 use super::inspection::Inspection;
-use super::loading::Built;
+use super::loading::BuildKey;
 use super::picture_paint::{PaintedPicture, PicturePainter};
 use super::recipe::Appearance;
 use super::session::Session;
@@ -20,15 +20,15 @@ use super::viewpoint::Viewpoint;
 use super::watching::Change;
 use crate::error::Error;
 use crate::picture::renderer::{
-    FrameStatistics, PendingStatistics, PictureOptions, PictureRenderer,
+    FrameStatistics, PendingStatistics, PictureInput, PictureOptions, PictureRenderer,
 };
 use crate::scene::models::Scene;
 
-/// The pictures of the window: one, or two to be compared.
+/// The pictures of the window: one, or two that are compared.
 pub(super) struct Canvas {
     gpu: Gpu,
     painter: PicturePainter,
-    /// The scene that the sheets have.
+    /// The scene of the sheets' renderers.
     scene: Option<Arc<Scene>>,
     sheet: Sheet,
     compared: Option<Sheet>,
@@ -36,25 +36,25 @@ pub(super) struct Canvas {
     drawn_at: Option<Instant>,
 }
 
-/// A picture and what draws it.
+/// A picture with its renderer.
 #[derive(Debug, Default)]
 struct Sheet {
     renderer: Option<PictureRenderer>,
-    /// What the renderer was built for; none where files have changed since.
-    built: Option<Built>,
-    /// What was drawn last.
-    drawn: Option<Drawn>,
-    /// What could not be drawn.
-    failed: Option<Drawn>,
-    /// Whether files may be half saved.
+    /// What the renderer was built for; `None` if files have changed since.
+    built: Option<BuildKey>,
+    /// The input of the last picture.
+    drawn: Option<DrawKey>,
+    /// The input that could not be drawn.
+    failed: Option<DrawKey>,
+    /// Whether the files may be half saved, so that errors are not reported yet.
     is_doubted: bool,
     painted: Option<PaintedPicture>,
     pending: Option<PendingStatistics>,
 }
 
-/// What makes a picture.
+/// The input of a picture; the same key gives the same picture.
 #[derive(Debug, Clone, PartialEq)]
-struct Drawn {
+struct DrawKey {
     appearance: Appearance,
     viewpoint: Viewpoint,
     size: [u32; 2],
@@ -67,10 +67,8 @@ impl std::fmt::Debug for Canvas {
 }
 
 impl Canvas {
-    /// A canvas in a window.
-    ///
     /// # Errors
-    /// Where the shader of the window cannot be put together.
+    /// If the shader of the window cannot be resolved.
     pub(super) fn new(window: &egui_wgpu::RenderState) -> Result<Self, ShaderError> {
         let gpu = Gpu {
             info: window.adapter.get_info(),
@@ -87,29 +85,28 @@ impl Canvas {
         })
     }
 
-    /// The device.
     #[must_use]
     pub(super) const fn gpu(&self) -> &Gpu {
         &self.gpu
     }
 
-    /// The picture.
+    /// The last picture.
     #[must_use]
     pub(super) const fn picture(&self) -> Option<&PaintedPicture> {
         self.sheet.painted.as_ref()
     }
 
-    /// The picture beside it, where two are compared.
+    /// The second picture, if two are compared.
     #[must_use]
     pub(super) fn compared_picture(&self) -> Option<&PaintedPicture> {
         self.compared.as_ref()?.painted.as_ref()
     }
 
-    /// Takes a scene that was loaded, with a renderer where one could be made.
+    /// Takes a loaded scene, and its renderer if one could be built.
     pub(super) fn take_scene(
         &mut self,
         scene: Arc<Scene>,
-        renderer: Option<(PictureRenderer, Built)>,
+        renderer: Option<(PictureRenderer, BuildKey)>,
     ) {
         self.scene = Some(scene);
         for sheet in self.compared.iter_mut().chain([&mut self.sheet]) {
@@ -119,8 +116,7 @@ impl Canvas {
         (self.sheet.renderer, self.sheet.built) = renderer.unzip();
     }
 
-    /// Takes the session's scene where it is not the one that was loaded any more, as its
-    /// edges were marked.
+    /// Takes the session's scene if it has changed because edges were marked.
     pub(super) fn follow(&mut self, session: &Session) {
         let Some(scene) = &session.scene else { return };
         if self.scene.as_ref().is_some_and(|known| !Arc::ptr_eq(known, scene)) {
@@ -128,8 +124,8 @@ impl Canvas {
         }
     }
 
-    /// Draws everything again after a file has changed. What is wrong with it is told once
-    /// it is settled.
+    /// Draws everything again after a file has changed. Errors are reported only once the
+    /// files are settled.
     pub(super) fn forget(&mut self, change: Change) {
         for sheet in self.compared.iter_mut().chain([&mut self.sheet]) {
             (sheet.built, sheet.drawn, sheet.failed) = (None, None, None);
@@ -137,7 +133,7 @@ impl Canvas {
         }
     }
 
-    /// Draws what the session has, where anything of it has changed.
+    /// Draws the session's picture if its input has changed.
     pub(super) fn draw(&mut self, session: &mut Session, size: [u32; 2]) {
         let (Some(scene), Some(viewpoint)) = (self.scene.clone(), session.recipe.viewpoint) else {
             return;
@@ -152,7 +148,7 @@ impl Canvas {
         {
             appearance.technique = shown;
         }
-        let wanted = Drawn { appearance, viewpoint, size };
+        let wanted = DrawKey { appearance, viewpoint, size };
         let started = Instant::now();
         if self.sheet.draw(gpu, session, &scene, wanted) {
             self.sheet.show(gpu, &self.painter);
@@ -174,7 +170,7 @@ impl Canvas {
                     lighting: session.recipe.appearance.lighting.clone(),
                     ..comparison.appearance.clone()
                 };
-                let wanted = Drawn { appearance, viewpoint, size };
+                let wanted = DrawKey { appearance, viewpoint, size };
                 if sheet.draw(gpu, session, &scene, wanted) {
                     sheet.show(gpu, &self.painter);
                 }
@@ -183,7 +179,7 @@ impl Canvas {
         }
     }
 
-    /// What the last picture drew and cost, once it is known; whether there will be more.
+    /// The statistics of the last picture once they are known, and whether to ask again.
     pub(super) fn statistics(&mut self) -> (Option<FrameStatistics>, bool) {
         let sheet = &mut self.sheet;
         let (Some(renderer), Some(pending)) = (&sheet.renderer, &sheet.pending) else {
@@ -200,14 +196,14 @@ impl Canvas {
 }
 
 impl Sheet {
-    /// Draws what is wanted, where it is not what was drawn; whether there is another
-    /// picture now. What is wrong is told.
+    /// Draws `wanted` if it differs from the last picture; returns whether it did. Errors are
+    /// reported to the session.
     fn draw(
         &mut self,
         gpu: &Gpu,
         session: &mut Session,
         scene: &Arc<Scene>,
-        wanted: Drawn,
+        wanted: DrawKey,
     ) -> bool {
         if self.drawn.as_ref() == Some(&wanted) || self.is_hopeless(&wanted) {
             return false;
@@ -219,7 +215,7 @@ impl Sheet {
                 self.drawn = Some(wanted);
                 return true;
             }
-            // It may just be half saved.
+            // The files may be half saved.
             Err(_) if self.is_doubted => {}
             Err(Error::Technique(error)) => session.messages.technique = Some(error.to_string()),
             Err(error) => session.messages.error(error_text(&error)),
@@ -228,8 +224,8 @@ impl Sheet {
         false
     }
 
-    /// Whether it was tried, wherever it was seen from.
-    fn is_hopeless(&self, wanted: &Drawn) -> bool {
+    /// Whether the same appearance and size have failed before, from any viewpoint.
+    fn is_hopeless(&self, wanted: &DrawKey) -> bool {
         self.failed.as_ref().is_some_and(|failed| {
             failed.appearance == wanted.appearance && failed.size == wanted.size
         })
@@ -240,7 +236,7 @@ impl Sheet {
         gpu: &Gpu,
         session: &Session,
         scene: &Arc<Scene>,
-        wanted: &Drawn,
+        wanted: &DrawKey,
     ) -> Result<(), Error> {
         let options = PictureOptions {
             lighting: wanted.appearance.lighting.clone(),
@@ -248,10 +244,10 @@ impl Sheet {
             ..session.recipe.picture_options(wanted.size)
         };
         let technique = &wanted.appearance.technique;
-        let is_same = |built: &Built| {
+        let is_same = |built: &BuildKey| {
             (&built.technique, built.is_transparent) == (technique, options.is_transparent)
         };
-        // None until it is built as wanted.
+        // `None` until it is built as wanted.
         let before = self.built.take().filter(is_same);
         let is_lit = |renderer: &mut PictureRenderer| renderer.set_lighting(&options.lighting);
         let before = before.filter(|_| self.renderer.as_mut().is_some_and(is_lit));
@@ -262,17 +258,15 @@ impl Sheet {
             }
         } else {
             self.pending = None;
-            let looks = session.object_looks()?;
+            let overrides = &session.object_overrides()?;
+            let input = PictureInput { scene, technique, overrides };
             match &mut self.renderer {
-                Some(renderer) => renderer.reload(scene, technique, &looks, &options)?,
-                None => {
-                    let made = PictureRenderer::new(gpu, scene, technique, &looks, &options)?;
-                    self.renderer = Some(made);
-                }
+                Some(renderer) => renderer.reload(input, &options)?,
+                None => self.renderer = Some(PictureRenderer::new(gpu, input, &options)?),
             }
         }
         let is_transparent = options.is_transparent;
-        let new = || Built { technique: technique.clone(), is_transparent };
+        let new = || BuildKey { technique: technique.clone(), is_transparent };
         self.built = Some(before.unwrap_or_else(new));
         let Some(renderer) = &mut self.renderer else { return Ok(()) };
         renderer.draw(&wanted.viewpoint.camera(&scene.frame))?;

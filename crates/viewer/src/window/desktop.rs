@@ -1,21 +1,19 @@
-//! What the desktop says where the window system does not: whether it is light or dark, and
-//! whether it has dialogs for files.
+//! Whether the desktop is light or dark, and whether it has file dialogs.
 //!
-//! On Linux the desktop portal knows both. Its `color-scheme` of
-//! `org.freedesktop.appearance` is 1 for dark and 2 for light (XDG Desktop Portal,
-//! Settings). On other systems the window is told by the system, and there is nothing to
-//! do here.
+//! On Linux the desktop portal answers both. Its setting `color-scheme` of
+//! `org.freedesktop.appearance` is 1 for dark and 2 for light (XDG Desktop Portal, Settings).
+//! On other systems the window system does, and this file does nothing.
 
 use egui::Context;
 
-/// Sets the theme that the window falls back on, and sets it again whenever the desktop's
-/// changes. Where there is no portal the window is light, as paper is.
+/// Sets the fallback theme of the window from the desktop, and follows its changes. Without a
+/// portal the window stays light.
 #[cfg(all(unix, not(target_os = "macos")))]
 pub(super) fn follow_theme(context: &Context) {
     context.options_mut(|options| options.fallback_theme = egui::Theme::Light);
     let context = context.clone();
     std::thread::spawn(move || {
-        // Many desktops have none, and nobody misses it there.
+        // Many desktops have no portal.
         let told = zbus::blocking::Connection::session()
             .and_then(|connection| portal::follow(&connection, &context));
         if let Err(error) = told {
@@ -24,21 +22,20 @@ pub(super) fn follow_theme(context: &Context) {
     });
 }
 
-/// The window system tells it.
+/// The window system sets the theme.
 #[cfg(not(all(unix, not(target_os = "macos"))))]
 pub(super) fn follow_theme(_: &Context) {}
 
-/// What is missing for dialogs, where something is.
+/// What to install for file dialogs; `None` if they work.
 #[cfg(all(unix, not(target_os = "macos")))]
 pub(super) fn missing_for_dialogs() -> Option<&'static str> {
     let folders = std::env::var_os("PATH").unwrap_or_default();
     let has_zenity = std::env::split_paths(&folders).any(|folder| folder.join("zenity").is_file());
     let has_any = has_zenity || portal::is_there();
-    (!has_any)
-        .then_some("this desktop has no dialog for files: install zenity or xdg-desktop-portal")
+    (!has_any).then_some("this desktop has no file dialog: install zenity or xdg-desktop-portal")
 }
 
-/// The system has them.
+/// The system has file dialogs.
 #[cfg(not(all(unix, not(target_os = "macos"))))]
 pub(super) const fn missing_for_dialogs() -> Option<&'static str> {
     None
@@ -54,7 +51,7 @@ mod portal {
     const NAMESPACE: &str = "org.freedesktop.appearance";
     const KEY: &str = "color-scheme";
 
-    /// Whether there is a portal, running or to be started.
+    /// Whether a portal is running or can be started.
     pub(super) fn is_there() -> bool {
         let names = || {
             let connection = Connection::session()?;
@@ -73,7 +70,7 @@ mod portal {
             "/org/freedesktop/portal/desktop",
             "org.freedesktop.portal.Settings",
         )?;
-        // Asked for first, so that no change is missed in between.
+        // Subscribed before reading, so that no change is missed in between.
         let changes = settings.receive_signal("SettingChanged")?;
         // Portals before version 2 have only Read, which wraps the value once more.
         let read = |method: &str| settings.call::<_, _, OwnedValue>(method, &(NAMESPACE, KEY));

@@ -1,34 +1,33 @@
-//! A graphics device that is lost: how the window learns of it, and what the next window
-//! takes over.
+//! A lost graphics device: how the window notices, and what it hands over to the next one.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::loading::ToLoad;
+use super::loading::LoadOrder;
 use super::session::Session;
 
-/// What goes on from one window to the next.
+/// What one window hands over to the next.
 #[derive(Debug)]
-pub(super) struct Kept {
+pub(super) struct WindowHandover {
     pub(super) session: Session,
-    /// What is not loaded yet.
-    pub(super) to_load: Option<ToLoad>,
-    /// Whether there was no window before.
+    /// Models that are not loaded yet.
+    pub(super) to_load: Option<LoadOrder>,
+    /// Whether this is the first window.
     pub(super) is_new: bool,
 }
 
-/// What is known of a device that may be lost.
+/// Whether the device of a window is lost.
 #[derive(Debug, Default)]
-pub(super) struct Lost {
+pub(super) struct DeviceLoss {
     pub(super) is_lost: AtomicBool,
     device: Mutex<Option<wgpu::Device>>,
-    /// Whether the window had a frame.
+    /// Whether the window has drawn a frame.
     pub(super) is_shown: AtomicBool,
 }
 
-impl Lost {
-    /// Destroys the device. It tells so later than one that is really lost, so it is noted
-    /// here.
+impl DeviceLoss {
+    /// Destroys the device. The loss is noted here, since the callback for a destroyed device
+    /// comes late.
     pub(super) fn lose(&self) {
         self.is_lost.store(true, Ordering::Relaxed);
         if let Some(device) = &*self.device.lock().unwrap_or_else(PoisonError::into_inner) {
@@ -36,7 +35,7 @@ impl Lost {
         }
     }
 
-    /// Whether it is lost. A device says so when it is asked.
+    /// Whether the device is lost. Polls it, since the callback runs only then.
     pub(super) fn is_lost(&self) -> bool {
         if let Some(device) = &*self.device.lock().unwrap_or_else(PoisonError::into_inner) {
             let _ = device.poll(wgpu::PollType::Poll);
@@ -45,27 +44,27 @@ impl Lost {
     }
 }
 
-/// Has a lost device and faults of ours told instead of ending the program.
+/// Records a lost device and uncaptured errors, which would otherwise end the program.
 pub(super) fn watch_device(
     device: &wgpu::Device,
     context: &egui::Context,
-    lost: &Arc<Lost>,
+    loss: &Arc<DeviceLoss>,
     faults: &Arc<Mutex<Vec<String>>>,
 ) {
-    *lost.device.lock().unwrap_or_else(PoisonError::into_inner) = Some(device.clone());
-    let (told, repaint) = (lost.clone(), context.clone());
+    *loss.device.lock().unwrap_or_else(PoisonError::into_inner) = Some(device.clone());
+    let (noted, repaint) = (loss.clone(), context.clone());
     device.set_device_lost_callback(move |reason, what| {
         log::error!("the graphics adapter was lost ({reason:?}): {what}");
-        told.is_lost.store(true, Ordering::Relaxed);
+        noted.is_lost.store(true, Ordering::Relaxed);
         repaint.request_repaint();
     });
-    let (lost, faults) = (lost.clone(), faults.clone());
+    let (loss, faults) = (loss.clone(), faults.clone());
     device.on_uncaptured_error(Arc::new(move |error| {
-        // A lost device has more to say than anyone wants to hear.
-        if lost.is_lost.load(Ordering::Relaxed) {
+        // A lost device causes many more errors, which say nothing new.
+        if loss.is_lost.load(Ordering::Relaxed) {
             return;
         }
-        let text = format!("a fault in the use of the graphics adapter, please report it: {error}");
+        let text = format!("internal graphics error, please report it: {error}");
         log::error!("{text}");
         let mut faults = faults.lock().unwrap_or_else(PoisonError::into_inner);
         if !faults.contains(&text) {

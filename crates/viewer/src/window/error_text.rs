@@ -1,8 +1,8 @@
-//! Errors as the window words them.
+//! Errors in the words of the window.
 
 use crate::error::Error;
 
-/// The text of an error, with what can be done about it in the window.
+/// The text of an error, with a hint about what helps in the window.
 pub(crate) fn error_text(error: &Error) -> String {
     match error {
         Error::OutOfMemory { .. }
@@ -12,10 +12,10 @@ pub(crate) fn error_text(error: &Error) -> String {
     }
 }
 
-/// The text of an error in saving pictures, which may have begun.
+/// The text of an error in saving, which may have written some files.
 pub(crate) fn saving_text(error: &Error) -> String {
     match error {
-        Error::Canceled => format!("{error}; what was written stays"),
+        Error::Canceled => format!("{error}; files written so far are kept"),
         _ => error_text(error),
     }
 }

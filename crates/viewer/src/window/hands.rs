@@ -1,4 +1,4 @@
-//! What the pointer and the keys do over the picture.
+//! Pointer and keys over the picture.
 
 use egui::{Key, Modifiers, PointerButton, Rect, Response, Ui};
 use glam::{DVec2, DVec3};
@@ -10,80 +10,80 @@ use super::session::{Request, Session, Work};
 use super::viewpoint::{NamedView, Viewpoint};
 use crate::arguments::{camera_words, shell_line};
 
-/// How long it takes to go to a viewpoint, in seconds.
+/// Duration of a flight to a viewpoint, in seconds.
 const FLIGHT_SECONDS: f64 = 0.25;
 
-/// Distances to the target that are flown in a second.
+/// Flying speed, in distances to the target per second.
 const FLY_SPEED: f64 = 0.8;
 
 /// Held while a drag turns the light.
 pub const LIGHT_KEY: Key = Key::L;
 
-/// Held while a drag moves the chosen cut. No key of [`KEYS`], which would do that as well.
+/// Held while a drag moves the chosen cut. It must not be in [`KEYS`].
 pub const CUT_KEY: Key = Key::X;
 
-/// A drag over the picture with a key that is held, as it is written.
+/// The text for a drag with a key held.
 pub fn drag_with(key: Key) -> String {
     format!("{} + drag", key.name())
 }
 
-/// What of the hands goes on from frame to frame.
+/// The state of pointer and keys between frames.
 #[derive(Debug, Default)]
 pub struct Hands {
     flight: Option<Flight>,
 }
 
-/// On the way to a viewpoint.
+/// A smooth move from one viewpoint to another.
 #[derive(Debug, Clone, Copy)]
 struct Flight {
     from: Viewpoint,
     to: Viewpoint,
-    /// The window's time at its beginning.
+    /// The window's time at the start, in seconds.
     since: f64,
 }
 
-/// A key with what it does, for the sheet of keys and for the keys themselves.
+/// A command of a key or menu entry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Command {
-    /// One of the sides.
+    /// Shows a side.
     Side(NamedView),
-    /// Perspective or orthographic.
+    /// Switches between perspective and orthographic.
     Projection,
-    /// All models in the picture.
+    /// Fits all models into the picture.
     Fit,
-    /// The first view.
+    /// Goes to the default view.
     Home,
-    /// Fifteen degrees around the line of sight, to the left or, where true, to the right.
+    /// Rolls by 15 degrees: to the right if true, else to the left.
     Roll(bool),
-    /// Marking by hand on and off.
+    /// Switches marking by hand on and off.
     Mark,
-    /// Panels on and off.
+    /// Shows or hides the panels.
     Panels,
-    /// The sheet of keys on and off.
+    /// Shows or hides the sheet of keys.
     Keys,
-    /// The technique before or after.
+    /// Takes the next technique if true, else the previous one.
     Technique(bool),
-    /// Files are chosen and opened.
+    /// Chooses files and opens them.
     Open,
-    /// The files again.
+    /// Reads the open files again.
     Reload,
-    /// A picture is saved.
+    /// Saves a picture.
     SavePicture,
-    /// The technique is saved.
+    /// Saves the technique.
     SaveTechnique,
-    /// The command line of the picture, on the clipboard.
+    /// Copies the command line of the picture.
     CopyCommand,
-    /// The camera options, on the clipboard.
+    /// Copies the camera options.
     CopyCamera,
-    /// One change back.
+    /// Undoes one change.
     Undo,
-    /// One change forward again.
+    /// Redoes one change.
     Redo,
-    /// The window closes.
+    /// Closes the window.
     Quit,
 }
 
-/// The keys: which, with what, and what it does in words.
+/// The keys with their modifiers, commands and descriptions.
 pub const KEYS: &[(Key, Modifiers, Command, &str)] = &[
     (Key::Num1, Modifiers::NONE, Command::Side(NamedView::Front), "front"),
     (Key::Num1, Modifiers::COMMAND, Command::Side(NamedView::Back), "back"),
@@ -96,43 +96,43 @@ pub const KEYS: &[(Key, Modifiers, Command, &str)] = &[
     (Key::Num4, Modifiers::NONE, Command::Roll(false), "roll to the left"),
     (Key::Num6, Modifiers::NONE, Command::Roll(true), "roll to the right"),
     (Key::F, Modifiers::NONE, Command::Fit, "fit the model"),
-    (Key::Enter, Modifiers::NONE, Command::Home, "the first view"),
+    (Key::Enter, Modifiers::NONE, Command::Home, "go to the default view"),
     (Key::M, Modifiers::NONE, Command::Mark, "mark edges by hand"),
     (Key::N, Modifiers::NONE, Command::Panels, "hide or show panels"),
-    (Key::Questionmark, Modifiers::NONE, Command::Keys, "this sheet"),
-    (Key::H, Modifiers::NONE, Command::Keys, "this sheet"),
-    (Key::OpenBracket, Modifiers::NONE, Command::Technique(false), "technique before"),
+    (Key::Questionmark, Modifiers::NONE, Command::Keys, "show the keys"),
+    (Key::H, Modifiers::NONE, Command::Keys, "show the keys"),
+    (Key::OpenBracket, Modifiers::NONE, Command::Technique(false), "previous technique"),
     (Key::CloseBracket, Modifiers::NONE, Command::Technique(true), "next technique"),
     (Key::O, Modifiers::COMMAND, Command::Open, "open files"),
-    (Key::F5, Modifiers::NONE, Command::Reload, "read the files again"),
+    (Key::F5, Modifiers::NONE, Command::Reload, "reload the files"),
     (Key::F12, Modifiers::NONE, Command::SavePicture, "save a picture"),
     (Key::S, Modifiers::COMMAND, Command::SaveTechnique, "save the technique"),
-    (Key::C, Modifiers::NONE, Command::CopyCommand, "copy as viewer render"),
+    (Key::C, Modifiers::NONE, Command::CopyCommand, "copy the viewer render command"),
     (Key::C, Modifiers::SHIFT, Command::CopyCamera, "copy the camera (Ctrl+V pastes it)"),
     (Key::Z, Modifiers { shift: true, ..Modifiers::COMMAND }, Command::Redo, "redo"),
     (Key::Z, Modifiers::COMMAND, Command::Undo, "undo"),
     (Key::Q, Modifiers::COMMAND, Command::Quit, "quit"),
 ];
 
-/// The keys that lose the graphics device on purpose, before a frame and within one, to see
-/// that nothing else is lost; with Ctrl and Shift, and on no sheet.
+/// Keys that lose the graphics device on purpose, before a frame or within one (true), with
+/// Ctrl and Shift. Not on the sheet of keys.
 const LOSE_DEVICE: [(Key, bool); 2] = [(Key::F9, false), (Key::F10, true)];
 
 impl Command {
-    /// Whether it is done again and again while its key is held.
+    /// Whether it repeats while its key is held.
     const fn goes_on(self) -> bool {
         matches!(self, Self::Roll(_) | Self::Technique(_) | Self::Undo | Self::Redo)
     }
 }
 
 impl Hands {
-    /// Goes to a viewpoint, from where the window is now.
+    /// Starts a flight to a viewpoint at `time`, the window's time in seconds.
     pub fn go_to(&mut self, session: &Session, to: Viewpoint, time: f64) {
         let from = session.recipe.viewpoint;
         self.flight = from.map(|from| Flight { from, to, since: time });
     }
 
-    /// What the pointer does over the picture, at `rect`.
+    /// Handles the pointer over the picture.
     pub fn pointer(&mut self, ui: &Ui, response: &Response, session: &mut Session) {
         let Some(view) = session.recipe.viewpoint else { return };
         let canvas = canvas_of(response.rect);
@@ -172,13 +172,13 @@ impl Hands {
             }
         }
         if new != view {
-            // A hand is stronger than a flight.
+            // A drag ends a flight.
             self.flight = None;
             session.recipe.viewpoint = Some(new);
         }
     }
 
-    /// What keys do that are held, and what is on its way; whether there is more to come.
+    /// Handles held keys and flights; returns whether there is more to come.
     pub fn go_on(&mut self, ui: &Ui, rect: Rect, session: &mut Session) -> bool {
         let Some(view) = session.recipe.viewpoint else { return false };
         let (time, seconds) = ui.input(|input| (input.time, f64::from(input.stable_dt.min(0.1))));
@@ -216,7 +216,7 @@ impl Hands {
         true
     }
 
-    /// What keys do that are pressed.
+    /// Handles pressed and pasted keys. `size` is that of the picture in pixels.
     pub fn keys(&mut self, ui: &Ui, session: &mut Session, size: [u32; 2]) {
         let pasted = ui.input(|input| {
             input.events.iter().find_map(|event| match event {
@@ -254,14 +254,14 @@ impl Hands {
     }
 }
 
-/// What a key asks that is pressed. Its modifiers are those of its own moment: in a long
-/// frame they may be let go already.
+/// The command of a key event. Its modifiers are those of the event: in a long frame they may
+/// be released already.
 fn command_of(event: &egui::Event) -> Option<Command> {
     let egui::Event::Key { key, pressed: true, repeat, modifiers, .. } = event else {
         return None;
     };
     let is_it = |known: &&(Key, Modifiers, Command, &str)| {
-        // Keys that need shift on some keyboards do not need to be held with it.
+        // Some keyboards need Shift to type these, so Shift is ignored.
         let is_typed = matches!(key, Key::Questionmark | Key::OpenBracket | Key::CloseBracket);
         let is_held = match is_typed {
             true => !modifiers.command,
@@ -273,7 +273,7 @@ fn command_of(event: &egui::Event) -> Option<Command> {
     command.filter(|command| !repeat || command.goes_on())
 }
 
-/// Does what a key or a button asks.
+/// Runs a command. `size` is that of the picture in pixels.
 pub fn run(command: Command, session: &mut Session, size: [u32; 2]) {
     let view = session.recipe.viewpoint;
     match command {
@@ -312,15 +312,15 @@ pub fn run(command: Command, session: &mut Session, size: [u32; 2]) {
         Command::SavePicture => session.ask(Request::SavePicture(None)),
         Command::SaveTechnique => session.ask(Request::SaveTechnique),
         Command::CopyCommand => match session.command(size) {
-            Some(line) => session.ask(Request::Copy(line, "the command is on the clipboard")),
+            Some(line) => session.ask(Request::Copy(line, "command copied")),
             None => session.messages.error(
-                "no settings lead to the technique as it is; save it as a file and copy again",
+                "the changed technique cannot be written as settings; save it as a file and copy again",
             ),
         },
         Command::CopyCamera => {
             if let Some(view) = view {
                 let line = shell_line(&camera_words(&view.arguments()));
-                session.ask(Request::Copy(line, "the camera is on the clipboard"));
+                session.ask(Request::Copy(line, "camera copied"));
             }
         }
         Command::Undo => session.undo(),
@@ -329,28 +329,27 @@ pub fn run(command: Command, session: &mut Session, size: [u32; 2]) {
     }
 }
 
-/// Turns the light.
 fn drag_light(session: &mut Session, view: &Viewpoint, canvas: &Canvas, pixels: DVec2) {
     let Some(scene) = &session.scene else { return };
     let light = &mut session.recipe.appearance.lighting.light;
     *light = light_hand::light_dragged(light, view, scene, canvas, pixels);
 }
 
-/// Moves the cut that is chosen.
+/// Moves the chosen cut.
 fn drag_cut(session: &mut Session, view: &Viewpoint, canvas: &Canvas, pixels: DVec2) {
     let Some(scene) = &session.scene else { return };
     let planes = &mut session.recipe.appearance.lighting.clip_planes;
     let Some(last) = planes.len().checked_sub(1) else {
-        return session.messages.note("there is no cut yet: add one under Light");
+        return session.messages.note("there are no cuts: add one under Light");
     };
     let plane = &mut planes[session.chosen_cut.min(last)];
     *plane = light_hand::cut_dragged(*plane, view, scene, canvas, pixels);
 }
 
-/// Shows the edge under the pointer, and marks it where it is clicked.
+/// Highlights the edge under the pointer, and marks it on a click.
 fn mark(ui: &Ui, response: &Response, session: &mut Session, canvas: &Canvas, at: DVec2) {
     let (Some(scene), Some(view)) = (&mut session.scene, session.recipe.viewpoint) else { return };
-    // Marks would be gone with the models that are replaced.
+    // A load replaces the models, and their marks with them.
     if session.work.iter().any(Work::is_loading) {
         return;
     }
@@ -358,7 +357,7 @@ fn mark(ui: &Ui, response: &Response, session: &mut Session, canvas: &Canvas, at
     #[expect(clippy::cast_possible_truncation, reason = "a position on the screen")]
     let place = |at: DVec2| response.rect.min + egui::vec2(at.x as f32, at.y as f32);
     let color = ui.visuals().selection.bg_fill;
-    // Over the picture, which is painted after this.
+    // Above the picture, which is painted later.
     let layer = egui::LayerId::new(egui::Order::Middle, response.id);
     let painter = ui.ctx().layer_painter(layer).with_clip_rect(response.rect);
     painter.line_segment(picked.ends.map(place), egui::Stroke::new(4.0, color));
@@ -368,15 +367,15 @@ fn mark(ui: &Ui, response: &Response, session: &mut Session, canvas: &Canvas, at
     }
     if is_path {
         match session.marking.mark_path(scene, &picked) {
-            Some(count) => session.messages.note(format!("{count} edges along the way")),
-            None => session.messages.note("a way begins where an edge of it was clicked before"),
+            Some(count) => session.messages.note(format!("{count} edges on the path")),
+            None => session.messages.note("click an edge first: the path begins at the last click"),
         }
     } else {
         session.marking.toggle(scene, &picked);
     }
 }
 
-/// The point of the models under a position, or of the plane through the target.
+/// The point of the models under a position, or else of the plane through the target.
 fn under(session: &Session, canvas: &Canvas, view: &Viewpoint, at: DVec2) -> DVec3 {
     let hit = session.scene.as_ref().and_then(|scene| {
         let (start, direction) = canvas.ray(view, at);

@@ -1,5 +1,5 @@
-//! What passes draw for each other, shown instead of the picture: a pass more at the end
-//! of the technique, as anyone could write one.
+//! Shows a texture between passes in place of the picture, by one more pass at the end of the
+//! technique.
 
 use crate::technique::Technique;
 use crate::technique::library::Library;
@@ -10,32 +10,33 @@ use crate::technique::texture_format::{PassTexture, TextureFormat};
 use crate::technique::texture_name::TextureName;
 use crate::technique::value::Value;
 
-/// A texture that is looked at.
+/// A texture that is shown.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inspection {
-    /// Which one.
+    /// The texture.
     pub texture: PassTexture,
-    /// The number that is black.
+    /// The value shown as black.
     pub low: f32,
-    /// The number that is white.
+    /// The value shown as white.
     pub high: f32,
 }
 
 impl Inspection {
-    /// Looks at a texture, from 0 to 1.
+    /// Shows a texture, with black at 0 and white at 1.
     #[must_use]
     pub const fn of(texture: PassTexture) -> Self {
         Self { texture, low: 0.0, high: 1.0 }
     }
 
-    /// Whether its range can be chosen.
+    /// Whether its values have a range that can be chosen.
     #[must_use]
     pub fn has_range(&self) -> bool {
         let format = self.texture.format;
         format != TextureFormat::DEPTH && format.number_kind() == FieldKind::Float
     }
 
-    /// A technique that ends with showing the texture.
+    /// The technique with a last pass that shows the texture; `None` if it has no such
+    /// texture.
     #[must_use]
     pub fn shown(&self, technique: &Technique, library: &Library) -> Option<Technique> {
         let format = self.texture.format;
@@ -61,7 +62,7 @@ impl Inspection {
         });
         let assignments = assignments.collect();
         let place = component.place.clone();
-        // No pass of a file can have a name with a blank.
+        // No pass of a file has a space in its name.
         let name = "shown texture".to_owned();
         let mut mistakes = Mistakes::default();
         let pass = Pass::new(name, component, place, assignments, &mut mistakes)?;

@@ -1,5 +1,5 @@
-//! The light and the cuts, moved by hand: from directions as the viewer sees them, and
-//! drags over the picture, to what the command line says.
+//! The light and the cuts moved by hand: from directions in camera space and drags over the
+//! picture to light and clip planes.
 
 use glam::{DQuat, DVec2, DVec3};
 
@@ -8,7 +8,7 @@ use super::viewpoint::Viewpoint;
 use crate::scene::lighting::Light;
 use crate::scene::models::Scene;
 
-/// The direction to the light, in the camera's space: right, up, toward the viewer.
+/// The direction to the light in camera space (right, up, toward the viewer), of length 1.
 #[must_use]
 pub fn in_camera(light: &Light, view: &Viewpoint, scene: &Scene) -> DVec3 {
     let [right, up, back] = view.axes();
@@ -21,15 +21,15 @@ pub fn in_camera(light: &Light, view: &Viewpoint, scene: &Scene) -> DVec3 {
     direction.normalize_or(DVec3::Z)
 }
 
-/// A direction of the camera's space in the world.
+/// A direction of camera space in world space.
 #[must_use]
 pub fn in_world(in_camera: DVec3, view: &Viewpoint) -> DVec3 {
     let [right, up, back] = view.axes();
     right * in_camera.x + up * in_camera.y + back * in_camera.z
 }
 
-/// A light of the same kind from a direction in the camera's space; a point stays as far
-/// from the middle of the scene as it was.
+/// The light with another direction in camera space. A point light keeps its distance from
+/// the center of the scene.
 #[must_use]
 pub fn shone_from(light: &Light, direction: DVec3, view: &Viewpoint, scene: &Scene) -> Light {
     match light {
@@ -42,14 +42,14 @@ pub fn shone_from(light: &Light, direction: DVec3, view: &Viewpoint, scene: &Sce
     }
 }
 
-/// A point in a direction of the camera's space, two radii from the middle of the scene.
+/// A point two scene radii from the center of the scene, in a direction of camera space.
 #[must_use]
 pub fn point_at(in_camera: DVec3, view: &Viewpoint, scene: &Scene) -> DVec3 {
     rounded(middle(scene) + in_world(in_camera, view) * (2.0 * radius(scene)))
 }
 
-/// The light after a drag over the picture: it turns around the scene as the hand moves,
-/// a quarter for half the picture's height, and can come behind it.
+/// The light after a drag by `pixels`: it turns around the scene, half a turn over the height
+/// of the canvas, and can come behind the scene.
 #[must_use]
 pub fn light_dragged(
     light: &Light,
@@ -65,8 +65,8 @@ pub fn light_dragged(
     shone_from(light, direction, view, scene)
 }
 
-/// A plane (n, d) after a drag over the picture: it moves along its normal as far as the
-/// hand does along the normal's picture; where that is seen end on, up is away.
+/// A plane (n, d) after a drag by `pixels`: it moves along its normal, as far as the pointer
+/// moves along the projected normal. If the normal points at the viewer, up moves it away.
 #[must_use]
 pub fn cut_dragged(
     plane: [f64; 4],
@@ -79,12 +79,12 @@ pub fn cut_dragged(
     let normal = DVec3::new(x, y, z);
     let length = normal.length();
     let (middle, radius) = (middle(scene), radius(scene));
-    // The point of the plane nearest to the middle of the scene.
+    // The point of the plane nearest to the center of the scene.
     let on_plane = middle - normal * ((normal.dot(middle) + d) / (length * length));
     let step = normal / length * (0.01 * radius);
     let seen = |point: DVec3| canvas.pixel_of(view, point);
     let along = seen(on_plane).zip(seen(on_plane + step)).map(|(from, to)| (to - from) * 100.0);
-    // Pixels that a radius has along the normal, and across the line of sight.
+    // The scene's radius in pixels, across the line of sight.
     let across = seen(middle).zip(seen(middle + view.axes()[1] * (0.01 * radius)));
     let radius_px = across.map_or(canvas.size.y, |(from, to)| (to - from).length() * 100.0);
     let moved = match along {
@@ -97,21 +97,21 @@ pub fn cut_dragged(
     [x, y, z, in_steps(d, step_of(radius * length) / 10.0)]
 }
 
-/// With as many digits as a hand can tell.
+/// A vector with about four significant digits, for short command lines.
 #[must_use]
 pub fn rounded(vector: DVec3) -> DVec3 {
     let step = step_of(vector.abs().max_element());
     DVec3::from(vector.to_array().map(|number| in_steps(number, step)))
 }
 
-/// The power of ten that is a thousandth of a number, or up to ten times less.
+/// The power of ten between a thousandth and a ten-thousandth of a number.
 fn step_of(number: f64) -> f64 {
     10_f64.powf(number.max(1e-12).log10().floor() - 3.0)
 }
 
-/// The nearest number of whole steps, each a power of ten.
+/// The nearest multiple of `step`, a power of ten.
 fn in_steps(number: f64, step: f64) -> f64 {
-    // Divided, so that the number is the nearest to its short text.
+    // Divided, so that the result is the nearest to its short decimal.
     let scale = (1.0 / step).round();
     match scale >= 1.0 {
         true => (number * scale).round() / scale,
@@ -119,12 +119,12 @@ fn in_steps(number: f64, step: f64) -> f64 {
     }
 }
 
-/// The middle of the scene, in the units of the file.
+/// The center of the scene, in units of the files.
 fn middle(scene: &Scene) -> DVec3 {
     scene.frame.to_file(scene.bounds.center())
 }
 
-/// Half the diagonal of the box around the scene, in the units of the file.
+/// Half the diagonal of the scene's box, in units of the files.
 fn radius(scene: &Scene) -> f64 {
     scene.bounds.radius() / scene.frame.scale
 }
@@ -159,7 +159,7 @@ mod tests {
         let up = light_dragged(&up, &view, &scene, &CANVAS, DVec2::new(0.0, -100.0));
         let Light::Camera(up) = up else { panic!() };
         assert!(up.y > 0.4, "up: {up}");
-        // A point keeps its distance.
+        // A point light keeps its distance.
         let point = Light::Point(DVec3::Z * 4.0);
         let moved = light_dragged(&point, &view, &scene, &CANVAS, DVec2::new(100.0, 40.0));
         let Light::Point(moved) = moved else { panic!() };
@@ -169,7 +169,7 @@ mod tests {
     #[test]
     fn a_cut_stays_under_the_hand() {
         let (scene, view) = scene();
-        // Kept is what lies to the right of x = 0.5.
+        // The side with x > 0.5 is kept.
         let plane = [2.0, 0.0, 0.0, -1.0];
         let at = |plane: [f64; 4]| {
             let point = DVec3::X * (-plane[3] / plane[0]);
@@ -179,7 +179,7 @@ mod tests {
         assert_eq!(moved[..3], plane[..3]);
         let by = at(moved) - at(plane);
         assert!((by - DVec2::new(30.0, 0.0)).length() < 0.5, "{by}");
-        // Seen end on, up is away, whichever way it looks.
+        // For a normal toward or away from the viewer, up is away.
         for z in [1.0, -1.0] {
             let plane = [0.0, 0.0, z, 0.0];
             let moved = cut_dragged(plane, &view, &scene, &CANVAS, DVec2::new(0.0, -30.0));

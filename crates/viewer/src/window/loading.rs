@@ -1,4 +1,4 @@
-//! Models, read and uploaded while the window goes on with what it has.
+//! Models are read and uploaded on another thread.
 //!
 //! ```text
 //!   files --read, build--> Scene --upload--> PictureRenderer --> the window takes both
@@ -14,67 +14,68 @@ use strokes::gpu::device::Gpu;
 use super::background::{Background, Tell};
 use super::recipe::Recipe;
 use crate::error::Error;
-use crate::picture::renderer::{PictureOptions, PictureRenderer};
+use crate::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use crate::scene::models::Scene;
 use crate::scene::object_techniques::object_techniques;
 use crate::scene::scene_file::{SceneObject, objects_of};
 use crate::technique::Technique;
 use crate::technique::library::Library;
 
-/// Models that are wanted.
+/// Models to load.
 #[derive(Debug, Clone)]
-pub(super) struct ToLoad {
+pub(super) struct LoadOrder {
     pub(super) models: Vec<PathBuf>,
-    /// How they are to be seen; none where that stays as it is.
+    /// The recipe to take with them; `None` to keep the current one.
     pub(super) recipe: Option<Recipe>,
 }
 
 /// Models that are being loaded.
 pub(super) struct Loading {
-    pub(super) what: ToLoad,
+    pub(super) what: LoadOrder,
     pub(super) work: Background<LoadedScene>,
 }
 
-/// What is loaded, and what it is to be drawn with at first.
+/// The input of [`load`].
 #[derive(Debug, Clone)]
 pub struct Request {
     /// Models and scene files.
     pub models: Vec<PathBuf>,
-    /// How they are read.
+    /// How the models are read.
     pub load: LoadOptions,
-    /// The device to upload to; none where nothing is drawn.
+    /// The device to upload to; `None` to only read the models.
     pub gpu: Option<Gpu>,
     /// Techniques and components.
     pub library: Library,
-    /// What they are drawn with at first.
-    pub built: Built,
-    /// How it is drawn.
+    /// What the renderer is built for.
+    pub build_key: BuildKey,
+    /// Options of the first picture.
     pub options: PictureOptions,
 }
 
-/// What a renderer was built for; all else can change while it goes on.
+/// What a renderer is built for. All else can change without building again.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Built {
+pub struct BuildKey {
     /// The technique.
     pub technique: Technique,
-    /// Whether there is no paper behind the scene.
+    /// Whether the background is transparent.
     pub is_transparent: bool,
 }
 
-/// Models that are there.
+/// Models that were loaded.
 #[derive(Debug)]
 pub struct LoadedScene {
-    /// The request's models.
+    /// The files of the request.
     pub models: Vec<PathBuf>,
-    /// What they are.
+    /// The models in memory.
     pub scene: Arc<Scene>,
     /// The objects of scene files.
     pub objects: Vec<SceneObject>,
-    /// Ready to draw, where there is a device, and for what.
-    pub renderer: Option<(PictureRenderer, Built)>,
+    /// The renderer with what it was built for; `None` without a device, or if the technique
+    /// has mistakes.
+    pub renderer: Option<(PictureRenderer, BuildKey)>,
 }
 
-/// Reads the models of a request, and uploads them.
+/// Reads the models of a request and uploads them.
 ///
 /// # Errors
 /// For the first model that cannot be loaded or is too large, or if `tell` cancels.
@@ -91,12 +92,14 @@ pub fn load(request: Request, tell: Tell) -> Result<LoadedScene, Error> {
             if go_on("uploading").is_break() {
                 return Err(Error::Canceled);
             }
-            let Request { built, options, library, .. } = &request;
-            let technique = &built.technique;
-            let looks = object_techniques(&objects, library, technique, &mut |_| ())?;
-            match PictureRenderer::new(gpu, &scene, technique, &looks, options) {
-                Ok(made) => Some((made, built.clone())),
-                // The models are not at fault: the window reports the technique's mistakes.
+            let Request { build_key, options, library, .. } = &request;
+            let technique = &build_key.technique;
+            let overrides = &object_techniques(&objects, library, technique, &mut |_| ())?;
+            let input = PictureInput { scene: &scene, technique, overrides };
+            match PictureRenderer::new(gpu, input, options) {
+                Ok(made) => Some((made, build_key.clone())),
+                // The models are not at fault: the canvas reports the mistakes of the
+                // technique.
                 Err(Error::Technique(_)) => None,
                 Err(error) => return Err(error),
             }
@@ -119,7 +122,7 @@ mod tests {
             load,
             gpu: None,
             library,
-            built: Built { technique, is_transparent: false },
+            build_key: BuildKey { technique, is_transparent: false },
             options: PictureOptions::default(),
         };
         Background::start(|| {}, |tell| super::load(request, tell))

@@ -1,7 +1,7 @@
-//! Edges marked by hand: one at a time, or the shortest way between two vertices.
+//! Edges marked by hand: one at a time, or the shortest path between two vertices.
 //!
-//! A mark changes the mesh at once, so that it is drawn; it is kept when it is saved, in a
-//! side file beside the model, which the preprocessor reads with it.
+//! A mark changes the mesh at once, so that it is drawn. Saving writes it to the side file of
+//! the model, which is read with the model.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
@@ -22,18 +22,18 @@ use super::viewpoint::Viewpoint;
 use crate::error::Error;
 use crate::scene::models::Scene;
 
-/// Edges that are being marked.
+/// The state of marking.
 #[derive(Debug, Default)]
 pub struct Marking {
-    /// Whether clicks mark.
+    /// Whether clicks mark edges.
     pub is_on: bool,
-    /// Where a path begins: a model and one of its vertices.
+    /// The start of the next path: a model and one of its vertices.
     from: Option<(usize, u32)>,
-    /// What was changed since it was saved, in order.
+    /// Unsaved changes, in order.
     changes: Vec<MarkChange>,
 }
 
-/// Edges of a model that were marked, or no longer are; pairs of its mesh's vertices.
+/// Edges of a model that were marked or unmarked, as pairs of mesh vertices.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct MarkChange {
     model: usize,
@@ -44,19 +44,19 @@ struct MarkChange {
 /// An edge under the pointer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PickedEdge {
-    /// The object.
+    /// Index of the object.
     pub object: usize,
-    /// Its model.
+    /// Index of the object's model.
     pub model: usize,
-    /// The vertices of the mesh between which it lies.
+    /// The two mesh vertices.
     pub edge: [u32; 2],
-    /// The one that is nearer to the pointer.
+    /// The vertex nearer to the pointer.
     pub vertex: u32,
-    /// Where its ends are in the picture, in points.
+    /// The ends in the picture, in points.
     pub ends: [DVec2; 2],
 }
 
-/// The edge of the triangle under a position that is nearest to it.
+/// The edge nearest to a position, among those of the triangle under it.
 #[must_use]
 pub fn edge_under(
     scene: &Scene,
@@ -102,19 +102,19 @@ fn distance_to_segment(at: DVec2, [a, b]: [DVec2; 2]) -> f64 {
 }
 
 impl Marking {
-    /// Begins anew, with other models.
+    /// Forgets all changes, for other models.
     pub fn forget(&mut self) {
         self.from = None;
         self.changes.clear();
     }
 
-    /// Whether there is something that was not saved.
+    /// Whether there are unsaved changes.
     #[must_use]
     pub const fn has_changes(&self) -> bool {
         !self.changes.is_empty()
     }
 
-    /// Marks an edge, or takes its mark away.
+    /// Marks an edge, or removes its mark.
     pub fn toggle(&mut self, scene: &mut Arc<Scene>, picked: &PickedEdge) {
         let mesh = &scene.models[picked.model].mesh;
         let is_marked = !is_marked(mesh, picked.edge);
@@ -122,8 +122,8 @@ impl Marking {
         self.change(scene, picked.model, vec![picked.edge], is_marked);
     }
 
-    /// Marks the shortest way along edges from where the last click was; how many edges
-    /// that are, or none where there is no way.
+    /// Marks the shortest path along edges from the vertex clicked last. Returns the number
+    /// of edges on it; `None` if there is no path.
     pub fn mark_path(&mut self, scene: &mut Arc<Scene>, picked: &PickedEdge) -> Option<usize> {
         let from = self.from.replace((picked.model, picked.vertex));
         let (_, start) = from.filter(|(model, _)| *model == picked.model)?;
@@ -151,15 +151,15 @@ impl Marking {
         }
     }
 
-    /// Takes the last change back.
+    /// Undoes the last change.
     pub fn undo(&mut self, scene: &mut Arc<Scene>) {
         if let Some(change) = self.changes.pop() {
             apply(scene, &MarkChange { is_marked: !change.is_marked, ..change });
         }
     }
 
-    /// Writes what was changed to the side files of the models, or to `marks` where the
-    /// command line names that; says which were written.
+    /// Writes the changes to the side files of the models, or to `marks` if it is given.
+    /// Returns the files that were written.
     ///
     /// # Errors
     /// [`Error::MarksWithoutFile`], or if a side file cannot be read or written.
@@ -194,7 +194,7 @@ impl Marking {
     }
 }
 
-/// Notes a pair in the marks of a side file.
+/// Adds a pair to the marks of a side file.
 fn note(side: &mut SideMarks, pair: [u32; 2], is_marked: bool) {
     let has = |pairs: &[[u32; 2]]| pairs.contains(&pair) || pairs.contains(&[pair[1], pair[0]]);
     let remove = |pairs: &mut Vec<[u32; 2]>| {
@@ -206,13 +206,13 @@ fn note(side: &mut SideMarks, pair: [u32; 2], is_marked: bool) {
     } else if has(&side.marked) {
         remove(&mut side.marked);
     } else {
-        // The model itself marks it.
+        // The model's own file marks it.
         side.unmarked.push(pair);
     }
 }
 
 fn apply(scene: &mut Arc<Scene>, change: &MarkChange) {
-    // Who draws the scene as it was goes on with it.
+    // A renderer may still hold the scene before the change.
     let mesh = &mut Arc::make_mut(scene).models[change.model].mesh;
     set_marks(mesh, &change.pairs, change.is_marked, &BuildOptions::default());
 }
@@ -224,18 +224,18 @@ fn is_marked(mesh: &EdgeMesh, [a, b]: [u32; 2]) -> bool {
         .any(|record| is_it(record.v0, record.v1) && record.flags.contains(EdgeFlags::MARKED))
 }
 
-/// The vertices of the shortest way between two along edges that are no diagonals
+/// The vertices of the shortest path between two vertices along edges that are no diagonals
 /// (Dijkstra 1959).
 fn shortest_path(mesh: &EdgeMesh, start: u32, end: u32) -> Option<Vec<u32>> {
-    let mut neighbours: Vec<Vec<u32>> = vec![Vec::new(); mesh.positions.len()];
+    let mut neighbors: Vec<Vec<u32>> = vec![Vec::new(); mesh.positions.len()];
     for record in mesh.records.iter().filter(|r| !r.flags.contains(EdgeFlags::DIAGONAL)) {
-        neighbours[record.v0 as usize].push(record.v1);
-        neighbours[record.v1 as usize].push(record.v0);
+        neighbors[record.v0 as usize].push(record.v1);
+        neighbors[record.v1 as usize].push(record.v0);
     }
     let mut before = vec![u32::MAX; mesh.positions.len()];
     let mut lengths = vec![f64::INFINITY; mesh.positions.len()];
     lengths[start as usize] = 0.0;
-    // Lengths as bits: those of positive numbers are in the same order.
+    // Lengths as bits: positive numbers and their bits have the same order.
     let mut open = BinaryHeap::from([Reverse((0_u64, start))]);
     while let Some(Reverse((bits, vertex))) = open.pop() {
         if vertex == end {
@@ -249,7 +249,7 @@ fn shortest_path(mesh: &EdgeMesh, start: u32, end: u32) -> Option<Vec<u32>> {
         if length > lengths[vertex as usize] {
             continue;
         }
-        for &next in &neighbours[vertex as usize] {
+        for &next in &neighbors[vertex as usize] {
             let step = position_of(mesh, vertex).distance(position_of(mesh, next));
             let reached = length + step;
             if reached < lengths[next as usize] {
@@ -269,7 +269,7 @@ mod tests {
     use super::*;
     use crate::scene::scene_file::SceneObject;
 
-    /// A strip of two squares, seen from before, with a line of the file at its left.
+    /// A strip of two squares, seen from the front, with a line at its left edge.
     const STRIP: &str = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\n\
                          f 1 2 5 4\nf 2 3 6 5\nl 1 4\n";
 

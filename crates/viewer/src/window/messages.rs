@@ -1,28 +1,29 @@
-//! What the window has to say: what is wrong with a technique, as long as it is wrong;
-//! what happened, for a while.
+//! Messages of the window: mistakes in a technique stay until they are mended, errors until
+//! they are dismissed, notes for some seconds.
 
 use std::time::{Duration, Instant};
 
-/// How long a note stays.
+/// How long a note is shown.
 const NOTE_STAYS: Duration = Duration::from_secs(6);
 
-/// What the window has to say.
+/// Messages of the window.
 #[derive(Debug, Default)]
 pub struct Messages {
-    /// What is wrong with what should be drawn; the picture is the last good one.
+    /// The mistakes of the technique that cannot be drawn.
     pub technique: Option<String>,
-    /// What went wrong and waits to be read.
+    /// Errors that are not dismissed yet.
     pub errors: Vec<String>,
     notes: Vec<(Instant, String)>,
 }
 
 impl Messages {
-    /// Tells what happened; it goes away by itself.
+    /// Shows a note for some seconds.
     pub fn note(&mut self, text: impl Into<String>) {
         self.notes.push((Instant::now(), text.into()));
     }
 
-    /// Tells what went wrong; it stays until it is dismissed. The same is told once.
+    /// Shows an error until it is dismissed; an equal one that is already shown is not
+    /// repeated.
     pub fn error(&mut self, text: impl Into<String>) {
         let text = text.into();
         if !self.errors.contains(&text) {
@@ -30,7 +31,7 @@ impl Messages {
         }
     }
 
-    /// The notes that are not old, and when the next one will be.
+    /// The notes to show, and when the next of them ends.
     pub fn notes(&mut self) -> (Vec<&str>, Option<Duration>) {
         self.notes.retain(|(since, _)| since.elapsed() < NOTE_STAYS);
         let next = self.notes.iter().map(|(since, _)| NOTE_STAYS.saturating_sub(since.elapsed()));

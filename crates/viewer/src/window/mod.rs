@@ -1,4 +1,4 @@
-//! The window: a picture that is turned, and panels that change it.
+//! The window: a picture that can be turned, and panels that change it.
 //!
 //! ```text
 //!   command line, files, drops --> Session <--> panels
@@ -6,19 +6,17 @@
 //!                                  Canvas --> PictureRenderer --> texture --> window
 //! ```
 //!
-//! - `session`: what is shown and known, without GPU; `recipe`, `viewpoint`: what makes a
+//! - `session`: the state of the window, without a GPU; `recipe`, `viewpoint`: the state of a
 //!   picture, as a command line; `messages`, `remembered`.
-//! - `navigation`: from hands to viewpoints; `light_hand`: to light and cuts. `background`, `loading`: models on another thread.
-//!   `picking`: what is under the pointer. `watching`: files that change.
-//! - `canvas`: the session as a picture, drawn when something changed; `picture_paint`: its
-//!   pixels on the window.
-//! - `inspection`: what passes draw for each other, shown. `marking`: edges marked by hand.
-//!   `saving`, `thumbnails`: pictures drawn on the side.
-//! - `opening`: the window opens, and again where its device was lost;
-//!   `device_loss`: what it learns then and takes over.
-//! - `style`: what the window looks like. `desktop`: light or dark as the desktop is, and its
-//!   dialogs. `error_text`: errors as the window words them.
-//! - `app`: one frame of the window. `hands`: pointer and keys. `panels`: what is beside the picture.
+//! - `navigation`, `light_hand`: drags and keys to viewpoints, light and cuts. `picking`: the
+//!   triangle under the pointer.
+//! - `background`: work on other threads; `loading`, `saving`, `thumbnails`, `watching`.
+//! - `canvas`: draws the session when it has changed; `picture_paint`: paints the picture.
+//! - `inspection`: shows textures between passes. `marking`: edges marked by hand.
+//! - `opening`: opens the window, and again after `device_loss`.
+//! - `style`, `desktop`: colors, fonts, theme and file dialogs. `error_text`: errors in the
+//!   words of the window.
+//! - `app`: one frame. `hands`: pointer and keys. `panels`: everything beside the picture.
 
 mod app;
 pub mod background;

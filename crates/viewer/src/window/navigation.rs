@@ -1,8 +1,7 @@
-//! From moves of the pointer and keys to viewpoints.
+//! Drags and keys to viewpoints.
 //!
-//! All of it is plain geometry: what a hand does in pixels, what the eye does in the
-//! units of the files. Angles follow the pointer; a pan keeps the point under the pointer
-//! there; a zoom keeps it there too.
+//! Plain geometry: drags are in pixels, viewpoints in units of the files. Turning follows the
+//! pointer; panning and zooming keep the point under the pointer in place.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -13,32 +12,32 @@ use super::viewpoint::{UpAxis, Viewpoint};
 /// How a drag turns the eye.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub enum TurnMode {
-    /// Around the up axis and over the poles not: what is upright stays upright.
+    /// Around the up axis, and not over the poles, so that the horizon stays level.
     #[default]
     Turntable,
     /// Around any axis.
     Trackball,
 }
 
-/// The closest that a turntable comes to looking along its axis, in radians.
+/// The smallest angle between a turntable's line of sight and its axis, in radians.
 const POLE_RAD: f64 = 1e-3;
 
-/// What is seen, and in how many pixels.
+/// The area of the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Canvas {
-    /// Width and height.
+    /// Width and height in pixels.
     pub size: DVec2,
 }
 
 impl Canvas {
-    /// A position in pixels from the middle, right and up, in half heights.
+    /// A position relative to the center, right and up, in half heights.
     fn offset_from_middle(&self, position: DVec2) -> DVec2 {
         let half = self.size / 2.0;
         DVec2::new(position.x - half.x, half.y - position.y) / half.y
     }
 
-    /// The point under a pixel (from the upper left), in the plane through the target
-    /// across the line of sight.
+    /// The point under a pixel (from the upper left) on the plane through the target across
+    /// the line of sight.
     #[must_use]
     pub fn point_on_target_plane(&self, view: &Viewpoint, position: DVec2) -> DVec3 {
         let [right, up, _] = view.axes();
@@ -46,7 +45,7 @@ impl Canvas {
         view.target + right * at.x + up * at.y
     }
 
-    /// The pixel (from the upper left) of a point; none for what is behind the eye.
+    /// The pixel (from the upper left) of a point; `None` behind the eye.
     #[must_use]
     pub fn pixel_of(&self, view: &Viewpoint, point: DVec3) -> Option<DVec2> {
         let [right, up, back] = view.axes();
@@ -58,12 +57,12 @@ impl Canvas {
         (depth > 0.0 && at.is_finite()).then_some(half + at)
     }
 
-    /// The ray under a pixel: where it begins and its direction.
+    /// The ray under a pixel: its start and direction.
     #[must_use]
     pub fn ray(&self, view: &Viewpoint, position: DVec2) -> (DVec3, DVec3) {
         let point = self.point_on_target_plane(view, position);
         if view.is_orthographic {
-            // From far enough before the target to have everything before it.
+            // From far enough back that the whole model lies in front of it.
             let forward = view.forward();
             (point - forward * view.distance(), forward)
         } else {
@@ -72,13 +71,13 @@ impl Canvas {
     }
 }
 
-/// Half the height that is seen at the target.
+/// Half of the visible height at the target.
 fn half_height(view: &Viewpoint) -> f64 {
     view.distance() * (view.fov_y_deg.to_radians() / 2.0).tan()
 }
 
-/// Turns the eye around the target as a drag by `pixels` (right and down) asks: half a
-/// turn over the height of the canvas.
+/// Turns the eye around the target for a drag by `pixels` (right and down): half a turn over
+/// the height of the canvas.
 #[must_use]
 pub fn turned(
     view: &Viewpoint,
@@ -95,12 +94,12 @@ pub fn turned(
         }
         TurnMode::Turntable => {
             let axis = up.direction();
-            // A view that is upside down turns as it looks.
+            // In a view that is upside down, a drag to the right still turns to the right.
             let sign = if above.dot(axis) < 0.0 { -1.0 } else { 1.0 };
             let elevation = (-view.forward()).dot(axis).clamp(-1.0, 1.0).asin();
             let most = FRAC_PI_2 - POLE_RAD;
             let wanted = elevation + sign * angle.y;
-            // One that is at the pole already, as the view from the top, leaves it.
+            // A view at the pole, such as the top view, may leave it.
             let tilt = wanted.clamp(-most, most) - elevation;
             DQuat::from_axis_angle(axis, -sign * angle.x)
                 * DQuat::from_axis_angle(right, -sign * tilt)
@@ -110,14 +109,14 @@ pub fn turned(
     Viewpoint { eye, up: (rotation * above).normalize_or(view.up), ..*view }
 }
 
-/// Rolls the picture by an angle, in radians, against the clock.
+/// Rolls the picture counterclockwise by an angle in radians.
 #[must_use]
 pub fn rolled(view: &Viewpoint, angle_rad: f64) -> Viewpoint {
     let [_, above, back] = view.axes();
     Viewpoint { up: DQuat::from_axis_angle(back, -angle_rad) * above, ..*view }
 }
 
-/// Moves eye and target so that what is at the target follows a drag by `pixels`.
+/// Moves eye and target so that the target follows a drag by `pixels`.
 #[must_use]
 pub fn panned(view: &Viewpoint, canvas: Canvas, pixels: DVec2) -> Viewpoint {
     let [right, above, _] = view.axes();
@@ -126,22 +125,21 @@ pub fn panned(view: &Viewpoint, canvas: Canvas, pixels: DVec2) -> Viewpoint {
     Viewpoint { eye: view.eye + by, target: view.target + by, ..*view }
 }
 
-/// Comes nearer, `factor` times the distance, while the point `toward`, such as what is
-/// under the pointer, stays where it is in the picture.
+/// Scales the distance by `factor`; the point `toward` stays in place in the picture.
 #[must_use]
 pub fn zoomed(view: &Viewpoint, factor: f64, toward: DVec3) -> Viewpoint {
     let moved = |point: DVec3| toward + (point - toward) * factor;
     Viewpoint { eye: moved(view.eye), target: moved(view.target), ..*view }
 }
 
-/// Takes a point as the target and looks at it from the same side and distance.
+/// Makes a point the target, seen from the same direction and distance.
 #[must_use]
 pub fn focused(view: &Viewpoint, point: DVec3) -> Viewpoint {
     let by = point - view.target;
     Viewpoint { eye: view.eye + by, target: point, ..*view }
 }
 
-/// Flies by so much to the right, up and forward, in distances to the target.
+/// Moves to the right, up and forward, in distances to the target.
 #[must_use]
 pub fn flown(view: &Viewpoint, steps: DVec3) -> Viewpoint {
     let [right, above, back] = view.axes();
@@ -149,16 +147,16 @@ pub fn flown(view: &Viewpoint, steps: DVec3) -> Viewpoint {
     Viewpoint { eye: view.eye + by, target: view.target + by, ..*view }
 }
 
-/// Looks around: turns the line of sight, not the eye.
+/// Turns the line of sight around the eye.
 #[must_use]
 pub fn looked_around(view: &Viewpoint, up: UpAxis, canvas: Canvas, pixels: DVec2) -> Viewpoint {
-    // The eye turns around the target as the target would around the eye.
+    // The target turns around the eye as the eye would around the target.
     let turned = turned(view, TurnMode::Turntable, up, canvas, pixels);
     let by = view.eye - turned.eye;
     Viewpoint { eye: view.eye, target: turned.target + by, ..turned }
 }
 
-/// A view between two, `share` of the way: the eye goes around, not through, the model.
+/// A view between two, at `share` from 0 to 1. The eye goes around the model, not through it.
 #[must_use]
 pub fn between(from: &Viewpoint, to: &Viewpoint, share: f64) -> Viewpoint {
     if share >= 1.0 {
@@ -170,7 +168,7 @@ pub fn between(from: &Viewpoint, to: &Viewpoint, share: f64) -> Viewpoint {
     };
     let turned = rotation(from).slerp(rotation(to), share);
     let target = from.target.lerp(to.target, share);
-    // Sizes grow by shares, not by amounts.
+    // Distances are interpolated geometrically.
     let distance = from.distance() * (to.distance() / from.distance()).powf(share);
     Viewpoint {
         eye: target + turned * DVec3::Z * distance,
@@ -232,7 +230,7 @@ mod tests {
         assert!(at.forward().y < -0.999, "dragging down looks from above");
         let down = turned(&at, TurnMode::Turntable, UpAxis::Y, CANVAS, DVec2::new(0.0, -300.0));
         assert!(down.forward().y.abs() < 0.1, "and comes back");
-        // From the very top, too.
+        // From the top, too.
         let top = start.from_side(super::super::viewpoint::NamedView::Top, UpAxis::Y);
         let left = turned(&top, TurnMode::Turntable, UpAxis::Y, CANVAS, DVec2::new(0.0, -300.0));
         assert!(left.forward().distance(DVec3::NEG_Z) < 0.1, "to the front");

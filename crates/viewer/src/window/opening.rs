@@ -1,5 +1,5 @@
-//! Opens the window, and opens another one where the graphics device was lost: the device
-//! is the window's too, so it cannot be replaced beneath it.
+//! Opens the window, and another one after its graphics device was lost: the device belongs
+//! to the window too, so it cannot be replaced in it.
 
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -8,60 +8,58 @@ use std::time::{Duration, Instant};
 use strokes::gpu::device;
 
 use super::app::Window;
-use super::device_loss::{Kept, Lost};
-use super::loading::ToLoad;
+use super::device_loss::{DeviceLoss, WindowHandover};
+use super::loading::LoadOrder;
 use super::recipe::Recipe;
 use super::remembered::Remembered;
 use super::session::Session;
 use crate::error::Error;
 use crate::technique::library::Library;
 
-/// What the window is called, and where it remembers.
+/// Name of the application, also for its storage.
 const APP_ID: &str = "edgemesh";
 
-/// How often a lost device is replaced, within [`RECOVERY_TIME`].
+/// The most recoveries from a lost device within [`RECOVERY_TIME`].
 const MOST_RECOVERIES: usize = 3;
 
-/// How long recoveries count.
+/// How long a recovery counts.
 const RECOVERY_TIME: Duration = Duration::from_secs(10);
 
 /// Opens the window and returns when it is closed.
 ///
-/// A device that is lost takes its window with it: another window takes its place, with
-/// the same session.
+/// After a lost device another window opens with the same session.
 ///
 /// # Errors
-/// If there is no adapter or no display; [`Error::AdapterLost`], if the device was lost again
-/// and again.
+/// If there is no adapter or no display; [`Error::AdapterLost`], if the device was lost too
+/// often.
 pub(crate) fn run(library: Library, recipe: Recipe) -> Result<(), Error> {
     let adapter = recipe.adapter().map(str::to_owned);
-    let to_load = Some(ToLoad { models: recipe.models.clone(), recipe: None });
+    let to_load = Some(LoadOrder { models: recipe.models.clone(), recipe: None });
     let session = Session::new(library, recipe, Remembered::default());
-    let kept = Arc::new(Mutex::new(Some(Kept { session, to_load, is_new: true })));
+    let handover = Arc::new(Mutex::new(Some(WindowHandover { session, to_load, is_new: true })));
     let mut losses: Vec<Instant> = Vec::new();
     let mut is_after_panic = false;
-    let latest = Arc::new(Mutex::new(Arc::new(Lost::default())));
+    let latest = Arc::new(Mutex::new(Arc::new(DeviceLoss::default())));
     hush_panics_of_lost_devices(&latest);
     loop {
-        let lost = Arc::new(Lost::default());
-        latest.lock().unwrap_or_else(PoisonError::into_inner).clone_from(&lost);
-        // The window system's side of the window panics where it draws with a device that
-        // is lost in that very frame.
-        let open = || open(&kept, &lost, adapter.as_deref());
+        let loss = Arc::new(DeviceLoss::default());
+        latest.lock().unwrap_or_else(PoisonError::into_inner).clone_from(&loss);
+        // eframe panics if the device is lost within a frame that it draws.
+        let open = || open(&handover, &loss, adapter.as_deref());
         let opened = std::panic::catch_unwind(std::panic::AssertUnwindSafe(open));
-        let has_kept = kept.lock().unwrap_or_else(PoisonError::into_inner).is_some();
-        let is_unseen = !lost.is_shown.load(Ordering::Relaxed);
-        if is_after_panic && is_unseen && has_kept && matches!(opened, Ok(Ok(()))) {
-            // The event loop that a panic has left ends once more before it begins.
+        let has_handover = handover.lock().unwrap_or_else(PoisonError::into_inner).is_some();
+        let is_unseen = !loss.is_shown.load(Ordering::Relaxed);
+        if is_after_panic && is_unseen && has_handover && matches!(opened, Ok(Ok(()))) {
+            // The event loop after a panic ends once before it starts again.
             is_after_panic = false;
             continue;
         }
         is_after_panic = opened.is_err();
-        if !lost.is_lost() || !has_kept {
+        if !loss.is_lost() || !has_handover {
             return opened.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         }
         losses.push(Instant::now());
-        losses.retain(|loss| loss.elapsed() < RECOVERY_TIME);
+        losses.retain(|time| time.elapsed() < RECOVERY_TIME);
         if losses.len() > MOST_RECOVERIES {
             let (times, seconds) = (losses.len(), RECOVERY_TIME.as_secs());
             return Err(Error::AdapterLost { times, seconds });
@@ -70,12 +68,12 @@ pub(crate) fn run(library: Library, recipe: Recipe) -> Result<(), Error> {
     }
 }
 
-/// Has panics told as before, but for those that another window follows.
-fn hush_panics_of_lost_devices(latest: &Arc<Mutex<Arc<Lost>>>) {
+/// Logs panics that another window follows; others are reported as before.
+fn hush_panics_of_lost_devices(latest: &Arc<Mutex<Arc<DeviceLoss>>>) {
     let (latest, before) = (latest.clone(), std::panic::take_hook());
     std::panic::set_hook(Box::new(move |panic| {
-        let lost = latest.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        match lost.is_lost.load(Ordering::Relaxed) {
+        let loss = latest.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        match loss.is_lost.load(Ordering::Relaxed) {
             true => log::info!("as the graphics adapter was lost: {panic}"),
             false => before(panic),
         }
@@ -84,8 +82,8 @@ fn hush_panics_of_lost_devices(latest: &Arc<Mutex<Arc<Lost>>>) {
 
 /// Opens one window, until it is closed or its device is lost.
 fn open(
-    kept: &Arc<Mutex<Option<Kept>>>,
-    lost: &Arc<Lost>,
+    handover: &Arc<Mutex<Option<WindowHandover>>>,
+    loss: &Arc<DeviceLoss>,
     adapter: Option<&str>,
 ) -> Result<(), Error> {
     let options = eframe::NativeOptions {
@@ -98,20 +96,22 @@ fn open(
             wgpu_setup: window_setup(adapter).into(),
             ..egui_wgpu::WgpuConfiguration::default()
         },
-        // What is drawn is drawn with the colours that files have.
+        // Dithering would change the colors of the picture.
         dithering: false,
         ..eframe::NativeOptions::default()
     };
-    let (creator_kept, creator_lost) = (kept.clone(), lost.clone());
+    let (creator_handover, creator_loss) = (handover.clone(), loss.clone());
     let made = eframe::run_native(
         APP_ID,
         options,
-        Box::new(move |context| Ok(Box::new(Window::new(context, creator_kept, creator_lost)?))),
+        Box::new(move |context| {
+            Ok(Box::new(Window::new(context, creator_handover, creator_loss)?))
+        }),
     );
     made.map_err(window_error)
 }
 
-/// The adapter and the device, asked for as `viewer render` does.
+/// The adapter and the device, chosen as by `viewer render`.
 fn window_setup(adapter: Option<&str>) -> egui_wgpu::WgpuSetupCreateNew {
     let mut setup = egui_wgpu::WgpuSetupCreateNew::without_display_handle();
     setup.instance_descriptor.backends = device::backends();
@@ -126,7 +126,8 @@ fn window_setup(adapter: Option<&str>) -> egui_wgpu::WgpuSetupCreateNew {
 fn window_error(error: eframe::Error) -> Error {
     match error {
         eframe::Error::Wgpu(egui_wgpu::WgpuError::CreateSurfaceError(error)) => {
-            // Without any adapter there is nothing to make a surface for.
+            // Without an adapter no surface can be created; the error about adapters says
+            // more.
             let none = device::choose(&[], None, None).err();
             none.map_or_else(|| Error::WindowAdapter(error.to_string()), Error::Adapter)
         }
@@ -144,7 +145,7 @@ fn window_error(error: eframe::Error) -> Error {
     }
 }
 
-/// Whether no display is named where displays have names.
+/// Whether the system has display variables and none is set.
 fn has_no_display() -> bool {
     let is_named = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     let has_names = cfg!(all(unix, not(target_os = "macos")));

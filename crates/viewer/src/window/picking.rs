@@ -1,34 +1,33 @@
-//! What is under the pointer: a ray against every triangle of the scene.
+//! The point under the pointer: a ray against every triangle of the scene.
 //!
-//! Brute force on all cores: a million triangles take some ten milliseconds, once a
-//! click, and there is nothing to build or to keep in step. (A tree of boxes would be
-//! faster and would have to be built with every model.)
+//! Brute force on all cores: a million triangles take some ten milliseconds, once a click.
+//! Rejected: a tree of boxes, which would be faster but must be built for every model.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::scene::models::Scene;
 
-/// Where a ray meets the scene first.
+/// The first intersection of a ray with the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
-    /// The number of the object.
+    /// Index of the object.
     pub object: usize,
-    /// The number of the triangle in the object's mesh.
+    /// Index of the triangle in the object's mesh.
     pub triangle: usize,
-    /// The point, in the units of the files.
+    /// The point, in units of the files.
     pub point: DVec3,
     distance: f64,
 }
 
-/// The first triangle that a ray meets, from either side; start and direction are in the
-/// units of the files.
+/// The first triangle that a ray meets, from either side. Start and direction are in units of
+/// the files.
 #[must_use]
 pub fn hit(scene: &Scene, start: DVec3, direction: DVec3) -> Option<Hit> {
     let start = scene.frame.to_mesh(start);
     let hits = scene.objects.iter().enumerate().filter_map(|(at, object)| {
         let mesh = &scene.models[object.model].mesh;
-        // The ray goes to the mesh, which has far more points.
+        // The ray is transformed to the mesh, since the mesh has many points.
         let mesh_from_world = object.world_from_object.inverse();
         if !mesh_from_world.is_finite() {
             return None;
@@ -49,7 +48,7 @@ pub fn hit(scene: &Scene, start: DVec3, direction: DVec3) -> Option<Hit> {
     hits.min_by(|one, other| one.distance.total_cmp(&other.distance))
 }
 
-/// How far along a ray it meets a triangle (Möller and Trumbore 1997), in lengths of its
+/// The distance along a ray to a triangle (Möller and Trumbore 1997), in lengths of the
 /// direction.
 fn distance_to([a, b, c]: [DVec3; 3], start: DVec3, direction: DVec3) -> Option<f64> {
     let (ab, ac) = (b - a, c - a);
@@ -60,7 +59,7 @@ fn distance_to([a, b, c]: [DVec3; 3], start: DVec3, direction: DVec3) -> Option<
     let q = from_a.cross(ab);
     let v = direction.dot(q) / determinant;
     let distance = ac.dot(q) / determinant;
-    // A triangle seen from its side divides by zero, and is met nowhere.
+    // An edge-on triangle gives a division by zero, and no hit.
     let is_inside = u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 0.0;
     (is_inside && distance.is_finite()).then_some(distance)
 }
@@ -76,7 +75,7 @@ mod tests {
     fn a_ray_meets_the_nearest_side_of_the_demo() {
         let object = SceneObject::plain(DEMO.as_ref());
         let scene = Scene::load(&[object], &LoadOptions::default(), &NoProgress).unwrap();
-        // At a vertex of the model, from outside.
+        // Toward a vertex of the model, from outside.
         let mesh = &scene.models[0].mesh;
         let [x, y, z] = mesh.positions[0];
         let at = scene.frame.to_file(DVec3::new(x.into(), y.into(), z.into()));

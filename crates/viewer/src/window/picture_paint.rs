@@ -1,19 +1,19 @@
-//! The picture's pixels on the window, as they are.
+//! Paints the picture on the window, texel by texel.
 //!
-//! egui could draw them as an image; its shader works out colours pixel by pixel, which
-//! on a software adapter costs more than many pictures do.
+//! Rejected: an egui image, whose shader converts colors per pixel; on a software adapter
+//! that costs more than many pictures.
 
 use edgemesh_shaders::{ShaderError, ShaderSource};
 use egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState};
 use strokes::gpu::shader::shader_module;
 
-/// What paints pictures on a window.
+/// Paints pictures on a window.
 #[derive(Debug, Clone)]
 pub(super) struct PicturePainter {
     pipeline: wgpu::RenderPipeline,
 }
 
-/// A picture that is to be painted.
+/// A picture ready to be painted.
 #[derive(Debug, Clone)]
 pub(super) struct PaintedPicture {
     pipeline: wgpu::RenderPipeline,
@@ -21,10 +21,8 @@ pub(super) struct PaintedPicture {
 }
 
 impl PicturePainter {
-    /// For a window.
-    ///
     /// # Errors
-    /// Where the shader cannot be put together.
+    /// If the shader cannot be resolved.
     pub(super) fn new(window: &RenderState) -> Result<Self, ShaderError> {
         let device = &window.device;
         let module = shader_module(device, &ShaderSource::embedded("window.wgsl")?, "window");
@@ -56,7 +54,7 @@ impl PicturePainter {
         Ok(Self { pipeline })
     }
 
-    /// A picture as it can be painted.
+    /// Binds a picture for painting.
     pub(super) fn picture(&self, device: &wgpu::Device, picture: &wgpu::Texture) -> PaintedPicture {
         let view = picture.create_view(&wgpu::TextureViewDescriptor::default());
         let resource = wgpu::BindingResource::TextureView(&view);
@@ -70,8 +68,7 @@ impl PicturePainter {
 }
 
 impl PaintedPicture {
-    /// Paints it over a part of the window; what lies outside of the painter's clip is
-    /// left out.
+    /// Paints the picture at `rect`, clipped by the painter.
     pub(super) fn paint(&self, painter: &egui::Painter, rect: egui::Rect) {
         painter.add(Callback::new_paint_callback(rect, self.clone()));
     }

@@ -1,5 +1,5 @@
-//! Everything that makes a picture but its pixels: the models, the technique as it was
-//! changed, the camera, the light, the cuts.
+//! Everything that makes a picture except its pixels: the models, the technique with its
+//! changes, the camera, the light, the cuts.
 //!
 //! ```text
 //!   command line --> Recipe <--> panels
@@ -7,8 +7,7 @@
 //!     viewer render ...v  | text in a PNG, undo
 //! ```
 //!
-//! A recipe is what a command line of `viewer render` says, so that it can be copied as
-//! one, and read back from one.
+//! A recipe can be written as arguments of `viewer render` and read from them.
 
 use std::path::{Path, PathBuf};
 
@@ -24,31 +23,32 @@ use crate::technique::Technique;
 use crate::technique::changes::changes;
 use crate::technique::library::Library;
 
-/// Everything that makes a picture but its pixels.
+/// Everything that makes a picture except its pixels.
 #[derive(Debug, Clone)]
 pub struct Recipe {
-    /// The files, as command lines name them.
+    /// The files, as named on the command line.
     pub models: Vec<PathBuf>,
-    /// How it looks; can be undone.
+    /// The part that undo and redo change.
     pub appearance: Appearance,
-    /// Where it is seen from; none until the models are there.
+    /// The viewpoint; `None` until the models are loaded.
     pub viewpoint: Option<Viewpoint>,
-    /// What the window leaves as the command line has it, and how models are read.
+    /// The command line's values of what the window does not change, and of how models are
+    /// read.
     arguments: PictureArguments,
 }
 
-/// How a picture looks: what undo and redo go through.
+/// Technique, light and background: the part that undo and redo change.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Appearance {
-    /// The technique's name, or its file.
+    /// Name or file of the technique.
     pub technique_name: String,
-    /// The technique as its file has it.
+    /// The technique as in its file.
     pub original: Technique,
-    /// The technique as it is drawn.
+    /// The technique with the changes made in the window.
     pub technique: Technique,
-    /// The light, and what cuts the scene.
+    /// Light and clip planes.
     pub lighting: Lighting,
-    /// Whether there is no paper behind the scene.
+    /// Whether the background is transparent.
     pub is_transparent: bool,
 }
 
@@ -56,7 +56,7 @@ impl Recipe {
     /// The recipe of a command line; without models, that of the demo.
     ///
     /// # Errors
-    /// If something is wrong with the technique, its settings or the light.
+    /// If the technique, its settings or the light have mistakes.
     pub(crate) fn new(
         models: &[PathBuf],
         arguments: PictureArguments,
@@ -80,14 +80,13 @@ impl Recipe {
     /// Reads the words of [`Self::words`].
     ///
     /// # Errors
-    /// [`Error::CommandLine`], and if something is wrong with the technique, its settings or
-    /// the light.
+    /// [`Error::CommandLine`], or if the technique, its settings or the light have mistakes.
     pub fn of_words(words: &[String], library: &Library) -> Result<Self, Error> {
         let (models, arguments) = read_words(words)?;
         Self::new(&models, arguments, library)
     }
 
-    /// Takes the viewpoint of the command line for the models, which lie in `frame`.
+    /// Takes the viewpoint of the command line, for models in `frame`.
     ///
     /// # Errors
     /// [`Error::Camera`].
@@ -99,15 +98,15 @@ impl Recipe {
         let options = &self.arguments.camera;
         let camera = options.camera(bounds, frame)?;
         let mut view = Viewpoint::of_camera(&camera, frame, options.fov);
-        // The very numbers of the command line.
+        // The exact numbers of the command line.
         view.eye = options.eye.unwrap_or(view.eye);
         view.target = options.target.unwrap_or(view.target);
         self.viewpoint = Some(view);
         Ok(())
     }
 
-    /// The arguments of `viewer render` for this picture, without its size and name.
-    /// `None` where the technique was changed in a way that no settings lead to.
+    /// The arguments of `viewer render` for this picture, without its size and file. `None`
+    /// if the changes of the technique cannot be written as settings.
     #[must_use]
     pub fn words(&self) -> Option<Vec<String>> {
         let appearance = &self.appearance;
@@ -122,7 +121,7 @@ impl Recipe {
         Some(words.words(&self.arguments))
     }
 
-    /// How the picture is drawn at a size in pixels.
+    /// Options of a picture of a size in pixels.
     #[must_use]
     pub fn picture_options(&self, size: [u32; 2]) -> PictureOptions {
         PictureOptions {
@@ -143,13 +142,13 @@ impl Recipe {
         self.arguments.input.marks.as_deref()
     }
 
-    /// A part of the name of the adapter that draws, if one is named.
+    /// A part of the adapter's name, if one is given.
     #[must_use]
     pub fn adapter(&self) -> Option<&str> {
         self.arguments.adapter.as_deref()
     }
 
-    /// The folder that shaders are taken from instead of the shipped ones.
+    /// The folder that replaces the shipped shaders.
     #[must_use]
     pub fn shader_folder(&self) -> Option<&Path> {
         self.arguments.library.shaders.as_deref()
@@ -161,19 +160,19 @@ impl Recipe {
         self.arguments.library.load()
     }
 
-    /// Takes the folders and the adapter of another recipe: they are those of a machine, not
-    /// of a picture.
+    /// Takes the folders and the adapter of another recipe, which belong to the machine and
+    /// not to a picture.
     pub(super) fn take_machine(&mut self, other: &Self) {
         self.arguments.library = other.arguments.library.clone();
         self.arguments.adapter.clone_from(&other.arguments.adapter);
     }
 
-    /// Takes how models are read and edges lie in memory from another recipe.
+    /// Takes the arguments of another recipe, except those that the window changes.
     pub(super) fn take_arguments(&mut self, other: &Self) {
         self.arguments = other.arguments.clone();
     }
 
-    /// What the window calls it.
+    /// The name of the models, for the title of the window.
     #[must_use]
     pub fn title(&self) -> String {
         let name = |path: &PathBuf| {
@@ -192,10 +191,10 @@ impl Recipe {
 }
 
 impl Appearance {
-    /// Takes another technique, as its file has it.
+    /// Takes another technique, without changes.
     ///
     /// # Errors
-    /// Everything that is wrong with it.
+    /// All mistakes in it.
     pub fn take_technique(&mut self, library: &Library, name: &str) -> Result<(), Error> {
         self.original = technique(library, name)?;
         self.technique = self.original.clone();
@@ -203,24 +202,24 @@ impl Appearance {
         Ok(())
     }
 
-    /// Reads the technique again; what was changed in it is changed again, as far as it is
-    /// still there.
+    /// Reads the technique's file again. Changes are applied again; those that no longer fit
+    /// are dropped.
     ///
     /// # Errors
-    /// Everything that is wrong with it.
+    /// All mistakes in it.
     pub fn read_again(&mut self, library: &Library) -> Result<(), Error> {
         let settings = changes(&self.original, &self.technique).unwrap_or_default();
         let name = self.technique_name.clone();
         self.take_technique(library, &name)?;
         for setting in settings {
             if let Err(error) = self.technique.set(&setting) {
-                log::info!("left out: {error}");
+                log::info!("dropped a setting: {error}");
             }
         }
         Ok(())
     }
 
-    /// Whether anything differs from the technique's file.
+    /// Whether the technique differs from its file.
     #[must_use]
     pub fn is_changed(&self) -> bool {
         self.technique != self.original

@@ -1,34 +1,33 @@
-//! What the window remembers from one time to the next.
+//! Settings that the window keeps from one run to the next.
 
 use std::path::{Path, PathBuf};
 
 use super::navigation::TurnMode;
 use super::viewpoint::UpAxis;
 
-/// The most files that are remembered.
+/// The most entries of recent files.
 const MOST_RECENT: usize = 10;
 
-/// What the window remembers from one time to the next; its size and place are remembered
-/// by the window system's side of it.
+/// Settings that the window keeps from one run to the next. eframe keeps the size and place
+/// of the window.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct Remembered {
-    /// Files that were opened, the last one first; several that were opened together are
-    /// one entry.
+    /// Recent files, the newest first. Files opened together are one entry.
     pub recent: Vec<Vec<PathBuf>>,
     /// Whether the panels are shown.
     pub shows_panels: bool,
-    /// The panel that is open.
+    /// The open panel.
     pub tab: Tab,
     /// How a drag turns the eye.
     pub turn_mode: TurnMode,
-    /// The axis of the models that points up.
+    /// The up axis of the models.
     pub up: UpAxis,
-    /// Light, dark, or as the system is.
+    /// Theme of the window.
     pub theme: Theme,
-    /// Width and height of pictures that are saved; the canvas's own where there is none.
+    /// Width and height of saved pictures in pixels; `None` for the size in the window.
     pub picture_size: Option<[u32; 2]>,
-    /// How many pictures a turntable has.
+    /// Number of pictures of a turntable.
     pub turntable_steps: u32,
 }
 
@@ -38,20 +37,20 @@ pub enum Tab {
     /// Technique, passes and variables.
     #[default]
     Look,
-    /// Classes of lines.
+    /// Line classes.
     Lines,
     /// Light and cuts.
     Light,
     /// Camera.
     View,
-    /// What there is to know.
+    /// Debug views, textures, counts and times.
     Inspect,
     /// Pictures and commands.
     Output,
 }
 
 impl Tab {
-    /// All of them with their names.
+    /// All tabs with their labels.
     pub const ALL: [(Self, &'static str); 6] = [
         (Self::Look, "Look"),
         (Self::Lines, "Lines"),
@@ -62,10 +61,10 @@ impl Tab {
     ];
 }
 
-/// Light or dark.
+/// Theme of the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub enum Theme {
-    /// As the system is.
+    /// As the desktop.
     #[default]
     System,
     /// Light.
@@ -100,7 +99,7 @@ impl Default for Remembered {
 }
 
 impl Remembered {
-    /// Puts files first; those that have no place of their own are not remembered.
+    /// Puts files first in the recent files; standard input and the demo are left out.
     pub fn opened(&mut self, models: &[PathBuf]) {
         let absolute = |path: &PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
         let is_file = |path: &PathBuf| path.is_file();
@@ -114,7 +113,7 @@ impl Remembered {
     }
 }
 
-/// What a list calls files that were opened together.
+/// The title of files opened together.
 #[must_use]
 pub fn name_of(models: &[PathBuf]) -> String {
     let name = |path: &Path| {

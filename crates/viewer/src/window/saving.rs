@@ -1,7 +1,7 @@
-//! Pictures and turntables, drawn and written while the window goes on.
+//! Pictures and turntables, drawn and written on another thread.
 //!
-//! They are drawn as `viewer render` draws them, by a renderer of their own, from a copy
-//! of the recipe: what is changed in the window meanwhile does not change them.
+//! They are drawn as by `viewer render`, by another renderer from a copy of the recipe, so
+//! that changes in the window do not affect them.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,6 +13,7 @@ use super::background::Tell;
 use super::recipe::Recipe;
 use crate::error::Error;
 use crate::picture::png::{encode_png, encode_png_with_text, read_png_text};
+use crate::picture::renderer::PictureInput;
 use crate::picture::tiles::AnySizeRenderer;
 use crate::picture::turntable;
 use crate::scene::models::Scene;
@@ -21,31 +22,31 @@ use crate::technique::Technique;
 /// The keyword of the text chunk with the recipe.
 const KEYWORD: &str = "Edgemesh";
 
-/// What is to be written.
+/// A picture or turntable to save.
 #[derive(Debug, Clone)]
 pub struct Order {
-    /// What is drawn.
+    /// The recipe.
     pub recipe: Recipe,
     /// Its models.
     pub scene: Arc<Scene>,
-    /// The techniques of objects of scene files.
-    pub looks: Vec<Technique>,
+    /// The techniques of single objects.
+    pub overrides: Vec<Technique>,
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// The file.
+    /// The file to write.
     pub path: PathBuf,
-    /// So many pictures around the target instead of one.
+    /// Number of pictures of a turntable; `None` for a single picture.
     pub turntable: Option<u32>,
-    /// What draws.
+    /// The device that draws.
     pub gpu: Gpu,
 }
 
-/// Draws and writes; says what was written.
+/// Draws and writes; returns a note about what was written.
 ///
 /// # Errors
 /// If it cannot be drawn or written; [`Error::Canceled`] if `tell` returns false.
 pub fn save(order: &Order, tell: Tell) -> Result<String, Error> {
-    let Order { recipe, scene, looks, size, path, turntable, gpu } = order;
+    let Order { recipe, scene, overrides, size, path, turntable, gpu } = order;
     let tell = |what: &str| match tell(what) {
         true => Ok(()),
         false => Err(Error::Canceled),
@@ -55,7 +56,8 @@ pub fn save(order: &Order, tell: Tell) -> Result<String, Error> {
     let camera = viewpoint.camera(&scene.frame);
     let options = recipe.picture_options(*size);
     let technique = &recipe.appearance.technique;
-    let mut renderer = AnySizeRenderer::new(gpu, scene, technique, looks, &options)?;
+    let input = PictureInput { scene, technique, overrides };
+    let mut renderer = AnySizeRenderer::new(gpu, input, &options)?;
     if let &Some(steps) = turntable {
         let is_transparent = options.is_transparent;
         crate::picture::turntable::write(path, steps, *size, is_transparent, |step| {
@@ -66,7 +68,7 @@ pub fn save(order: &Order, tell: Tell) -> Result<String, Error> {
         })?;
     } else {
         let (picture, _) = renderer.render(&camera, &mut |done, total| {
-            tell(&format!("drawing {}: part {done} of {total}", path.display()))
+            tell(&format!("drawing {}: tile {done} of {total}", path.display()))
         })?;
         tell(&format!("writing {}", path.display()))?;
         let text = recipe.words().and_then(|words| serde_json::to_string(&words).ok());
@@ -76,10 +78,10 @@ pub fn save(order: &Order, tell: Tell) -> Result<String, Error> {
     Ok(format!("saved as {}", path.display()))
 }
 
-/// Writes the pixels of the window; says what was written.
+/// Writes the pixels of the window; returns a note about what was written.
 ///
 /// # Errors
-/// Where they cannot be written.
+/// If they cannot be written.
 pub fn save_window(path: &Path, pixels: &egui::ColorImage, tell: Tell) -> Result<String, Error> {
     tell(&format!("writing {}", path.display()));
     let [width, height] = pixels.size.map(edgemesh::index::to_u32);
@@ -90,8 +92,7 @@ pub fn save_window(path: &Path, pixels: &egui::ColorImage, tell: Tell) -> Result
     Ok(format!("saved as {}", path.display()))
 }
 
-/// The words of the recipe in a picture that [`save`] wrote; none where the file is no
-/// such picture.
+/// The recipe's words in a picture written by [`save`]; `None` for any other file.
 #[must_use]
 pub fn words_in(path: &Path) -> Option<Vec<String>> {
     serde_json::from_str(&read_png_text(path, KEYWORD)?).ok()

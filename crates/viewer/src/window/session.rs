@@ -1,5 +1,5 @@
-//! What the window shows and knows, without any of its pixels: panels read and change it,
-//! the canvas draws it. Knows no GPU, so that panels are tested without one.
+//! The state of the window without pixels: panels read and change it, the canvas draws it. It
+//! knows no GPU, so that panels are tested without one.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -26,82 +26,82 @@ use crate::technique::Technique;
 use crate::technique::library::Library;
 use crate::technique::texture_format::PassTexture;
 
-/// What the window shows and knows.
+/// The state of the window.
 #[derive(Debug)]
 pub struct Session {
     /// Techniques and components.
     pub library: Library,
-    /// What is drawn.
+    /// What the picture is made of.
     pub recipe: Recipe,
-    /// The models, once they are there.
+    /// The models, once they are loaded.
     pub scene: Option<Arc<Scene>>,
     /// The objects of scene files.
     pub objects: Vec<SceneObject>,
-    /// What is remembered.
+    /// Settings kept from one run to the next.
     pub remembered: Remembered,
-    /// What there is to say.
+    /// Messages to show.
     pub messages: Messages,
-    /// Small pictures of techniques, by name.
+    /// Thumbnails of techniques.
     pub thumbnails: Thumbnails,
-    /// What the last pictures drew and cost, the newest last.
+    /// Statistics of the last pictures, the newest last; at most [`KEPT_FRAMES`].
     pub statistics: Vec<FrameStatistics>,
-    /// The adapter that draws.
+    /// Name of the adapter.
     pub adapter: String,
-    /// Whether the keys are shown.
+    /// Whether the sheet of keys is shown.
     pub shows_keys: bool,
-    /// What is done meanwhile.
+    /// Work on other threads.
     pub work: Vec<Work>,
-    /// What panels ask of the window.
+    /// Requests of panels, which the window carries out.
     pub requests: Vec<Request>,
-    /// The textures that the technique draws, once it is drawn.
+    /// The textures between passes, once the technique is drawn.
     pub generated: Vec<PassTexture>,
-    /// The one that is shown instead of the picture.
+    /// The texture shown in place of the picture.
     pub inspection: Option<Inspection>,
-    /// What was drawn before a look for looking, to go back to.
-    pub before_looking: Option<Appearance>,
-    /// The number of the cut that the hand moves; the last one where there are fewer.
+    /// The appearance that a debug view has replaced, to go back to.
+    pub before_debug_view: Option<Appearance>,
+    /// Index of the cut that drags move, if there are that many; else the last cut moves.
     pub chosen_cut: usize,
-    /// Edges that are marked by hand.
+    /// Edges marked by hand.
     pub marking: Marking,
-    /// Another look beside this one.
+    /// Another appearance shown beside this one.
     pub comparison: Option<Comparison>,
     undoer: Undoer<Appearance>,
 }
 
-/// Another look, at the right of a line across the picture.
+/// Another appearance, to the right of a line across the picture.
 #[derive(Debug, Clone)]
 pub struct Comparison {
-    /// The look.
+    /// The appearance.
     pub appearance: Appearance,
-    /// Where the line is: 0 at the left, 1 at the right.
+    /// Position of the line: 0 at the left, 1 at the right.
     pub share: f32,
 }
 
-/// Something that is done while the window goes on.
+/// Work on another thread.
 #[derive(Debug, Clone)]
 pub struct Work {
-    /// What.
+    /// Its current stage.
     pub what: String,
-    /// Since when.
+    /// When it started.
     pub since: Instant,
-    /// The number of the saving; none for loading.
+    /// Index of the save; `None` for a load.
     pub saving: Option<usize>,
 }
 
 impl Work {
-    /// Whether models are loaded.
+    /// Whether models are being loaded.
     #[must_use]
     pub const fn is_loading(&self) -> bool {
         self.saving.is_none()
     }
 }
 
-/// Small pictures of techniques, by name.
+/// Thumbnails of techniques.
 #[derive(Default)]
 pub struct Thumbnails {
-    /// Those that are there.
+    /// Textures by technique name.
     pub textures: BTreeMap<String, egui::TextureHandle>,
-    /// Whether they were asked for.
+    /// Whether they were requested.
     pub are_wanted: bool,
 }
 
@@ -111,40 +111,40 @@ impl std::fmt::Debug for Thumbnails {
     }
 }
 
-/// What panels ask of the window.
+/// A request of a panel, which the window carries out.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Request {
-    /// Ask for files and open them.
+    /// Choose files and open them.
     ChooseFiles,
-    /// Open these files.
+    /// Open files.
     Open(Vec<PathBuf>),
-    /// Read the files again.
+    /// Read the open files again.
     Reload,
-    /// Stop loading, or the saving of a number.
+    /// Cancel the save with this index, or the load if `None`.
     Cancel(Option<usize>),
-    /// Ask where to save the technique as it is, and save it.
+    /// Choose a file and save the technique with its changes.
     SaveTechnique,
-    /// Draw the small pictures of the techniques.
+    /// Draw the thumbnails of the techniques.
     DrawThumbnails,
-    /// Put this on the clipboard, and say so with the second text.
+    /// Copy the text to the clipboard and show the note.
     Copy(String, &'static str),
-    /// Go to a viewpoint smoothly.
+    /// Fly to a viewpoint.
     GoTo(Viewpoint),
-    /// Ask where to save a picture, or so many around the target, and save it.
+    /// Choose a file and save a picture, or a turntable of this many pictures.
     SavePicture(Option<u32>),
-    /// Ask where to save the window as it is, panels and all, and save it.
+    /// Choose a file and save the window with its panels.
     SaveWindow,
     /// Close the window.
     Quit,
-    /// Lose the graphics device, to see what happens.
+    /// Lose the graphics device on purpose.
     LoseDevice {
-        /// Within a frame, or before one.
+        /// Whether within a frame; else before one.
         is_within_frame: bool,
     },
 }
 
-/// Techniques that show what others are made of, with what they show.
-pub const LOOKS: [(&str, &str); 5] = [
+/// The debug views: techniques that show what others are made of, with their labels.
+pub(crate) const DEBUG_VIEWS: [(&str, &str); 5] = [
     ("debug_features", "Edge classes"),
     ("wireframe", "Wireframe"),
     ("debug_normals", "Normals"),
@@ -152,14 +152,14 @@ pub const LOOKS: [(&str, &str); 5] = [
     ("debug_ids", "Regions"),
 ];
 
-/// A pass that takes longer makes the window wait, in milliseconds.
+/// A pass that takes longer than this, in milliseconds, is reported.
 const SLOW_MS: f64 = 2000.0;
 
-/// The most frames whose times are kept.
+/// The number of frames whose statistics are kept.
 pub const KEPT_FRAMES: usize = 120;
 
 impl Session {
-    /// A session before its models are there.
+    /// A session without models.
     #[must_use]
     pub fn new(library: Library, recipe: Recipe, remembered: Remembered) -> Self {
         let undoer = Undoer::with_settings(Settings {
@@ -182,7 +182,7 @@ impl Session {
             requests: Vec::new(),
             generated: Vec::new(),
             inspection: None,
-            before_looking: None,
+            before_debug_view: None,
             chosen_cut: 0,
             marking: Marking::default(),
             comparison: None,
@@ -190,8 +190,8 @@ impl Session {
         }
     }
 
-    /// Goes on in another window, on another device: without what was that one's own. Its
-    /// clock begins anew.
+    /// Prepares the session for another window and device: drops textures, statistics and
+    /// work. The undo history starts a new clock.
     pub fn move_on(&mut self) {
         self.thumbnails = Thumbnails::default();
         self.statistics.clear();
@@ -201,15 +201,15 @@ impl Session {
         self.undoer.add_undo(&self.recipe.appearance);
     }
 
-    /// Asks something of the window.
+    /// Adds a request.
     pub fn ask(&mut self, request: Request) {
         self.requests.push(request);
     }
 
-    /// Takes the models that were loaded.
+    /// Takes loaded models.
     ///
     /// # Errors
-    /// Where the camera of the command line looks nowhere.
+    /// If the camera of the command line sees nothing; the default view is taken then.
     pub fn take_scene(
         &mut self,
         models: Vec<PathBuf>,
@@ -221,7 +221,7 @@ impl Session {
         self.remembered.opened(&models);
         self.recipe.models = models;
         let told = match (is_first, is_same) {
-            // What was opened again is seen as it was.
+            // Models that are loaded again keep their view.
             (_, true) => Ok(()),
             (true, _) => self.recipe.take_viewpoint(&scene.bounds, &scene.frame),
             (false, false) => {
@@ -238,16 +238,15 @@ impl Session {
         self.scene = Some(scene);
         self.objects = objects;
         self.statistics.clear();
-        // Marks are of the models that were there.
+        // Marks belong to the models before.
         self.marking.forget();
         told
     }
 
-    /// Reads techniques and components again, and the technique with what was changed in
-    /// it.
+    /// Reads techniques and components again, and applies the changes of the technique again.
     ///
     /// # Errors
-    /// What is wrong with it; it stays as it was.
+    /// All mistakes in the technique, which then stays as it was.
     pub fn read_again(&mut self) -> Result<(), Error> {
         let library = self.recipe.read_library();
         let mut appearance = self.recipe.appearance.clone();
@@ -257,7 +256,7 @@ impl Session {
         Ok(())
     }
 
-    /// The folders of the technique's files, and of the user's own.
+    /// The folders of the technique's files and of the user's shaders.
     #[must_use]
     pub fn watched_folders(&self) -> Vec<PathBuf> {
         let mut folders = self.recipe.appearance.technique.folders.clone();
@@ -265,12 +264,12 @@ impl Session {
         folders
     }
 
-    /// Takes the recipe of a picture: its technique with what was changed, its light, its
-    /// camera. Where its models are there and are not open, all of that waits for them: the
-    /// recipe is given back, to be taken once they are loaded.
+    /// Takes the recipe of a picture: its technique with changes, its light, its camera. If
+    /// its models exist and are not open, the recipe is returned, to be taken once they are
+    /// loaded.
     ///
     /// # Errors
-    /// Where it cannot be read; everything stays as it was.
+    /// If the words cannot be read; nothing changes then.
     pub fn take_words(&mut self, words: &[String]) -> Result<Option<Recipe>, Error> {
         let mut recipe = Recipe::of_words(words, &self.library)?;
         recipe.take_machine(&self.recipe);
@@ -284,9 +283,10 @@ impl Session {
             if is_open {
                 self.recipe.take_arguments(&recipe);
             } else {
-                // The models that are open were read as the arguments say that are here.
+                // The arguments stay, since the open models were read with them.
                 let names = crate::window::remembered::name_of(&recipe.models);
-                self.messages.note(format!("{names} is not there; the rest was taken"));
+                self.messages
+                    .note(format!("{names} was not found; the other settings were applied"));
             }
             self.recipe.appearance = recipe.appearance;
             return Ok(None);
@@ -294,7 +294,7 @@ impl Session {
         Ok(Some(recipe))
     }
 
-    /// Compares with a technique, or with nothing any more; what is wrong with it is told.
+    /// Compares with a technique, or ends the comparison if `None`. Mistakes are reported.
     pub fn compare_with(&mut self, name: Option<&str>) {
         let Some(name) = name else {
             self.comparison = None;
@@ -310,17 +310,18 @@ impl Session {
         }
     }
 
-    /// Changes sides with the look that this one is compared with.
+    /// Swaps the two sides of the comparison.
     pub fn swap_sides(&mut self) {
         if let Some(comparison) = &mut self.comparison {
             let (own, other) = (&mut self.recipe.appearance, &mut comparison.appearance);
             std::mem::swap(own, other);
-            // The light is that of the scene.
+            // Both sides have the light of the scene.
             std::mem::swap(&mut own.lighting, &mut other.lighting);
         }
     }
 
-    /// Takes another technique; what is wrong with it is told, and the one before stays.
+    /// Takes another technique. If it has mistakes, they are reported and the technique
+    /// stays.
     pub fn take_technique(&mut self, name: &str) {
         let mut appearance = self.recipe.appearance.clone();
         match appearance.take_technique(&self.library, name) {
@@ -332,44 +333,44 @@ impl Session {
         }
     }
 
-    /// Takes a look for looking; what was drawn before stays known with its changes.
-    pub fn look_with(&mut self, name: &str) {
+    /// Shows a debug view. The appearance before it is kept, with its changes.
+    pub fn show_debug_view(&mut self, name: &str) {
         let before = self.recipe.appearance.clone();
-        let is_looking = self.is_looking();
+        let was_debug_view = self.is_debug_view();
         self.take_technique(name);
-        if self.recipe.appearance.technique_name == name && !is_looking {
-            self.before_looking = Some(before);
+        if self.recipe.appearance.technique_name == name && !was_debug_view {
+            self.before_debug_view = Some(before);
         }
     }
 
-    /// Whether what is drawn is a look for looking, with something to go back to.
+    /// Whether a debug view is shown that can be left.
     #[must_use]
-    pub fn is_looking(&self) -> bool {
+    pub fn is_debug_view(&self) -> bool {
         let name = self.recipe.appearance.technique_name.as_str();
-        self.before_looking.is_some() && LOOKS.iter().any(|(look, _)| *look == name)
+        self.before_debug_view.is_some() && DEBUG_VIEWS.iter().any(|(view, _)| *view == name)
     }
 
-    /// Goes back to what was drawn before.
-    pub fn stop_looking(&mut self) {
-        let is_looking = self.is_looking();
-        if let Some(before) = self.before_looking.take().filter(|_| is_looking) {
+    /// Goes back to the appearance before the debug view.
+    pub fn leave_debug_view(&mut self) {
+        let is_debug_view = self.is_debug_view();
+        if let Some(before) = self.before_debug_view.take().filter(|_| is_debug_view) {
             let now = &self.recipe.appearance;
-            // The light may have been moved meanwhile.
+            // The light may have changed since.
             let (lighting, is_transparent) = (now.lighting.clone(), now.is_transparent);
             self.recipe.appearance = Appearance { lighting, is_transparent, ..before };
         }
     }
 
-    /// The techniques of objects of scene files.
+    /// The techniques of single objects; empty if no object has one.
     ///
     /// # Errors
-    /// What is wrong with one of them.
-    pub fn object_looks(&self) -> Result<Vec<Technique>, Error> {
+    /// If one of them has a mistake.
+    pub fn object_overrides(&self) -> Result<Vec<Technique>, Error> {
         let technique = &self.recipe.appearance.technique;
         object_techniques(&self.objects, &self.library, technique, &mut |_| ())
     }
 
-    /// Goes to one of the sides, and fits the models.
+    /// Shows a side, and fits the models into the picture.
     pub fn go_to_side(&mut self, view: NamedView) {
         if let Some(from) = self.recipe.viewpoint {
             let up = self.remembered.up;
@@ -377,7 +378,7 @@ impl Session {
         }
     }
 
-    /// Goes back to where a model is seen from at first.
+    /// Goes to the default view.
     pub fn go_home(&mut self) {
         if let Some(scene) = &self.scene {
             let up = self.remembered.up;
@@ -386,7 +387,7 @@ impl Session {
         }
     }
 
-    /// A viewpoint from where all is seen.
+    /// The viewpoint moved so that all models are visible.
     #[must_use]
     pub fn fitted(&self, view: &Viewpoint) -> Viewpoint {
         match &self.scene {
@@ -395,53 +396,52 @@ impl Session {
         }
     }
 
-    /// The command that draws this picture, at a size.
+    /// The command line that draws this picture in a size; `None` as for [`Recipe::words`].
     #[must_use]
     pub fn command(&self, size: [u32; 2]) -> Option<String> {
         Some(render_command(self.recipe.words()?, size))
     }
 
-    /// Sees what has changed since; to be called with every frame, at the window's time in
-    /// seconds.
+    /// Records changes for undo; called in every frame with the window's time in seconds.
     pub fn watch_changes(&mut self, time: f64) {
         self.undoer.feed_state(time, &self.recipe.appearance);
     }
 
-    /// Whether there is something to undo.
+    /// Whether a change can be undone.
     #[must_use]
     pub fn has_undo(&self) -> bool {
         self.undoer.has_undo(&self.recipe.appearance)
     }
 
-    /// Whether there is something to redo.
+    /// Whether an undone change can be redone.
     #[must_use]
     pub fn has_redo(&self) -> bool {
         self.undoer.has_redo(&self.recipe.appearance)
     }
 
-    /// Takes the last change back.
+    /// Undoes the last change.
     pub fn undo(&mut self) {
         if let Some(before) = self.undoer.undo(&self.recipe.appearance).cloned() {
             self.recipe.appearance = before;
         }
     }
 
-    /// Does again what was taken back.
+    /// Redoes the last undone change.
     pub fn redo(&mut self) {
         if let Some(after) = self.undoer.redo(&self.recipe.appearance).cloned() {
             self.recipe.appearance = after;
         }
     }
 
-    /// Keeps what a picture drew and cost; one that made the window wait is told.
+    /// Keeps the statistics of a picture; a slow pass is reported.
     pub fn keep(&mut self, statistics: FrameStatistics) {
         let times = statistics.passes.iter().filter_map(|(name, ms)| Some((name, (*ms)?)));
         let slowest = times.max_by(|one, other| one.1.total_cmp(&other.1));
         if let Some((name, ms)) = slowest.filter(|(_, ms)| *ms > SLOW_MS) {
             let seconds = ms / 1e3;
             self.messages.note(format!(
-                "the pass '{name}' took {seconds:.1} s, and the window had to wait for it; it can \
-                 be switched off under Look"
+                "the pass '{name}' took {seconds:.1} s, which blocked the window; it can be \
+                 switched off under Look"
             ));
         }
         if self.statistics.len() == KEPT_FRAMES {

@@ -1,4 +1,4 @@
-//! What the window looks like: calm, with room around everything, in light and in dark.
+//! Colors, fonts and spacing of the window, for the light and the dark theme.
 
 use egui::{Color32, Context, CornerRadius, FontId, TextStyle, Visuals, vec2};
 

@@ -1,5 +1,5 @@
-//! Small pictures of every technique, for the list of techniques: drawn when the list is
-//! opened first, on a thread of its own, of our own model.
+//! Thumbnails of all techniques, drawn on another thread when their list is first opened,
+//! with the demo model.
 
 use std::sync::mpsc::Sender;
 
@@ -11,22 +11,22 @@ use strokes::gpu::device::Gpu;
 use super::background::Tell;
 use crate::error::Error;
 use crate::picture::png::as_stored;
-use crate::picture::renderer::{PictureOptions, PictureRenderer};
+use crate::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use crate::scene::models::Scene;
 use crate::scene::scene_file::SceneObject;
 use crate::technique::library::Library;
 
-/// Width and height in pixels: twice the points that they are shown with.
+/// Width and height in pixels: twice the size in points.
 pub const SIZE: [u32; 2] = [144, 108];
 
 /// The name of a technique, and its picture.
 pub type Thumbnail = (String, RgbaImage);
 
-/// Draws each technique of the library and sends it with its name.
+/// Draws each technique of the library and sends it with its name. A technique that cannot be
+/// drawn is left out.
 ///
 /// # Errors
-/// Where the model cannot be drawn at all, or `tell` wants no more. A technique that
-/// cannot be drawn has no picture.
+/// If the model cannot be loaded, or `tell` cancels.
 pub fn draw(
     gpu: &Gpu,
     library: &Library,
@@ -36,7 +36,7 @@ pub fn draw(
     let object = SceneObject::plain(DEMO.as_ref());
     let scene = Scene::load(&[object], &LoadOptions::default(), &NoProgress)?;
     let camera = Camera::default_view(&scene.bounds);
-    // A little nearer than the whole bounding sphere.
+    // A little closer than the whole bounding sphere needs.
     let camera = Camera { eye: camera.target + (camera.eye - camera.target) * 0.72, ..camera };
     let options = PictureOptions { size: SIZE, ..PictureOptions::default() };
     let mut renderer: Option<PictureRenderer> = None;
@@ -46,8 +46,8 @@ pub fn draw(
         }
         let Ok((technique, _)) = library.technique(name) else { continue };
         let made = match &mut renderer {
-            Some(renderer) => renderer.reload(&scene, &technique, &[], &options),
-            None => PictureRenderer::new(gpu, &scene, &technique, &[], &options)
+            Some(renderer) => renderer.reload(PictureInput::new(&scene, &technique), &options),
+            None => PictureRenderer::new(gpu, PictureInput::new(&scene, &technique), &options)
                 .map(|made| renderer = Some(made)),
         };
         let drawn = made.ok().and(renderer.as_mut());

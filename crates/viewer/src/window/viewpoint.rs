@@ -1,5 +1,5 @@
-//! The camera of the window: in the units of the files, so that a copied command has the
-//! very numbers that the window draws with.
+//! The camera of the window, in units of the files, so that a copied command has exactly the
+//! numbers that the window draws with.
 
 use edgemesh::edge_mesh::{Bounds, MeshFrame};
 use edgemesh::view::camera::{
@@ -10,33 +10,33 @@ use glam::DVec3;
 use crate::arguments::{CameraArguments, read_camera};
 use crate::error::Error;
 
-/// Where the eye is and where it looks, in the units of the files.
+/// Position and direction of the eye, in units of the files.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Viewpoint {
-    /// The eye.
+    /// Position of the eye.
     pub eye: DVec3,
     /// The point looked at, around which the eye turns.
     pub target: DVec3,
-    /// The direction that points up in the picture, across the line of sight.
+    /// The direction that points up in the picture, perpendicular to the line of sight.
     pub up: DVec3,
     /// Vertical field of view in degrees.
     pub fov_y_deg: f64,
-    /// Whether lines of sight are parallel.
+    /// Whether the projection is orthographic.
     pub is_orthographic: bool,
 }
 
-/// The axis of the models that points up.
+/// The up axis of the models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub enum UpAxis {
     /// +Y, as in most pictures and games.
     #[default]
     Y,
-    /// +Z, as in most drawings of parts and buildings.
+    /// +Z, as in most technical drawings.
     Z,
 }
 
 impl UpAxis {
-    /// The axis.
+    /// The axis as a unit vector.
     #[must_use]
     pub const fn direction(self) -> DVec3 {
         match self {
@@ -45,22 +45,22 @@ impl UpAxis {
         }
     }
 
-    /// A direction of a model whose +Y is up, in one whose up is this axis.
+    /// Turns a direction from a model whose up axis is +Y to one with this axis.
     fn turned(self, with_y_up: DVec3) -> DVec3 {
         match self {
             Self::Y => with_y_up,
-            // Front (+Z) becomes -Y, as draughtsmen have it.
+            // Front (+Z) becomes -Y, the convention of technical drawing.
             Self::Z => DVec3::new(with_y_up.x, -with_y_up.z, with_y_up.y),
         }
     }
 }
 
-/// A view that has a name.
+/// A view with a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NamedView {
-    /// From +Z where +Y is up, from -Y where +Z is.
+    /// From +Z if +Y is up, from -Y if +Z is.
     Front,
-    /// From the other side.
+    /// From the side opposite to the front.
     Back,
     /// From -X.
     Left,
@@ -70,12 +70,12 @@ pub enum NamedView {
     Top,
     /// From below.
     Bottom,
-    /// From (1, 1, 1), where all three axes are as short.
+    /// From (1, 1, 1), which shortens all axes equally.
     Isometric,
 }
 
 impl NamedView {
-    /// All of them.
+    /// All named views.
     pub const ALL: [Self; 7] = [
         Self::Front,
         Self::Back,
@@ -86,7 +86,7 @@ impl NamedView {
         Self::Isometric,
     ];
 
-    /// Its name.
+    /// The name in menus.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -100,7 +100,8 @@ impl NamedView {
         }
     }
 
-    /// From where it is seen, and what points up, in a model whose +Y is up.
+    /// Direction from the target to the eye, and the up direction, in a model whose up axis
+    /// is +Y.
     const fn directions(self) -> (DVec3, DVec3) {
         match self {
             Self::Front => (DVec3::Z, DVec3::Y),
@@ -115,7 +116,7 @@ impl NamedView {
 }
 
 impl Viewpoint {
-    /// The view that every command has where none is given.
+    /// The view that all commands use by default.
     #[must_use]
     pub fn default_view(bounds: &Bounds, frame: &MeshFrame, up: UpAxis) -> Self {
         let first = Self {
@@ -128,7 +129,7 @@ impl Viewpoint {
         first.fitted(bounds, frame)
     }
 
-    /// The camera that sees the same of a scene in `frame`.
+    /// The camera with the same view of a scene in `frame`.
     #[must_use]
     pub fn camera(&self, frame: &MeshFrame) -> Camera {
         Camera {
@@ -140,7 +141,8 @@ impl Viewpoint {
         }
     }
 
-    /// The same of a camera of a scene in `frame`, as options of a command line gave it.
+    /// The viewpoint of a camera of a scene in `frame`; `fov_y_deg` replaces its field of
+    /// view.
     #[must_use]
     pub fn of_camera(camera: &Camera, frame: &MeshFrame, fov_y_deg: Option<f64>) -> Self {
         Self {
@@ -152,13 +154,13 @@ impl Viewpoint {
         }
     }
 
-    /// The direction of sight.
+    /// The unit vector from the eye to the target.
     #[must_use]
     pub fn forward(&self) -> DVec3 {
         (self.target - self.eye).try_normalize().unwrap_or(DVec3::NEG_Z)
     }
 
-    /// Right, up and toward the viewer, each of length 1 and across the others.
+    /// Right, up and toward the viewer, as orthogonal unit vectors.
     #[must_use]
     pub fn axes(&self) -> [DVec3; 3] {
         let back = -self.forward();
@@ -167,18 +169,18 @@ impl Viewpoint {
         [right, back.cross(right), back]
     }
 
-    /// The distance from the eye to the target.
+    /// Distance from the eye to the target.
     #[must_use]
     pub fn distance(&self) -> f64 {
         self.eye.distance(self.target)
     }
 
-    /// The same direction of sight, from where the whole of a scene is seen.
+    /// The same direction of sight, from where the whole scene is visible.
     #[must_use]
     pub fn fitted(&self, bounds: &Bounds, frame: &MeshFrame) -> Self {
         let radius = bounds.radius() / frame.scale;
         let radius = if radius > 0.0 { radius } else { 1.0 / frame.scale };
-        // As far as the default view is with its field of view.
+        // At the distance of the default view, scaled for the field of view.
         let half = |degrees: f64| (degrees.to_radians() / 2.0).tan();
         let distance =
             DEFAULT_DISTANCE_RADII * radius * half(DEFAULT_FOV_Y_DEG) / half(self.fov_y_deg);
@@ -186,7 +188,7 @@ impl Viewpoint {
         Self { eye: target - self.forward() * distance, target, ..*self }
     }
 
-    /// The same target and distance, seen from one of the sides.
+    /// The same target and distance, seen from a side.
     #[must_use]
     pub fn from_side(&self, view: NamedView, up: UpAxis) -> Self {
         let (from, above) = view.directions();
@@ -194,7 +196,7 @@ impl Viewpoint {
         Self { eye, up: up.turned(above), ..*self }
     }
 
-    /// As arguments of a command.
+    /// The camera options of a command line.
     pub(crate) const fn arguments(&self) -> CameraArguments {
         CameraArguments {
             eye: Some(self.eye),
@@ -205,12 +207,12 @@ impl Viewpoint {
         }
     }
 
-    /// Reads the camera in a text, such as a copied command; other words are left out. What
-    /// the text does not name stays.
+    /// Reads the camera options in a text, such as a copied command; other words are ignored.
+    /// Options that the text does not name stay.
     ///
     /// # Errors
-    /// [`Error::CommandLine`], if there is none, or something is wrong with it;
-    /// [`Error::Camera`], if it sees nothing.
+    /// [`Error::CommandLine`], if there are none or one is wrong; [`Error::Camera`], if the
+    /// camera sees nothing.
     pub fn pasted(&self, text: &str) -> Result<Self, Error> {
         let read = read_camera(text)?;
         let pasted = Self {

@@ -1,7 +1,7 @@
-//! Technique, shader and image files, watched on a thread of their own.
+//! Technique, shader and image files, watched on another thread.
 //!
-//! A change is told twice: at once, when what is wrong may be half saved and is not told;
-//! and again when all is quiet, when it is.
+//! A change is reported twice: at once, when the files may be half saved and errors are not
+//! shown, and again when no more changes follow.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -11,10 +11,10 @@ use std::time::Duration;
 
 use crate::watch::{WatchError, Watcher};
 
-/// How often the thread asks whether anyone still wants to know.
+/// How often the thread checks whether the watch has ended.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// Some folders, watched until this is dropped.
+/// Folders that are watched until this is dropped.
 #[derive(Debug)]
 pub struct Watching {
     folders: Vec<PathBuf>,
@@ -22,17 +22,17 @@ pub struct Watching {
     is_over: Arc<AtomicBool>,
 }
 
-/// Files have changed.
+/// A change of files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Change {
-    /// And may be half saved.
+    /// The files may be half saved.
     Now,
-    /// And are as they will stay.
+    /// The files have not changed for a while.
     Settled,
 }
 
 impl Watching {
-    /// Watches folders; `wake` is called when something has changed.
+    /// Watches folders; `wake` is called after each change.
     ///
     /// # Errors
     /// [`WatchError`].
@@ -51,7 +51,7 @@ impl Watching {
                 }
                 let is_heard = sender.send(Change::Now).is_ok();
                 wake();
-                // What goes on changing is told when it changes.
+                // Another change comes with its own report.
                 if is_heard && watcher.settled() {
                     let _ = sender.send(Change::Settled);
                     wake();
@@ -61,13 +61,13 @@ impl Watching {
         Ok(Self { folders: folders.to_owned(), changes, is_over })
     }
 
-    /// Whether these are the folders that are watched.
+    /// Whether these are the watched folders.
     #[must_use]
     pub fn is_of(&self, folders: &[PathBuf]) -> bool {
         self.folders == folders
     }
 
-    /// The last change, if there was one.
+    /// The last change since the last call.
     #[must_use]
     pub fn take(&self) -> Option<Change> {
         self.changes.try_iter().last()

@@ -40,7 +40,7 @@ impl LineSelection {
     /// The variable with the classes.
     pub(crate) const CLASSES: &str = "classes";
 
-    /// The lines that a pass draws; none if it is not a pass of strokes, or if the values
+    /// The lines that a pass draws; `None` if it is not a pass of strokes, or if the values
     /// cannot be read.
     #[must_use]
     pub fn of(pass: &Pass) -> Option<Self> {
@@ -70,8 +70,7 @@ impl LineSelection {
     }
 }
 
-/// The classes of a text, separated by commas or blanks; an error names the first unknown
-/// word.
+/// The classes in a text, separated by commas or spaces; the error is the first unknown word.
 fn parse_classes(text: &str) -> Result<Vec<LineClass>, &str> {
     if text.trim() == ALL_CLASSES {
         return Ok(LineClass::ALL.to_vec());

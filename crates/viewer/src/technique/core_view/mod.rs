@@ -34,9 +34,7 @@ pub use self::render_target::RenderTarget;
 pub use self::run_mode::RunMode;
 pub use self::screen::{Composite, GenerateTexture, PingPong, ProcessTexture};
 pub use self::simple_render::SimpleRender;
-pub use self::strokes::{
-    LinkVariables, MIN_WIDTH_PX, StrokeEnds, StrokeKind, StrokeWidth, Strokes, WidthUnit,
-};
+pub use self::strokes::{MIN_WIDTH_PX, StrokeEnds, StrokeKind, StrokeWidth, Strokes, WidthUnit};
 use super::core::CoreComponent;
 use super::mistake::Mistakes;
 use super::pass::Pass;

@@ -6,8 +6,8 @@ use crate::technique::texture_name::TextureName;
 use crate::technique::value::{Value, VariableType};
 use crate::technique::word::Word;
 
-/// The variables of a pass. A value that cannot be read adds a mistake and is replaced by
-/// a placeholder, so that one reading finds all mistakes.
+/// Reads the variables of a pass. A value that cannot be read adds a mistake and becomes a
+/// placeholder, so that one reading finds all mistakes.
 pub(crate) struct Reader<'a> {
     pass: &'a Pass,
     mistakes: &'a mut Mistakes,
@@ -22,7 +22,7 @@ pub(crate) struct Reader<'a> {
 pub(super) struct LogEntry {
     pub(super) name: &'static str,
     pub(super) kind: VariableType,
-    /// The words of all values of its type, if it is read as a word.
+    /// The words of its type, if it is read as a word.
     pub(super) words: Vec<&'static str>,
 }
 
@@ -50,7 +50,7 @@ impl<'a> Reader<'a> {
         found.map(|(index, _)| &pass.values()[index])
     }
 
-    /// Where a variable was set, or else the pass.
+    /// The place where a variable was set, or else the pass.
     pub(super) fn place(&self, name: &'static str) -> &'a Place {
         self.pass.place_of(name)
     }

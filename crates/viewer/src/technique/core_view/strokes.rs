@@ -1,7 +1,7 @@
 //! The variables of `strokes`.
 
 use edgemesh::line::placement::{Parameterization, Placement};
-use strokes::style::link_style::{BrushFit, CURVE_LENGTH, Join};
+use strokes::style::link_style::{BrushFit, CURVE_LENGTH, End, Join, LinkStyle};
 
 use super::curve::parse_curve;
 use super::lines::LineSelection;
@@ -35,14 +35,14 @@ pub struct Strokes {
     /// Distances from the eye, in units of the model, at which strokes begin and finish
     /// fading.
     pub fade: Option<[f32; 2]>,
-    /// Smallest angle of a ridge in degrees; none for that of the mesh.
+    /// Smallest angle of a ridge in degrees; `None` for that of the mesh.
     pub ridge_angle_deg: Option<f32>,
-    /// Smallest angle of a valley in degrees; none for that of the mesh.
+    /// Smallest angle of a valley in degrees; `None` for that of the mesh.
     pub valley_angle_deg: Option<f32>,
     /// Whether edges are linked into strokes.
     pub is_linked: bool,
-    /// How edges are linked.
-    pub link: LinkVariables,
+    /// How edges are linked, if [`Self::is_linked`].
+    pub link: LinkStyle,
 }
 
 /// Width of strokes.
@@ -58,7 +58,7 @@ pub enum StrokeWidth {
 /// `width` can also be in units of the model.
 pub const MIN_WIDTH_PX: f32 = 0.1;
 
-/// Shorter dashes and gaps, in pixels, are none.
+/// If a dash or gap is shorter than this, strokes have no dashes.
 const MIN_DASH_PX: f32 = 0.1;
 
 /// Largest factor of `width_curve`.
@@ -67,44 +67,10 @@ const MAX_WIDTH_FACTOR: f32 = 10.0;
 /// Largest factor of `opacity_curve`.
 const MAX_OPACITY_FACTOR: f32 = 1.0;
 
-/// How edges are linked into strokes; lengths are in pixels.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LinkVariables {
-    /// How segments meet.
-    pub join: Join,
-    /// Strokes are cut where they turn by more than this, in degrees.
-    pub corner_deg: f32,
-    /// Whether strokes end where they become hidden.
-    pub is_cut_hidden: bool,
-    /// Shorter strokes fade; none for the width of the stroke.
-    pub min_length_px: Option<f32>,
-    /// Longer strokes are cut; 0 for no limit.
-    pub max_length_px: f32,
-    /// How the brush is mapped along a stroke.
-    pub fit: BrushFit,
-    /// Lengths over which strokes grow at the start and shrink at the end.
-    pub taper_px: [f32; 2],
-    /// Length by which strokes extend past their ends.
-    pub overshoot_px: f32,
-    /// Factors of the width at equal steps along a stroke, 0 to 10.
-    pub width_curve: [f32; CURVE_LENGTH],
-    /// Factors of the opacity at equal steps along a stroke, 0 to 1.
-    pub opacity_curve: [f32; CURVE_LENGTH],
-    /// Amplitude of a slow swing.
-    pub wobble_px: f32,
-    /// Wavelength of the swing.
-    pub wobble_length_px: f32,
-    /// Amplitude of a fast tremble.
-    pub jitter_px: f32,
-    /// Seed of both.
-    pub seed: u16,
-    /// Lengths of dash and gap; none for solid strokes.
-    pub dash_px: Option<[f32; 2]>,
-}
-
 impl Strokes {
     pub(super) fn read(reader: &mut Reader) -> Self {
         let [fade_begin, fade_end] = reader.vector2("fade");
+        let ends = reader.word("ends");
         Self {
             lines: LineSelection::read(reader),
             color: reader.rgba("color"),
@@ -114,40 +80,44 @@ impl Strokes {
             parameterization: reader.word("parameterization"),
             placement: reader.word("placement"),
             kind: reader.word("kind"),
-            ends: reader.word("ends"),
+            ends,
             fade: (fade_end > fade_begin).then_some([fade_begin, fade_end]),
             ridge_angle_deg: read_unless_negative(reader, "ridge_angle"),
             valley_angle_deg: read_unless_negative(reader, "valley_angle"),
             is_linked: reader.bool("linked"),
-            link: LinkVariables::read(reader),
+            link: read_link(reader, ends),
         }
     }
 }
 
-impl LinkVariables {
-    fn read(reader: &mut Reader) -> Self {
-        let [dash, gap] = reader.vector2("dash");
-        Self {
-            join: reader.word("join"),
-            corner_deg: reader.number("corner"),
-            is_cut_hidden: reader.bool("cut_hidden"),
-            min_length_px: read_unless_negative(reader, "min_length"),
-            max_length_px: reader.number("max_length"),
-            fit: reader.word("fit"),
-            taper_px: reader.vector2("taper"),
-            overshoot_px: reader.number("overshoot"),
-            width_curve: read_curve(reader, "width_curve", MAX_WIDTH_FACTOR),
-            opacity_curve: read_curve(reader, "opacity_curve", MAX_OPACITY_FACTOR),
-            wobble_px: reader.number("wobble"),
-            wobble_length_px: reader.number("wobble_length"),
-            jitter_px: reader.number("jitter"),
-            seed: reader.integer("seed"),
-            dash_px: (dash >= MIN_DASH_PX && gap >= MIN_DASH_PX).then_some([dash, gap]),
-        }
+fn read_link(reader: &mut Reader, ends: StrokeEnds) -> LinkStyle {
+    let [dash, gap] = reader.vector2("dash");
+    let corner_deg: f32 = reader.number("corner");
+    LinkStyle {
+        join: reader.word("join"),
+        end: match ends {
+            StrokeEnds::Flat => End::Flat,
+            StrokeEnds::Pointed => End::Pointed,
+            _ => End::Round,
+        },
+        corner_rad: corner_deg.to_radians(),
+        is_cut_where_hidden: reader.bool("cut_hidden"),
+        min_length_px: read_unless_negative(reader, "min_length"),
+        max_length_px: reader.number("max_length"),
+        brush_fit: reader.word("fit"),
+        taper_px: reader.vector2("taper"),
+        overshoot_px: reader.number("overshoot"),
+        width_curve: read_curve(reader, "width_curve", MAX_WIDTH_FACTOR),
+        opacity_curve: read_curve(reader, "opacity_curve", MAX_OPACITY_FACTOR),
+        wobble_px: reader.number("wobble"),
+        wobble_length_px: reader.number("wobble_length"),
+        jitter_px: reader.number("jitter"),
+        seed: reader.integer("seed"),
+        dash_px: (dash >= MIN_DASH_PX && gap >= MIN_DASH_PX).then_some([dash, gap]),
     }
 }
 
-/// The width; a warning for a smaller one than [`MIN_WIDTH_PX`], which is then used.
+/// The width; one below [`MIN_WIDTH_PX`] is replaced, with a warning.
 fn read_width(reader: &mut Reader) -> StrokeWidth {
     let width = reader.number("width");
     match reader.word("width_unit") {

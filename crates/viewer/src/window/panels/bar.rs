@@ -7,7 +7,8 @@ use crate::window::remembered::{Theme, name_of};
 use crate::window::session::{Request, Session};
 use crate::window::viewpoint::NamedView;
 
-/// The bar above the picture: files, the technique, views, pictures.
+/// The bar above the picture: menus and the list of techniques. `size` is that of the picture
+/// in pixels.
 pub fn top_bar(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
     ui.horizontal(|ui| {
         ui.menu_button("File", |ui| file_menu(ui, session, size));
@@ -23,10 +24,10 @@ pub fn top_bar(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
     });
 }
 
-/// The size of small pictures in the list, in points.
+/// Size of thumbnails, in points.
 const THUMBNAIL: Vec2 = Vec2::new(72.0, 54.0);
 
-/// How many techniques are beside each other in the list, and how wide each is.
+/// Columns of the list of techniques, and their width in points.
 const COLUMNS: usize = 3;
 const CELL_WIDTH: f32 = 196.0;
 
@@ -42,7 +43,7 @@ fn technique_box(ui: &mut Ui, session: &mut Session) {
         .width(170.0)
         .show_ui(ui, |ui| {
             is_open = true;
-            // As high without pictures: a list keeps the size that it has at first.
+            // As high without thumbnails: egui keeps the first size of a list.
             let cell = Vec2::new(CELL_WIDTH, THUMBNAIL.y + 2.0 * ui.spacing().button_padding.y);
             egui::Grid::new("techniques").num_columns(COLUMNS).show(ui, |ui| {
                 for (at, name) in names.iter().enumerate() {
@@ -89,7 +90,7 @@ fn file_menu(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
             }
         });
     });
-    item(ui, session, size, "Read again", Command::Reload);
+    item(ui, session, size, "Reload", Command::Reload);
     ui.separator();
     item(ui, session, size, "Save picture…", Command::SavePicture);
     if ui.button("Save window…").clicked() {
@@ -115,20 +116,20 @@ fn view_menu(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
         item(ui, session, size, view.name(), Command::Side(view));
     }
     ui.separator();
-    item(ui, session, size, "First view", Command::Home);
+    item(ui, session, size, "Default view", Command::Home);
     item(ui, session, size, "Fit", Command::Fit);
     item(ui, session, size, "Perspective or orthographic", Command::Projection);
     ui.separator();
     for (theme, name) in [
-        (Theme::System, "As the system is"),
-        (Theme::Light, "Light window"),
-        (Theme::Dark, "Dark window"),
+        (Theme::System, "System theme"),
+        (Theme::Light, "Light theme"),
+        (Theme::Dark, "Dark theme"),
     ] {
         ui.radio_value(&mut session.remembered.theme, theme, name);
     }
 }
 
-/// An entry of a menu, with its key.
+/// A menu entry with its key.
 fn item(ui: &mut Ui, session: &mut Session, size: [u32; 2], name: &str, command: Command) {
     let key = super::keys::key_of(ui, command).unwrap_or_default();
     let button = egui::Button::new(name).shortcut_text(key);
@@ -138,7 +139,7 @@ fn item(ui: &mut Ui, session: &mut Session, size: [u32; 2], name: &str, command:
     }
 }
 
-/// The bar below the picture: what is drawn, and what it costs.
+/// The bar below the picture: the models, what was drawn, and the GPU time.
 pub fn status_bar(ui: &mut Ui, session: &Session) {
     ui.horizontal(|ui| {
         if let Some(scene) = &session.scene {
@@ -160,7 +161,7 @@ pub fn status_bar(ui: &mut Ui, session: &Session) {
             if !times.is_empty() {
                 ui.separator();
                 ui.label(format!("{:.1} ms", times.iter().sum::<f64>()))
-                    .on_hover_text("the time of the last picture on the graphics adapter");
+                    .on_hover_text("GPU time of the last picture");
             }
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -169,7 +170,7 @@ pub fn status_bar(ui: &mut Ui, session: &Session) {
     });
 }
 
-/// A number with its thousands apart.
+/// A number with narrow spaces between its thousands.
 pub(super) fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut text = String::new();

@@ -1,21 +1,19 @@
-//! The line between two looks.
+//! The line between two compared appearances.
 
 use egui::{
     Align2, Color32, CursorIcon, EventFilter, FontId, Key, Rect, Sense, Stroke, Ui, pos2, vec2,
 };
 
-/// How far an arrow key moves the line: a share of the width.
+/// How far an arrow key moves the line, as a share of the width.
 const STEP: f32 = 0.02;
 
-/// The line between two looks, at a share of the width of `rect`, with their names at its
-/// sides; where it is after a hand or, where it has the focus, an arrow key has moved it.
+/// Draws the line at `share` of the width of `rect`, with a technique's name on each side.
+/// Returns its position after dragging or, with the focus, arrow keys.
 pub fn comparison_line(ui: &Ui, rect: Rect, share: f32, names: [String; 2]) -> f32 {
     let x = egui::lerp(rect.left()..=rect.right(), share);
     let handle = Rect::from_center_size(pos2(x, rect.center().y), vec2(14.0, rect.height()));
     let response = ui.interact(handle, ui.scope_id().with("comparison"), Sense::drag());
-    response.widget_info(|| {
-        egui::WidgetInfo::labeled(egui::Role::Slider, true, "Line between the looks")
-    });
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, "Comparison line"));
     let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
     let color = match response.hovered() || response.dragged() || response.has_focus() {
         true => ui.visuals().selection.bg_fill,
@@ -44,7 +42,7 @@ fn stepped(ui: &Ui, response: &egui::Response) -> f32 {
     if !response.has_focus() {
         return 0.0;
     }
-    // Arrows would go on to the next widget.
+    // Otherwise arrows would move the focus.
     let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
     let presses = |key| ui.input(|input| input.num_presses(key));

@@ -1,4 +1,4 @@
-//! Small pictures of image files, for those who choose one.
+//! Previews of image files in a list of images.
 
 use std::time::SystemTime;
 
@@ -12,8 +12,7 @@ use crate::technique::image_file::ImageFile;
 /// The largest width and height, in points.
 pub(super) const SIZE: Vec2 = Vec2::new(64.0, 24.0);
 
-/// The small picture of an image; none where it cannot be read. It is made once, and
-/// again when the file has changed.
+/// The preview of an image, kept until its file changes; `None` if it cannot be read.
 pub(super) fn image_preview(ui: &Ui, file: &ImageFile) -> Option<TextureHandle> {
     let changed = file.changed();
     let id = Id::unique(("image preview", file));
@@ -24,7 +23,7 @@ pub(super) fn image_preview(ui: &Ui, file: &ImageFile) -> Option<TextureHandle> 
     let picture = file.bytes().ok().and_then(|bytes| decode_image(&bytes).ok());
     let texture = picture.map(|picture| {
         let scale = ui.ctx().pixels_per_point();
-        let small = on_grey(&picture, SIZE * scale);
+        let small = on_gray(&picture, SIZE * scale);
         let size = [small.width() as usize, small.height() as usize];
         let small = ColorImage::from_rgba_unmultiplied(size, &small);
         ui.ctx().load_texture(file.name(), small, TextureOptions::LINEAR)
@@ -40,8 +39,8 @@ struct Preview {
     texture: Option<TextureHandle>,
 }
 
-/// An image made to fit, on grey, so that dark and light ones are seen in any theme.
-fn on_grey(picture: &RgbaImage, most: Vec2) -> RgbaImage {
+/// An image scaled to fit, on gray, so that dark and light images are visible in any theme.
+fn on_gray(picture: &RgbaImage, most: Vec2) -> RgbaImage {
     #[expect(clippy::cast_precision_loss, reason = "images have fewer pixels a side")]
     let [width, height] = [picture.width(), picture.height()].map(|side| side as f32);
     let scale = (most.x / width).min(most.y / height).min(1.0);
@@ -49,8 +48,8 @@ fn on_grey(picture: &RgbaImage, most: Vec2) -> RgbaImage {
     let [width, height] = [width, height].map(|side| (side * scale).round().max(1.0) as u32);
     let mut small = resize(picture, width, height, FilterType::Triangle);
     for Rgba([r, g, b, a]) in small.pixels_mut() {
-        let grey = Color32::from_gray(150).blend(Color32::from_rgba_unmultiplied(*r, *g, *b, *a));
-        [*r, *g, *b, *a] = grey.to_array();
+        let gray = Color32::from_gray(150).blend(Color32::from_rgba_unmultiplied(*r, *g, *b, *a));
+        [*r, *g, *b, *a] = gray.to_array();
     }
     small
 }
@@ -67,7 +66,7 @@ mod tests {
                 brush.put_pixel(x, y, Rgba([0, 0, 0, 255]));
             }
         }
-        let small = on_grey(&brush, Vec2::new(64.0, 24.0));
+        let small = on_gray(&brush, Vec2::new(64.0, 24.0));
         assert_eq!(small.dimensions(), (64, 8));
         assert_eq!(small.get_pixel(4, 4), &Rgba([0, 0, 0, 255]));
         assert_eq!(small.get_pixel(60, 4), &Rgba([150, 150, 150, 255]));

@@ -1,4 +1,4 @@
-//! What there is to know: where the time goes, what was repaired.
+//! Debug views, textures between passes, edge counts, GPU times, and repairs.
 
 use std::collections::BTreeMap;
 
@@ -7,19 +7,18 @@ use egui_plot::{Legend, Line, Plot, PlotPoints};
 
 use super::bar::grouped;
 use crate::window::inspection::Inspection;
-use crate::window::session::{KEPT_FRAMES, LOOKS, Session};
+use crate::window::session::{DEBUG_VIEWS, KEPT_FRAMES, Session};
 
-/// The inspection panel.
 pub(super) fn inspect_panel(ui: &mut Ui, session: &mut Session) {
-    ui.heading("Looks for looking");
+    ui.heading("Debug views");
     ui.horizontal_wrapped(|ui| {
-        if ui.selectable_label(!session.is_looking(), "The picture").clicked() {
-            session.stop_looking();
+        if ui.selectable_label(!session.is_debug_view(), "The picture").clicked() {
+            session.leave_debug_view();
         }
-        for (technique, name) in LOOKS {
+        for (technique, name) in DEBUG_VIEWS {
             let is_it = session.recipe.appearance.technique_name == technique;
             if ui.selectable_label(is_it, name).clicked() && !is_it {
-                session.look_with(technique);
+                session.show_debug_view(technique);
             }
         }
     });
@@ -33,11 +32,11 @@ pub(super) fn inspect_panel(ui: &mut Ui, session: &mut Session) {
     repairs(ui, session);
 }
 
-/// What passes draw for each other.
+/// The textures that passes write for each other.
 fn textures(ui: &mut Ui, session: &mut Session) {
     ui.heading("Textures between passes");
     if session.generated.is_empty() {
-        ui.weak("The passes of this technique draw to the picture alone.");
+        ui.weak("This technique draws no textures between passes.");
         return;
     }
     ui.horizontal_wrapped(|ui| {
@@ -85,7 +84,7 @@ fn counts(ui: &mut Ui, session: &Session) {
 
 /// Milliseconds of each pass over the last pictures.
 fn times(ui: &mut Ui, session: &Session) {
-    ui.heading("Time on the graphics adapter");
+    ui.heading("GPU time");
     let mut by_pass: BTreeMap<&str, Vec<[f64; 2]>> = BTreeMap::new();
     for (at, frame) in session.statistics.iter().enumerate() {
         for (name, ms) in &frame.passes {
@@ -96,7 +95,9 @@ fn times(ui: &mut Ui, session: &Session) {
         }
     }
     if by_pass.is_empty() {
-        ui.weak("This adapter tells no times, or nothing was drawn yet.");
+        ui.weak(
+            "No timings: this adapter has no timestamp queries, or nothing has been drawn yet.",
+        );
         return;
     }
     #[expect(clippy::cast_precision_loss, reason = "a few frames")]
@@ -130,14 +131,14 @@ fn times(ui: &mut Ui, session: &Session) {
     });
 }
 
-/// What the loader repaired, model by model.
+/// The repairs to each model.
 fn repairs(ui: &mut Ui, session: &Session) {
     let Some(scene) = &session.scene else { return };
-    ui.heading("What was repaired");
+    ui.heading("Repairs");
     for model in &scene.models {
         let lines = model.report.warning_lines(&model.name, "");
         if lines.is_empty() {
-            ui.weak(format!("{}: nothing", model.name.trim_end_matches(':')));
+            ui.weak(format!("{}: none", model.name.trim_end_matches(':')));
         }
         for line in lines {
             ui.label(line);

@@ -5,21 +5,21 @@ use egui::{Align2, Key, Modifiers, Ui};
 use crate::window::hands::{CUT_KEY, Command, KEYS, LIGHT_KEY, drag_with};
 use crate::window::session::Session;
 
-/// What the pointer does.
+/// Actions of the pointer.
 const POINTER: [(&str, &str); 6] = [
     ("drag", "turn around the model"),
-    ("Shift + drag, middle drag", "move the picture"),
+    ("Shift + drag, middle drag", "pan"),
     ("right drag", "look around"),
-    ("wheel", "come nearer to what is under the pointer"),
-    ("double click", "turn around what is under the pointer"),
+    ("wheel", "zoom toward the pointer"),
+    ("double click", "turn around the point under the pointer"),
     ("drop a file", "open it"),
 ];
 
-/// What keys do while they are held.
+/// Actions of held keys.
 const HELD: [(&str, &str); 3] =
-    [("W A S D, Q E", "fly"), ("arrows", "turn around the model"), ("+ −", "come nearer, go away")];
+    [("W A S D, Q E", "fly"), ("arrows", "turn around the model"), ("+ −", "zoom in and out")];
 
-/// The sheet of keys, over the picture.
+/// The sheet of keys, above the picture.
 pub fn keys_sheet(ui: &Ui, session: &mut Session) {
     let mut is_open = session.shows_keys;
     egui::Window::new("Keys")
@@ -55,7 +55,7 @@ pub fn keys_sheet(ui: &Ui, session: &mut Session) {
     session.shows_keys = is_open;
 }
 
-/// The first key of a command, as it is written.
+/// The first key of a command, as text.
 pub(super) fn key_of(ui: &Ui, command: Command) -> Option<String> {
     let found = KEYS.iter().find(|(.., known, _)| *known == command)?;
     Some(text_of(ui, found.0, found.1))

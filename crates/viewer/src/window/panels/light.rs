@@ -1,4 +1,4 @@
-//! The light, directed by dragging, and the planes that cut the scene.
+//! The light, which can be dragged, and the clip planes.
 
 use egui::{Color32, DragValue, Grid, Sense, Slider, Ui, Vec2};
 use glam::DVec3;
@@ -11,7 +11,6 @@ use crate::window::light_hand::{in_camera, in_world, point_at, rounded, shone_fr
 use crate::window::session::Session;
 use crate::window::viewpoint::Viewpoint;
 
-/// The light panel.
 pub(super) fn light_panel(ui: &mut Ui, session: &mut Session) {
     let view = session.recipe.viewpoint;
     let scene = session.scene.clone();
@@ -37,15 +36,15 @@ pub(super) fn light_panel(ui: &mut Ui, session: &mut Session) {
             (lighting.light, lighting.color) = (default.light, default.color);
         }
     });
-    ui.weak(format!("{} over the picture turns it too", drag_with(LIGHT_KEY)));
+    ui.weak(format!("{} over the picture also turns the light", drag_with(LIGHT_KEY)));
     ui.add_space(10.0);
     ui.heading("Cuts");
     if let Some(scene) = scene {
-        cuts(ui, lighting, &mut session.chosen_cut, (&scene, view.as_ref()));
+        cuts(ui, lighting, &mut session.chosen_cut, &scene, view.as_ref());
     }
 }
 
-/// Attached to the camera or to the world, or at a point; what it lights stays lit.
+/// Switches the kind of light; its direction stays the same in this view.
 fn kind(ui: &mut Ui, lighting: &mut Lighting, view: Option<&Viewpoint>, scene: Option<&Scene>) {
     let (Some(view), Some(scene)) = (view, scene) else { return };
     let in_camera = in_camera(&lighting.light, view, scene);
@@ -68,7 +67,7 @@ fn kind(ui: &mut Ui, lighting: &mut Lighting, view: Option<&Viewpoint>, scene: O
     });
 }
 
-/// A ball that is lit as the scene is; dragging over it moves the light.
+/// A ball that is lit like the scene; dragging over it moves the light.
 fn ball(ui: &mut Ui, lighting: &mut Lighting, view: &Viewpoint, scene: Option<&Scene>) {
     let Some(scene) = scene else { return };
     let (response, painter) = ui.allocate_painter(Vec2::splat(96.0), Sense::click_and_drag());
@@ -81,14 +80,14 @@ fn ball(ui: &mut Ui, lighting: &mut Lighting, view: &Viewpoint, scene: Option<&S
         let at = (at - rect.center()) / radius;
         let (x, y) = (f64::from(at.x), -f64::from(at.y));
         let flat = x.hypot(y);
-        // Beyond the rim the light comes from the side.
+        // Outside the ball the light comes from the side.
         let (x, y) = if flat > 1.0 { (x / flat, y / flat) } else { (x, y) };
         let direction = DVec3::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt());
         lighting.light = shone_from(&lighting.light, direction, view, scene);
     }
     let light = in_camera(&lighting.light, view, scene);
     let base = egui::Rgba::from(ui.visuals().widgets.inactive.bg_fill);
-    // Rings from the rim to the middle, each as light as its middle is.
+    // Rings from the rim to the center, each darker at the rim.
     const STEPS: u8 = 24;
     for step in 0..STEPS {
         let share = f32::from(step) / f32::from(STEPS);
@@ -124,7 +123,7 @@ fn numbers(ui: &mut Ui, lighting: &mut Lighting) {
     });
     if *vector == DVec3::ZERO && !matches!(lighting.light, Light::Point(_)) {
         let light = &mut lighting.light;
-        // No direction: the one before stays.
+        // A zero vector is no direction: the one before stays.
         *light = match light {
             Light::Camera(_) => Light::Camera(before),
             _ => Light::World(before),
@@ -136,7 +135,8 @@ fn cuts(
     ui: &mut Ui,
     lighting: &mut Lighting,
     chosen: &mut usize,
-    (scene, view): (&Scene, Option<&Viewpoint>),
+    scene: &Scene,
+    view: Option<&Viewpoint>,
 ) {
     let center = scene.frame.to_file(scene.bounds.center());
     let radius = scene.bounds.radius() / scene.frame.scale;
@@ -145,7 +145,7 @@ fn cuts(
         ui.push_id(at, |ui| {
             let mut normal = DVec3::new(plane[0], plane[1], plane[2]);
             let length = normal.length();
-            // How far from the middle of the scene the plane lies.
+            // Distance of the plane from the center of the scene.
             let mut offset = -(normal.dot(center) + plane[3]) / length;
             let before = (normal, offset);
             ui.horizontal(|ui| {
@@ -155,12 +155,15 @@ fn cuts(
                         normal = axis;
                     }
                 }
-                if ui.button("As seen").on_hover_text("across the line of sight").clicked()
+                if ui
+                    .button("Along view")
+                    .on_hover_text("perpendicular to the line of sight")
+                    .clicked()
                     && let Some(view) = view
                 {
                     normal = rounded(view.forward());
                 }
-                if ui.button("Turn over").clicked() {
+                if ui.button("Flip").clicked() {
                     (normal, offset) = (-normal, -offset);
                 }
                 if ui.button("Remove").clicked() {
@@ -168,8 +171,8 @@ fn cuts(
                 }
             });
             ui.horizontal(|ui| {
-                let label = ui.selectable_label(*chosen == at, "Place");
-                let hint = format!("{} over the picture moves this one", drag_with(CUT_KEY));
+                let label = ui.selectable_label(*chosen == at, "Position");
+                let hint = format!("{} over the picture moves this cut", drag_with(CUT_KEY));
                 let label = label.on_hover_text(hint);
                 if label.clicked() {
                     *chosen = at;
@@ -189,7 +192,7 @@ fn cuts(
         lighting.clip_planes.remove(at);
     }
     let can_add = lighting.clip_planes.len() < MAX_CLIP_PLANES;
-    if ui.add_enabled(can_add, egui::Button::new("Add a cut")).clicked() {
+    if ui.add_enabled(can_add, egui::Button::new("Add cut")).clicked() {
         *chosen = lighting.clip_planes.len();
         lighting.clip_planes.push([0.0, 0.0, -1.0, center.z]);
     }

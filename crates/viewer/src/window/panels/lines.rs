@@ -1,4 +1,4 @@
-//! The classes of lines: on and off, with their counts, and what they look like.
+//! The line classes: on and off, with their counts and main settings.
 
 use edgemesh::line::class::LineClass;
 use egui::{Grid, Ui};
@@ -13,14 +13,13 @@ use crate::technique::word::Word as _;
 use crate::window::error_text::error_text;
 use crate::window::session::Session;
 
-/// The line panel.
 pub(super) fn lines_panel(ui: &mut Ui, session: &mut Session) {
     marks(ui, session);
     let counts = session.statistics.last().and_then(|last| last.tally);
     let features = counts.map(|tally| tally.features());
     let technique = &mut session.recipe.appearance.technique;
     if !technique.passes.iter().any(is_strokes) {
-        ui.label("This technique draws no strokes: its lines are found in the picture.");
+        ui.label("This technique draws no strokes: its lines are detected in the image.");
         return;
     }
     ui.heading("Visible");
@@ -67,12 +66,12 @@ fn marks(ui: &mut Ui, session: &mut Session) {
         }
     });
     if session.marking.is_on {
-        ui.weak("Click an edge; Shift + click marks the way from there. Drag turns as ever.");
+        ui.weak("Click marks an edge; Shift + click marks the shortest path from the last click.");
     }
     ui.add_space(8.0);
 }
 
-/// What strokes of a pass look like, in short.
+/// The main settings of a stroke pass.
 fn stroke(ui: &mut Ui, pass: &mut Pass) {
     ui.push_id(pass.name.clone(), |ui| {
         ui.horizontal(|ui| {
@@ -110,7 +109,7 @@ fn draws(passes: &[Pass], class: LineClass, visibility: Visibility) -> bool {
     passes.iter().any(|pass| pass.is_rendered() && has_class(pass))
 }
 
-/// Lets the first pass of visible strokes draw a class, or none.
+/// Adds a class to the first pass of visible strokes, or removes it from all.
 fn set_drawn(passes: &mut [Pass], class: LineClass, is_drawn: bool) {
     for pass in passes {
         let lines = LineSelection::of(pass);
@@ -122,7 +121,7 @@ fn set_drawn(passes: &mut [Pass], class: LineClass, is_drawn: bool) {
             if !classes.contains(&class) {
                 classes.push(class);
             }
-            // In the order of all files.
+            // In the order that the files use.
             classes = LineClass::ALL.into_iter().filter(|known| classes.contains(known)).collect();
         } else {
             classes.retain(|known| *known != class);

@@ -1,4 +1,4 @@
-//! The technique: its passes, on and off, and every variable of each.
+//! The technique: its passes, on and off, and their variables.
 
 use egui::collapsing_header::CollapsingState;
 use egui::{Button, Grid, Ui};
@@ -9,7 +9,6 @@ use crate::technique::value::Value;
 use crate::window::hands::{Command, run};
 use crate::window::session::Session;
 
-/// The technique panel.
 pub(super) fn look_panel(ui: &mut Ui, session: &mut Session) {
     let appearance = &session.recipe.appearance;
     ui.heading(&appearance.technique_name);
@@ -41,13 +40,13 @@ pub(super) fn look_panel(ui: &mut Ui, session: &mut Session) {
     if let Some(Edit { pass, variable, value }) = edit
         && let Some(pass) = appearance.technique.passes.get_mut(pass)
     {
-        // What is out of range is taken at its nearest end; the widget shows it.
+        // A value out of range is clamped; the widget shows the result.
         pass.set_value(variable, value, None, &mut Mistakes::default());
     }
-    ui.checkbox(&mut appearance.is_transparent, "No paper behind the models");
+    ui.checkbox(&mut appearance.is_transparent, "Transparent background");
 }
 
-/// With which technique it is compared.
+/// Chooses the technique to compare with.
 fn comparison(ui: &mut Ui, session: &mut Session) {
     let names: Vec<String> = session.library.technique_names().map(str::to_owned).collect();
     let now = session.comparison.as_ref();
@@ -75,12 +74,12 @@ fn comparison(ui: &mut Ui, session: &mut Session) {
     }
 }
 
-/// A pass; what was changed of it.
+/// Shows a pass; returns the change of a variable, if any.
 fn pass(ui: &mut Ui, session: &Session, at: usize) -> Option<Edit> {
     let appearance = &session.recipe.appearance;
     let pass = &appearance.technique.passes[at];
     let original = appearance.original.pass(&pass.name);
-    // The first passes that are done; more would be more than a panel holds.
+    // Only the first two rendered passes are open by default; more would not fit.
     let before = &appearance.original.passes[..at.min(appearance.original.passes.len())];
     let is_open = pass.is_rendered() && before.iter().filter(|p| p.is_rendered()).count() < 2;
     let mut edit = None;
@@ -111,11 +110,11 @@ fn pass(ui: &mut Ui, session: &Session, at: usize) -> Option<Edit> {
                     let label = label.on_hover_text(&descriptor.about).id;
                     let folders = &appearance.technique.folders;
                     let changed = variable_widget(ui, descriptor, value, label, folders);
-                    // Its place is kept, so that nothing moves when it comes.
+                    // The button keeps its place, so that nothing moves when it appears.
                     let other = before.filter(|before| *before != value);
                     let reset = ui.add_visible(other.is_some(), Button::new("×").small());
                     let reset = other.and_then(|before| {
-                        let reset = reset.on_hover_text(format!("back to {before}"));
+                        let reset = reset.on_hover_text(format!("reset to {before}"));
                         reset.clicked().then(|| before.clone())
                     });
                     if let Some(value) = reset.or(changed) {

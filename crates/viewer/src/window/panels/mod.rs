@@ -1,12 +1,12 @@
-//! What is beside the picture. Panels read and change the session, and ask the window for
-//! what takes more than that.
+//! The panels beside the picture. They read and change the session, and request from the
+//! window what takes more than that.
 //!
 //! - `bar`: above and below the picture. `look`, with `variable` and `image_preview`: the
 //!   technique.
 //! - `lines`, `light`, `view`, `inspect`, `output`: the other panels.
-//! - `comparison`: the line between two looks.
-//! - `notes`: what there is to say. `keys`: the sheet of keys. `no_picture`: what is there
-//!   before the first picture.
+//! - `comparison`: the line between two appearances.
+//! - `notes`: messages. `keys`: the sheet of keys. `no_picture`: shown before the first
+//!   picture.
 
 mod bar;
 mod comparison;
@@ -32,8 +32,7 @@ pub use notes::notes;
 use super::remembered::Tab;
 use super::session::Session;
 
-/// The panel at the side: its tabs, and the one that is open. `size` is that of the
-/// picture in pixels.
+/// The panel at the side: its tabs and the open one. `size` is that of the picture in pixels.
 pub fn side_panel(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
     ui.add_space(6.0);
     ui.horizontal(|ui| {

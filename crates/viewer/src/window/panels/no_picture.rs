@@ -1,4 +1,4 @@
-//! What is there instead of a picture before the first one.
+//! Shown before the first picture.
 
 use std::path::PathBuf;
 
@@ -9,7 +9,7 @@ use super::keys::key_of;
 use crate::window::hands::Command;
 use crate::window::session::{Request, Session};
 
-/// Empty paper at `rect`; where no models are on their way, how to open some.
+/// Empty paper at `rect`, and how to open a model unless one `is_waiting`.
 pub fn no_picture(ui: &mut Ui, session: &mut Session, rect: Rect, is_waiting: bool) {
     ui.painter().rect_filled(rect, 0.0, ui.visuals().extreme_bg_color);
     if is_waiting || session.scene.is_some() {
@@ -25,7 +25,7 @@ pub fn no_picture(ui: &mut Ui, session: &mut Session, rect: Rect, is_waiting: bo
             if ui.add(egui::Button::new("Open…").shortcut_text(key)).clicked() {
                 session.ask(Request::ChooseFiles);
             }
-            if ui.button("See the demo").clicked() {
+            if ui.button("Open the demo").clicked() {
                 session.ask(Request::Open(vec![PathBuf::from(DEMO)]));
             }
         });

@@ -1,4 +1,4 @@
-//! What there is to say, over the picture and never instead of it.
+//! Messages above the picture.
 
 use egui::{Align2, Area, Frame, Order, RichText, ScrollArea, Ui};
 

@@ -1,15 +1,15 @@
-//! Pictures and commands.
+//! Saving pictures and copying commands.
 
 use egui::{DragValue, Ui};
 
 use crate::window::hands::{Command, run};
 use crate::window::session::{Request, Session};
 
-/// The output panel; `size` is that of the picture in the window, in pixels.
+/// `size` is that of the picture in the window, in pixels.
 pub(super) fn output_panel(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
     ui.heading("Picture");
     let mut is_own = session.remembered.picture_size.is_some();
-    if ui.checkbox(&mut is_own, "A size of its own").changed() {
+    if ui.checkbox(&mut is_own, "Custom size").changed() {
         session.remembered.picture_size = is_own.then_some([2048, 2048]);
     }
     if let Some([width, height]) = &mut session.remembered.picture_size {
@@ -22,13 +22,13 @@ pub(super) fn output_panel(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
     } else {
         ui.weak(format!("{} × {} pixels, as in the window", size[0], size[1]));
     }
-    ui.checkbox(&mut session.recipe.appearance.is_transparent, "No paper behind the models");
+    ui.checkbox(&mut session.recipe.appearance.is_transparent, "Transparent background");
     ui.horizontal(|ui| {
         if ui.button("Save picture…").on_hover_text("F12").clicked() {
             run(Command::SavePicture, session, size);
         }
         let window = ui.button("Save window…");
-        if window.on_hover_text("as it is on the screen, panels and all").clicked() {
+        if window.on_hover_text("with its panels, as on the screen").clicked() {
             session.ask(Request::SaveWindow);
         }
     });
@@ -55,7 +55,7 @@ pub(super) fn output_panel(ui: &mut Ui, session: &mut Session, size: [u32; 2]) {
             }
         }
         None => {
-            ui.label("No settings lead to the technique as it is; save it as a file.");
+            ui.label("The changed technique cannot be written as settings; save it as a file.");
         }
     }
 }

@@ -1,5 +1,5 @@
-//! Widgets for variables of components, made from their descriptors: sliders within the
-//! range of the ui, typed values beyond it; colours, words, textures.
+//! Widgets for variables, made from their descriptors: sliders over the range for the UI,
+//! typed values beyond it; colors, words, textures.
 
 use std::path::PathBuf;
 
@@ -11,18 +11,18 @@ use crate::technique::image_file::images_of;
 use crate::technique::texture_name::{TextureName, TextureSource};
 use crate::technique::value::{Value, VariableType};
 
-/// A variable that was given another value.
+/// A changed value of a variable.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Edit {
-    /// The number of the pass.
+    /// Index of the pass.
     pub(super) pass: usize,
-    /// The number of the variable among those of its component.
+    /// Index of the variable in its component.
     pub(super) variable: usize,
-    /// The value.
+    /// The new value.
     pub(super) value: Value,
 }
 
-/// A widget for a variable, labelled by `label`; the value where it was changed.
+/// A widget for a variable, labeled by `label`; returns the new value if it has changed.
 pub(super) fn variable_widget(
     ui: &mut Ui,
     variable: &VariableDescriptor,
@@ -124,7 +124,7 @@ fn color(ui: &mut Ui, numbers: &[f32], label: Id) -> Option<Value> {
     }
 }
 
-/// One of some words, or any text.
+/// A choice of words, or a text.
 fn text(ui: &mut Ui, variable: &VariableDescriptor, text: &str, label: Id) -> Option<String> {
     let mut new = text.to_owned();
     if variable.one_of.is_empty() {
@@ -143,7 +143,7 @@ fn text(ui: &mut Ui, variable: &VariableDescriptor, text: &str, label: Id) -> Op
     (new != text).then_some(new)
 }
 
-/// An image of the variable's directory, or the name of any texture.
+/// A choice of the images in the variable's directory, or the name of any texture.
 fn texture(
     ui: &mut Ui,
     variable: &VariableDescriptor,
@@ -185,7 +185,7 @@ fn texture(
         }
     });
     list.response.labelled_by(label).on_hover_ui(|ui| {
-        // The folders are read while one looks there, not in every frame.
+        // The folders are read only while the list is open.
         let TextureSource::Image { image, .. } = &new else { return };
         let images = images_of(directory, folders);
         let file = images.iter().find(|(known, _)| known == image).map(|(_, file)| file);

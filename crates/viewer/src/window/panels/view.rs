@@ -8,7 +8,6 @@ use crate::window::navigation::TurnMode;
 use crate::window::session::Session;
 use crate::window::viewpoint::{NamedView, UpAxis};
 
-/// The camera panel.
 pub(super) fn view_panel(ui: &mut Ui, session: &mut Session) {
     ui.heading("Sides");
     ui.horizontal_wrapped(|ui| {
@@ -19,7 +18,7 @@ pub(super) fn view_panel(ui: &mut Ui, session: &mut Session) {
         }
     });
     ui.horizontal(|ui| {
-        for (name, command) in [("First view", Command::Home), ("Fit", Command::Fit)] {
+        for (name, command) in [("Default view", Command::Home), ("Fit", Command::Fit)] {
             if ui.button(name).clicked() {
                 run(command, session, [0; 2]);
             }
@@ -41,7 +40,7 @@ pub(super) fn view_panel(ui: &mut Ui, session: &mut Session) {
             }
             vector_row(ui, "Up", &mut view.up, 0.01);
         });
-        // The picture stays as large as it was where only the field of view changes.
+        // A camera that sees nothing is not taken.
         let is_nowhere = (view.target - view.eye).cross(view.up).length() <= 0.0;
         if is_nowhere {
             *view = before;
@@ -54,7 +53,7 @@ pub(super) fn view_panel(ui: &mut Ui, session: &mut Session) {
         ui.weak("Ctrl+V pastes it");
     });
     ui.add_space(8.0);
-    ui.heading("Turning");
+    ui.heading("Rotation");
     let remembered = &mut session.remembered;
     ui.horizontal(|ui| {
         for (mode, name) in [(TurnMode::Turntable, "Turntable"), (TurnMode::Trackball, "Trackball")]
