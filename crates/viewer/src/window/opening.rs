@@ -5,7 +5,7 @@ use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use strokes::gpu::device;
+use strokes::Gpu;
 
 use super::app::Window;
 use super::device_loss::{Kept, Lost};
@@ -114,12 +114,12 @@ fn open(
 /// The adapter and the device, asked for as `viewer render` does.
 fn window_setup(adapter: Option<&str>) -> egui_wgpu::WgpuSetupCreateNew {
     let mut setup = egui_wgpu::WgpuSetupCreateNew::without_display_handle();
-    setup.instance_descriptor.backends = device::backends();
+    setup.instance_descriptor.backends = Gpu::backends();
     let wanted = adapter.map(str::to_owned);
     setup.native_adapter_selector = Some(Arc::new(move |adapters, surface| {
-        device::choose(adapters, wanted.as_deref(), surface).map_err(|error| error.to_string())
+        Gpu::choose_adapter(adapters, wanted.as_deref(), surface).map_err(|error| error.to_string())
     }));
-    setup.device_descriptor = Arc::new(device::device_descriptor);
+    setup.device_descriptor = Arc::new(Gpu::device_descriptor);
     setup
 }
 
@@ -127,7 +127,7 @@ fn window_error(error: eframe::Error) -> Error {
     match error {
         eframe::Error::Wgpu(egui_wgpu::WgpuError::CreateSurfaceError(error)) => {
             // Without any adapter there is nothing to make a surface for.
-            let none = device::choose(&[], None, None).err();
+            let none = Gpu::choose_adapter(&[], None, None).err();
             none.map_or_else(|| Error::WindowAdapter(error.to_string()), Error::Adapter)
         }
         eframe::Error::Wgpu(error) => {

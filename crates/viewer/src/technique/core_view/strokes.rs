@@ -1,7 +1,7 @@
 //! The variables of `strokes`.
 
 use edgemesh::line::placement::{Parameterization, Placement};
-use strokes::style::link_style::{BrushFit, CURVE_LENGTH, Join};
+use strokes::{BrushFit, CURVE_LENGTH, Join};
 
 use super::curve::parse_curve;
 use super::lines::LineSelection;
