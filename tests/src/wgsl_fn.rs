@@ -3,9 +3,7 @@
 use bytemuck::Pod;
 use edgemesh_shaders::ShaderSource;
 use edgemesh_shaders::files::text as embedded_text;
-use strokes::gpu::device::Gpu;
-use strokes::gpu::readback::read_buffer;
-use strokes::gpu::shader::shader_module;
+use strokes::{Gpu, read_buffer, shader_module};
 use wgpu::util::DeviceExt as _;
 
 /// What the output is filled with beforehand, so that a result that was never

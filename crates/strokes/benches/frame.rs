@@ -1,14 +1,12 @@
-//! What frames cost on the GPU: `cargo bench -p strokes`.
+//! The cost of frames on the GPU: `cargo bench -p strokes`.
 //!
-//! Frames are timed by timestamp queries from the start of the first pass to the
-//! end of the last, so that detection counts with the strokes. The fill alone,
-//! into the same targets, is the yardstick: each line of the tables is a look, its
-//! median frame, and how many times the fill's median that is. The frames of all
-//! looks of a table take turns, so that a slow moment slows all of them.
+//! Frames are timed by timestamp queries from the start of the first pass to the end of the last,
+//! detection included. Each line of a table is a drawing style with its median frame, and the
+//! ratio to the median of the fill alone in the same targets. The styles of a table take turns
+//! frame by frame, so that a slow moment slows all of them.
 //!
-//! `cargo bench -p strokes -- bunny` runs the tables whose title contains the
-//! word. `EDGEMESH_BENCH_MODELS=A.obj:B.ply` measures models of your own beside the
-//! project's; `WGPU_BACKEND` chooses the backend.
+//! `cargo bench -p strokes -- bunny` runs the tables whose title contains the word.
+//! `EDGEMESH_BENCH_MODELS=A.obj:B.ply` adds models; `WGPU_BACKEND` chooses the backend.
 
 #![expect(clippy::unwrap_used, reason = "a bench fails by panicking")]
 #![expect(clippy::print_stdout, reason = "the tables are its result")]
@@ -26,39 +24,29 @@ use edgemesh::model::Model;
 use edgemesh::report::Report;
 use edgemesh::view::camera::{Camera, View};
 use glam::DMat4;
-use strokes::draw::targets::Targets;
-use strokes::gpu::device;
-use strokes::gpu::device::Gpu;
-use strokes::gpu::target_formats::TargetFormats;
-use strokes::gpu::timer::{GpuTimer, GpuTimes};
-use strokes::mesh::buffers::MeshBuffers;
-use strokes::mesh::layout::Layout;
-use strokes::mesh::{MeshInstance, MeshOptions};
-use strokes::render::frame_request::PASS_NAMES;
-use strokes::render::pipelines::{DetectionStage, RendererOptions};
-use strokes::render::renderer::Renderer;
-use strokes::render::scene_view::SceneView;
-use strokes::style::brush::Brush;
-use strokes::style::drawing_style::{DrawingStyle, Layer, StrokeStyle, Width};
-use strokes::style::link_style::LinkStyle;
+use strokes::{
+    Brush, DetectionStage, DrawingStyle, Gpu, GpuTimer, GpuTimes, Layer, Layout, LinkStyle,
+    MeshBuffers, MeshInstance, MeshOptions, PASS_NAMES, Renderer, RendererOptions, SceneView,
+    StrokeStyle, TargetFormats, Targets, Width,
+};
 
 const SIZE_PX: u32 = 1024;
 
-/// Frames of each look; the median counts.
+/// Frames of each style; the median counts.
 const FRAMES: usize = 21;
 
-/// Triangles of the balls that are measured.
+/// Triangles of the measured balls.
 const BALLS: [u32; 3] = [10_000, 100_000, 1_100_000];
 
-/// A look with its name.
+/// A drawing style to measure.
 struct Contender {
     name: String,
-    look: DrawingStyle,
+    style: DrawingStyle,
     layout: Layout,
     stage: DetectionStage,
 }
 
-/// A look on the GPU.
+/// A drawing style on the GPU.
 struct Runner {
     name: String,
     renderer: Renderer,
@@ -68,8 +56,8 @@ struct Runner {
     byte_count: u64,
 }
 
-fn look(classes: &[LineClass], style: StrokeStyle) -> DrawingStyle {
-    let layer = Layer { classes: classes.to_vec(), visible: Some(style), hidden: None };
+fn drawing(classes: &[LineClass], stroke: StrokeStyle) -> DrawingStyle {
+    let layer = Layer { classes: classes.to_vec(), visible: Some(stroke), hidden: None };
     DrawingStyle { fill_color: Some([1.0; 4]), layers: vec![layer], ..DrawingStyle::default() }
 }
 
@@ -77,7 +65,7 @@ fn fill_alone() -> DrawingStyle {
     DrawingStyle { fill_color: Some([1.0; 4]), ..DrawingStyle::default() }
 }
 
-/// The pen that ships: its alpha is the coverage.
+/// The shipped pen: its alpha is the coverage.
 fn pen() -> Brush {
     let image = edgemesh_brushes::image("brushes", "pen").unwrap();
     let image = image::load_from_memory(image.png).unwrap().to_luma_alpha8();
@@ -85,15 +73,15 @@ fn pen() -> Brush {
     Brush::new(image.width(), image.height(), coverage).unwrap()
 }
 
-fn style(kind: LineKind, is_textured: bool) -> StrokeStyle {
+fn stroke(kind: LineKind, is_textured: bool) -> StrokeStyle {
     let brush = is_textured.then(pen);
     StrokeStyle { kind, brush, width: Width::Pixels(2.0), ..StrokeStyle::default() }
 }
 
 impl Contender {
-    fn new(name: &str, look: DrawingStyle) -> Self {
+    fn new(name: &str, style: DrawingStyle) -> Self {
         let (layout, stage) = (Layout::Indexed, DetectionStage::Compute);
-        Self { name: name.into(), look, layout, stage }
+        Self { name: name.into(), style, layout, stage }
     }
 }
 
@@ -101,7 +89,7 @@ impl Runner {
     fn new(gpu: &Gpu, mesh: &EdgeMesh, formats: TargetFormats, contender: &Contender) -> Self {
         let Contender { layout, stage, .. } = *contender;
         let mut renderer = Renderer::new(gpu, RendererOptions { layout, stage, formats }).unwrap();
-        let style = renderer.prepare(gpu, &contender.look).unwrap();
+        let style = renderer.prepare(gpu, &contender.style).unwrap();
         let options = MeshOptions { layout, links: style.is_linked(), surface: false };
         let buffers = Arc::new(MeshBuffers::new(&gpu.device, mesh, options).unwrap());
         let byte_count = buffers.byte_count();
@@ -130,12 +118,12 @@ impl Runner {
 struct Bench {
     gpu: Gpu,
     frames: usize,
-    /// Of tables to run; empty for all.
+    /// Word in the titles of tables to run; empty for all.
     wanted: String,
 }
 
 impl Bench {
-    /// Measures the contenders in turns, the fill first, and prints the table.
+    /// Measures the contenders in turns, after the fill, and prints the table.
     fn table(&self, title: &str, mesh: &EdgeMesh, samples: u32, contenders: &[Contender]) {
         if !title.contains(&self.wanted) {
             return;
@@ -152,7 +140,7 @@ impl Bench {
             for runner in &mut runners {
                 runner.frame(&self.gpu, &targets, &view);
                 if frame == 0 {
-                    // Pipelines settle, and what no view changes is worked out.
+                    // The first frame also finds the static edges.
                     runner.times.clear();
                 }
             }
@@ -181,21 +169,21 @@ impl Bench {
     fn kinds(&self, name: &str, mesh: &EdgeMesh, samples: u32) {
         let all = LineClass::ALL;
         let centred =
-            StrokeStyle { placement: Placement::Centred, ..style(LineKind::QuadAndCaps, false) };
+            StrokeStyle { placement: Placement::Centred, ..stroke(LineKind::QuadAndCaps, false) };
         let contenders = [
-            ("thin lines", look(&all, style(LineKind::Thin, false))),
-            ("quads", look(&all, style(LineKind::Quad, false))),
-            ("quads with caps", look(&all, style(LineKind::QuadAndCaps, false))),
-            ("quads with caps, textured", look(&all, style(LineKind::QuadAndCaps, true))),
-            ("quads with half disks", look(&all, style(LineKind::QuadAndDisks, false))),
-            ("quads with caps, centred on contours too", look(&all, centred)),
-            ("fins", look(&all, style(LineKind::Fin, false))),
+            ("thin lines", drawing(&all, stroke(LineKind::Thin, false))),
+            ("quads", drawing(&all, stroke(LineKind::Quad, false))),
+            ("quads with caps", drawing(&all, stroke(LineKind::QuadAndCaps, false))),
+            ("quads with caps, textured", drawing(&all, stroke(LineKind::QuadAndCaps, true))),
+            ("quads with half disks", drawing(&all, stroke(LineKind::QuadAndDisks, false))),
+            ("quads with caps, centred on contours too", drawing(&all, centred)),
+            ("fins", drawing(&all, stroke(LineKind::Fin, false))),
             (
                 "quads with caps, contours only",
-                look(&[LineClass::Contour], style(LineKind::QuadAndCaps, false)),
+                drawing(&[LineClass::Contour], stroke(LineKind::QuadAndCaps, false)),
             ),
         ]
-        .map(|(name, look)| Contender::new(name, look));
+        .map(|(name, style)| Contender::new(name, style));
         self.table(&format!("{name}, kinds of lines"), mesh, samples, &contenders);
     }
 
@@ -204,21 +192,21 @@ impl Bench {
         let all = LineClass::ALL;
         let linked = |is_textured| {
             let link = Some(LinkStyle::default());
-            StrokeStyle { link, ..style(LineKind::QuadAndCaps, is_textured) }
+            StrokeStyle { link, ..stroke(LineKind::QuadAndCaps, is_textured) }
         };
         let wide = |style| StrokeStyle { width: Width::Pixels(7.0), ..style };
         let contenders = [
-            ("quads with caps", look(&all, style(LineKind::QuadAndCaps, false))),
-            ("linked", look(&all, linked(false))),
-            ("quads with caps, textured", look(&all, style(LineKind::QuadAndCaps, true))),
-            ("linked, textured", look(&all, linked(true))),
+            ("quads with caps", drawing(&all, stroke(LineKind::QuadAndCaps, false))),
+            ("linked", drawing(&all, linked(false))),
+            ("quads with caps, textured", drawing(&all, stroke(LineKind::QuadAndCaps, true))),
+            ("linked, textured", drawing(&all, linked(true))),
             (
                 "quads with caps, textured, 7 px",
-                look(&all, wide(style(LineKind::QuadAndCaps, true))),
+                drawing(&all, wide(stroke(LineKind::QuadAndCaps, true))),
             ),
-            ("linked, textured, 7 px", look(&all, wide(linked(true)))),
+            ("linked, textured, 7 px", drawing(&all, wide(linked(true)))),
         ]
-        .map(|(name, look)| Contender::new(name, look));
+        .map(|(name, style)| Contender::new(name, style));
         self.table(&format!("{name}, linked"), mesh, samples, &contenders);
     }
 
@@ -233,25 +221,28 @@ impl Bench {
                 [("compute", DetectionStage::Compute), ("vertex shader", DetectionStage::Vertex)]
             {
                 let name = format!("{layout_name}, detected in {stage_name}");
-                let look = look(&LineClass::ALL, style(LineKind::QuadAndCaps, true));
-                contenders.push(Contender { name, look, layout, stage });
+                let style = drawing(&LineClass::ALL, stroke(LineKind::QuadAndCaps, true));
+                contenders.push(Contender { name, style, layout, stage });
             }
         }
         let name = name.to_owned();
         contenders.push(Contender {
             name: "Card and Mitchell's face normals".into(),
-            look: look(&[LineClass::Contour, LineClass::Boundary], style(LineKind::Fin, false)),
+            style: drawing(
+                &[LineClass::Contour, LineClass::Boundary],
+                stroke(LineKind::Fin, false),
+            ),
             layout: Layout::FaceNormals,
             stage: DetectionStage::Vertex,
         });
         self.table(&format!("{name}, layouts and paths"), mesh, samples, &contenders);
     }
 
-    /// What the paper measured in its section 5: contours of 100,000 polygons at
-    /// 250 frames a second without lines, 36 with thin ones (7 times), 5 with quads
-    /// (50 times); and 163,000 polygons with thin lines and 4 samples at 25.
+    /// The measurements of the paper's section 5: contours of 100,000 polygons at 250 frames per
+    /// second without lines, 36 with thin lines (7 times as long), 5 with quads (50 times);
+    /// 163,000 polygons with thin lines and 4 samples at 25.
     fn section_5(&self, balls: [&EdgeMesh; 2]) {
-        let contours = |kind| look(&[LineClass::Contour], style(kind, false));
+        let contours = |kind| drawing(&[LineClass::Contour], stroke(kind, false));
         let ways = [
             ("the paper's way", Layout::Replicated, DetectionStage::Vertex),
             ("the paper's way, 16 bits", Layout::Replicated16, DetectionStage::Vertex),
@@ -263,7 +254,7 @@ impl Bench {
                     .iter()
                     .map(|&(kind_name, kind)| {
                         let name = format!("{kind_name}, {way}");
-                        Contender { name, look: contours(kind), layout, stage }
+                        Contender { name, style: contours(kind), layout, stage }
                     })
                     .collect::<Vec<_>>()
             };
@@ -313,11 +304,11 @@ fn load(path: &Path) -> EdgeMesh {
 }
 
 fn main() {
-    // `cargo test --benches` asks only whether they still run.
+    // `cargo test --benches` only checks that they run.
     let is_test = !std::env::args().any(|word| word == "--bench");
     let mut words = std::env::args().skip(1).filter(|word| !word.starts_with("--"));
     let wanted = words.next_back().unwrap_or_default();
-    let gpu = pollster::block_on(device::open(None)).unwrap();
+    let gpu = pollster::block_on(Gpu::open(None)).unwrap();
     println!("{} ({}), {SIZE_PX}x{SIZE_PX}", gpu.info.name, gpu.info.backend);
     let bench = Bench { gpu, frames: if is_test { 1 } else { FRAMES }, wanted };
     let balls = if is_test { &BALLS[..1] } else { &BALLS };

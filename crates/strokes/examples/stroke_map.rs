@@ -1,12 +1,13 @@
-//! A map of the strokes of a view: every point of every path, each stroke in a colour
-//! of its own, what is not drawn in grey, corners as dots, ends as rings.
+//! Draws a map of the strokes of a view: linked edges in gray, every point of every path as a
+//! square, drawn segments in one color per stroke, and places where strokes are split as red
+//! squares.
 //!
 //! ```sh
 //! cargo run --release -p strokes --example stroke_map -- bunny.obj map.png 4 [X Y]
 //! ```
 //!
-//! The number is how many times larger than the view of 1024 pixels the map is, X and Y
-//! the pixel of the view in its middle.
+//! The number enlarges the view of 1024 pixels; X and Y are the pixel of the view in the middle
+//! of the map.
 
 #![expect(clippy::unwrap_used, reason = "a tool for developers fails by panicking")]
 #![expect(clippy::print_stdout, reason = "the counts are its result")]
@@ -20,22 +21,16 @@ use edgemesh::line::class::LineClass;
 use edgemesh::view::camera::Camera;
 use glam::{DMat4, Vec2};
 use image::{Rgb, RgbImage};
-use strokes::draw::targets::Targets;
-use strokes::gpu::target_formats::TargetFormats;
-use strokes::graph::readback::GraphReadback;
-use strokes::mesh::buffers::MeshBuffers;
-use strokes::mesh::{MeshInstance, MeshOptions};
-use strokes::render::pipelines::RendererOptions;
-use strokes::render::renderer::Renderer;
-use strokes::render::scene_view::SceneView;
-use strokes::style::drawing_style::{DrawingStyle, Layer, StrokeStyle};
-use strokes::style::link_style::LinkStyle;
+use strokes::{
+    DrawingStyle, GraphReadback, Layer, LinkStyle, MeshBuffers, MeshInstance, MeshOptions,
+    Renderer, RendererOptions, SceneView, StrokeStyle, TargetFormats, Targets,
+};
 
 /// Pixels of the view, and of the map.
 const SIZE: u16 = 1024;
 
 fn graph_of(path: &Path) -> GraphReadback {
-    let gpu = pollster::block_on(strokes::gpu::device::open(None)).unwrap();
+    let gpu = pollster::block_on(strokes::Gpu::open(None)).unwrap();
     let (model, mut report) = read_model(path).unwrap();
     let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut report);
     let style = StrokeStyle { link: Some(LinkStyle::default()), ..StrokeStyle::default() };

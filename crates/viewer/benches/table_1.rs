@@ -23,11 +23,7 @@ use edgemesh::oracle::detector::Image;
 use edgemesh::oracle::detector::chiang::{ChiangOptions, chiang};
 use edgemesh::view::camera::Camera;
 use glam::Vec2;
-use strokes::gpu::device;
-use strokes::gpu::device::Gpu;
-use strokes::gpu::readback::read_texels;
-use strokes::view::frame::{FrameUniform, Surroundings};
-use strokes::view::tile::Tile;
+use strokes::{FrameUniform, Gpu, Surroundings, Tile, read_texels};
 use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use viewer::scene::models::Scene;
 use viewer::technique::Technique;
@@ -106,8 +102,8 @@ fn measure(gpu: &Gpu, path: &Path, side: u32, frames: usize) {
 
         let drawn_ms = maps.render(&camera).unwrap().1.frame_ms;
         let started = Instant::now();
-        let normals = read_texels(gpu, maps.generated("maps_color").unwrap(), 4).unwrap();
-        let depths = read_texels(gpu, maps.generated("maps_depth").unwrap(), 4).unwrap();
+        let normals = read_texels(gpu, maps.generated("maps_color").unwrap()).unwrap();
+        let depths = read_texels(gpu, maps.generated("maps_depth").unwrap()).unwrap();
         let normals = Image::new(side as usize, normals).unwrap();
         let depths = Image::new(side as usize, depths).unwrap();
         let detecting = Instant::now();
@@ -131,7 +127,7 @@ fn main() {
     // `cargo test --benches` only asks whether it runs.
     let is_test = !std::env::args().any(|argument| argument == "--bench");
     let (side, frames) = if is_test { (64, 1) } else { (512, FRAMES) };
-    let gpu = pollster::block_on(device::open(None)).unwrap();
+    let gpu = pollster::block_on(Gpu::open(None)).unwrap();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models");
     let own = ["cube", "bracket", "wave_blob", "torus_knot"];
     let models: Vec<PathBuf> = match std::env::var_os("EDGEMESH_BENCH_MODELS") {

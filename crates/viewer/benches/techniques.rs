@@ -15,8 +15,7 @@ use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::format::read::read_model;
 use edgemesh::load::Loaded;
 use edgemesh::view::camera::Camera;
-use strokes::gpu::device;
-use strokes::gpu::device::Gpu;
+use strokes::Gpu;
 use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use viewer::scene::models::Scene;
 use viewer::technique::library::Library;
@@ -83,7 +82,7 @@ fn table(gpu: &Gpu, path: &Path, size: [u32; 2], frames: usize) {
 fn main() {
     // `cargo test --benches` only asks whether it runs.
     let is_test = !std::env::args().any(|argument| argument == "--bench");
-    let gpu = pollster::block_on(device::open(None)).unwrap();
+    let gpu = pollster::block_on(Gpu::open(None)).unwrap();
     let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/torus_knot.obj");
     let models: Vec<PathBuf> = match std::env::var_os("EDGEMESH_BENCH_MODELS") {
         Some(paths) if !is_test => std::env::split_paths(&paths).collect(),

@@ -9,11 +9,7 @@ use edgemesh::format::whole_file::WriteError;
 use edgemesh::load::LoadError;
 use edgemesh::view::camera::CameraError;
 use edgemesh_shaders::ShaderError;
-use strokes::gpu::device::GpuError;
-use strokes::gpu::readback::ReadbackError;
-use strokes::mesh::buffers::MeshTooLarge;
-use strokes::render::error::RenderError;
-use strokes::view::frame::MAX_CLIP_PLANES;
+use strokes::{GpuError, MAX_CLIP_PLANES, MeshTooLarge, ReadbackError, RenderError};
 use thiserror::Error;
 
 use crate::technique::brush_file::BrushFileError;

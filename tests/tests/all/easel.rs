@@ -4,7 +4,7 @@
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::view::camera::Camera;
 use image::RgbaImage;
-use strokes::gpu::device::Gpu;
+use strokes::Gpu;
 use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use viewer::scene::models::Scene;
 use viewer::technique::Technique;

@@ -14,9 +14,7 @@ use edgemesh::oracle::detector::second_derivative::{laplacian_of_gaussian, zero_
 use edgemesh::oracle::detector::{Image, Texel, regions};
 use edgemesh::view::camera::Camera;
 use glam::{Mat4, Vec2, Vec3, Vec4};
-use strokes::gpu::readback::read_texels;
-use strokes::view::frame::FrameUniform;
-use strokes::view::tile::Tile;
+use strokes::{FrameUniform, Tile, read_texels};
 use testkit::locate::{left_out, shared};
 use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use viewer::scene::lighting::Lighting;
@@ -222,13 +220,13 @@ impl Inputs {
         let texture = |name: &str| renderer.generated(name).unwrap();
         let width = SIZE[0] as usize;
         let floats = |name: &str| -> Image<Vec4> {
-            Image::new(width, read_texels(gpu(), texture(name), 16).unwrap()).unwrap()
+            Image::new(width, read_texels(gpu(), texture(name)).unwrap()).unwrap()
         };
         let bytes = |name: &str| -> Image<[u8; 4]> {
-            Image::new(width, read_texels(gpu(), texture(name), 4).unwrap()).unwrap()
+            Image::new(width, read_texels(gpu(), texture(name)).unwrap()).unwrap()
         };
         let single = |name: &str| -> Image<f32> {
-            Image::new(width, read_texels(gpu(), texture(name), 4).unwrap()).unwrap()
+            Image::new(width, read_texels(gpu(), texture(name)).unwrap()).unwrap()
         };
         let (scene_normal, map, scene_color) =
             (floats("scene_normal"), floats("map_color"), bytes("scene_color"));
@@ -291,7 +289,7 @@ fn compare(mesh: &EdgeMesh, camera: &Camera) {
     for (at, case) in CASES.iter().enumerate() {
         let what = format!("{} {}", case.component, case.values.replace('\n', ", "));
         let texture = renderer.generated(&format!("of_{at}_color")).unwrap();
-        let found: Vec<[f32; 4]> = read_texels(gpu(), texture, 16).unwrap();
+        let found: Vec<[f32; 4]> = read_texels(gpu(), texture).unwrap();
         let found = Image::new(SIZE[0] as usize, found).unwrap();
         check(case, &inputs, &found, &what);
     }

@@ -2,13 +2,12 @@
 
 use std::sync::OnceLock;
 
-use strokes::gpu::device;
-use strokes::gpu::device::Gpu;
+use strokes::Gpu;
 
 /// The device; no test passes by being skipped where there is none.
 pub(crate) fn gpu() -> &'static Gpu {
     static GPU: OnceLock<Gpu> = OnceLock::new();
-    GPU.get_or_init(|| match pollster::block_on(device::open(None)) {
+    GPU.get_or_init(|| match pollster::block_on(Gpu::open(None)) {
         Ok(gpu) => gpu,
         Err(error) => panic!("the feature 'gpu' needs an adapter: {error}"),
     })
@@ -16,7 +15,7 @@ pub(crate) fn gpu() -> &'static Gpu {
 
 /// A device of its own with other limits.
 pub(crate) fn gpu_with_limits(adjust: impl FnOnce(&mut wgpu::Limits)) -> Gpu {
-    match pollster::block_on(device::open_with(None, adjust)) {
+    match pollster::block_on(Gpu::open_with(None, adjust)) {
         Ok(gpu) => gpu,
         Err(error) => panic!("the feature 'gpu' needs an adapter: {error}"),
     }

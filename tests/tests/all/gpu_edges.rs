@@ -10,9 +10,7 @@ use edgemesh::format::read::read_model;
 use edgemesh::oracle::detector::depth::distance_of;
 use edgemesh::view::camera::Camera;
 use glam::DVec3;
-use strokes::gpu::readback::read_texels;
-use strokes::view::frame::{FrameUniform, Surroundings};
-use strokes::view::tile::Tile;
+use strokes::{FrameUniform, Surroundings, Tile, read_texels};
 use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use viewer::technique::library::Library;
 
@@ -62,7 +60,7 @@ fn texels(mesh: &EdgeMesh, folder: &Path, passes: &str) -> Vec<[f32; 4]> {
     let mut renderer =
         PictureRenderer::new(gpu(), PictureInput::new(&scene, &technique), &options).unwrap();
     renderer.render(&camera()).unwrap();
-    read_texels(gpu(), renderer.generated("out_color").unwrap(), 16).unwrap()
+    read_texels(gpu(), renderer.generated("out_color").unwrap()).unwrap()
 }
 
 /// Along -z, 8 units high.

@@ -15,20 +15,12 @@ use edgemesh::report::Report;
 use edgemesh::view::camera::Camera;
 use edgemesh::view::feature::{Line, LineBits};
 use glam::{DMat4, DVec3};
-use strokes::draw::targets::Targets;
-use strokes::gpu::device::Gpu;
-use strokes::gpu::readback::read_texels;
-use strokes::gpu::target_formats::TargetFormats;
-use strokes::graph::buffers::{BACKWARD, CUT_END, CUT_START, CUT_WHOLE, NO_NODE, ON_LOOP};
-use strokes::graph::readback::GraphReadback;
-use strokes::mesh::buffers::MeshBuffers;
-use strokes::mesh::layout::Layout;
-use strokes::mesh::{MeshInstance, MeshOptions};
-use strokes::render::pipelines::RendererOptions;
-use strokes::render::renderer::Renderer;
-use strokes::render::scene_view::SceneView;
-use strokes::style::drawing_style::{DrawingStyle, Layer, StrokeStyle};
-use strokes::style::link_style::LinkStyle;
+use strokes::layouts::{BACKWARD, CUT_END, CUT_START, CUT_WHOLE, NO_NODE, ON_LOOP};
+use strokes::{
+    DrawingStyle, Gpu, GraphReadback, Layer, Layout, LinkStyle, MeshBuffers, MeshInstance,
+    MeshOptions, Renderer, RendererOptions, SceneView, StrokeStyle, TargetFormats, Targets,
+    read_texels,
+};
 use testkit::locate::{left_out, shared};
 
 use crate::gpu_device::{gpu, gpu_with_limits};
@@ -330,7 +322,7 @@ fn what_finds_no_room_is_drawn_edge_by_edge() {
             .renderer
             .render(gpu, &linker.targets, &mut linker.scene, &view, [1.0; 4], None)
             .unwrap();
-        let texels: Vec<[u8; 4]> = read_texels(gpu, linker.targets.picture(), 4).unwrap();
+        let texels: Vec<[u8; 4]> = read_texels(gpu, linker.targets.picture()).unwrap();
         let count =
             linker.scene.drawing.objects()[0].read_graph(gpu).unwrap().unwrap().header.node_count;
         let drawn = linker.scene.drawing.objects()[0].read_tally(gpu).unwrap().stroke_count;

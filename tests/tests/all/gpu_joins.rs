@@ -12,18 +12,11 @@ use edgemesh::report::Report;
 use edgemesh::view::camera::Camera;
 use edgemesh_brushes::BRUSH_NAMES;
 use glam::{DMat4, DVec3, Vec2};
-use strokes::draw::targets::Targets;
-use strokes::gpu::readback::read_texels;
-use strokes::gpu::target_formats::TargetFormats;
-use strokes::graph::buffers::Ribbon;
-use strokes::graph::readback::GraphReadback;
-use strokes::mesh::buffers::MeshBuffers;
-use strokes::mesh::{MeshInstance, MeshOptions};
-use strokes::render::pipelines::RendererOptions;
-use strokes::render::renderer::Renderer;
-use strokes::render::scene_view::SceneView;
-use strokes::style::drawing_style::{DrawingStyle, Layer, StrokeStyle, Width};
-use strokes::style::link_style::{End, Join, LinkStyle};
+use strokes::{
+    DrawingStyle, End, GraphReadback, Join, Layer, LinkStyle, MeshBuffers, MeshInstance,
+    MeshOptions, Renderer, RendererOptions, Ribbon, SceneView, StrokeStyle, TargetFormats, Targets,
+    Width, read_texels,
+};
 use viewer::technique::brush_file::shipped_brush;
 
 use crate::gpu_device::gpu;
@@ -111,7 +104,7 @@ fn draw(
     };
     let view = camera.view(&mesh.bounds, 1.0);
     renderer.render(gpu, &targets, &mut scene, &view, [1.0; 4], None).unwrap();
-    let texels: Vec<[u8; 4]> = read_texels(gpu, targets.picture(), 4).unwrap();
+    let texels: Vec<[u8; 4]> = read_texels(gpu, targets.picture()).unwrap();
     let graph = scene.drawing.objects()[0].read_graph(gpu).unwrap().unwrap();
     (texels.into_iter().map(|texel| texel[0]).collect(), graph)
 }

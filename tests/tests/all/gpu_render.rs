@@ -10,7 +10,7 @@ use edgemesh::report::Report;
 use edgemesh::view::camera::Camera;
 use glam::DVec3;
 use image::{GrayImage, Luma, RgbaImage};
-use strokes::style::drawing_style::DrawingStyle;
+use strokes::DrawingStyle;
 use testkit::compare::Golden;
 use viewer::pass_graph::strokes_of;
 use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};

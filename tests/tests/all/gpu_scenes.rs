@@ -11,13 +11,9 @@ use edgemesh::report::Report;
 use edgemesh::view::camera::Camera;
 use glam::{DMat4, DQuat, DVec3};
 use image::RgbaImage;
-use strokes::draw::targets::Targets;
-use strokes::gpu::target_formats::TargetFormats;
-use strokes::mesh::MeshInstance;
-use strokes::mesh::buffers::MeshBuffers;
-use strokes::render::pipelines::RendererOptions;
-use strokes::render::renderer::Renderer;
-use strokes::render::scene_view::SceneView;
+use strokes::{
+    MeshBuffers, MeshInstance, Renderer, RendererOptions, SceneView, TargetFormats, Targets,
+};
 use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use viewer::scene::models::{PlacedObject, Scene};
 use viewer::technique::Technique;
@@ -342,7 +338,7 @@ fn no_view_draws_what_is_no_number() {
 const HALF_ONE: u16 = 0x3c00;
 
 fn read_halves(targets: &Targets) -> Vec<u16> {
-    strokes::gpu::readback::read_texels(gpu(), targets.picture(), 8).unwrap()
+    strokes::read_texels(gpu(), targets.picture()).unwrap()
 }
 
 fn awkward_meshes() -> Vec<(&'static str, EdgeMesh)> {

@@ -8,7 +8,7 @@ use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::view::camera::Camera;
 use glam::DVec3;
 use image::RgbaImage;
-use strokes::gpu::readback::read_texels;
+use strokes::read_texels;
 use testkit::compare::Golden;
 use testkit::locate::workspace_root;
 use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
@@ -44,7 +44,7 @@ fn read_generated(technique: &Technique, frames: usize, name: &str) -> (u32, Vec
         renderer.render(&Camera::default_view(&mesh.bounds)).unwrap();
     }
     let texture = renderer.generated(name).unwrap();
-    (texture.width(), read_texels(gpu(), texture, 16).unwrap())
+    (texture.width(), read_texels(gpu(), texture).unwrap())
 }
 
 /// A loop that never ends is left, and what is drawn otherwise is drawn: the device lives.
@@ -152,7 +152,7 @@ fn passes_run_once_or_when_something_has_changed() {
         renderer.reload(PictureInput::new(&scene, &technique), &small([8, 8])).unwrap();
         frames(&mut renderer, 2);
         let texels: Vec<[f32; 4]> =
-            read_texels(gpu(), renderer.generated("sum_color").unwrap(), 16).unwrap();
+            read_texels(gpu(), renderer.generated("sum_color").unwrap()).unwrap();
         assert_eq!(texels[0][1].to_bits(), f32::to_bits(after_a_change), "{run}");
     }
 }
@@ -225,7 +225,7 @@ fn the_picture_so_far_and_its_depth_are_copied() {
         let mut renderer =
             PictureRenderer::new(gpu(), PictureInput::new(&scene, &copied), &options).unwrap();
         renderer.render(&camera).unwrap();
-        let depths: Vec<f32> = read_texels(gpu(), renderer.generated("far").unwrap(), 4).unwrap();
+        let depths: Vec<f32> = read_texels(gpu(), renderer.generated("far").unwrap()).unwrap();
         let covered = depths.iter().filter(|depth| **depth > 0.0).count();
         assert!((300..2000).contains(&covered), "{covered} of {} pixels", depths.len());
     }

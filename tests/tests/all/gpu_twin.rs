@@ -23,15 +23,10 @@ use edgemesh::view::facing::faces_eye;
 use edgemesh::view::feature::{EdgeFaces, Line, LineBits, classify_edge, eye_is_outside};
 use edgemesh::view::feature_counts::{classify_lines, count_features, facing_bits};
 use glam::{DMat4, DVec3, Vec2, Vec3, Vec4};
-use strokes::draw::targets::Targets;
-use strokes::gpu::target_formats::TargetFormats;
-use strokes::mesh::MeshInstance;
-use strokes::mesh::buffers::MeshBuffers;
-use strokes::mesh::layout::Layout;
-use strokes::render::pipelines::RendererOptions;
-use strokes::render::renderer::Renderer;
-use strokes::render::scene_view::SceneView;
-use strokes::view::live_lists::Tally;
+use strokes::{
+    Layout, MeshBuffers, MeshInstance, Renderer, RendererOptions, SceneView, Tally, TargetFormats,
+    Targets,
+};
 use testkit::wgsl_fn::run_wgsl;
 use viewer::technique::Technique;
 

@@ -16,23 +16,17 @@ use edgemesh::oracle::stroke_segment::{EDGE_ON_FACING, LIFTED_FACING};
 use edgemesh::oracle::stroke_vertex::FOOT_PX;
 use edgemesh::view::feature::{LEAST_GROOVE_STEPS, LineBits, MOST_GROOVE_STEPS};
 use edgemesh_shaders::ShaderSource;
-use strokes::draw::coverage::CompositeUniform;
-use strokes::draw::fill::FillUniform;
-use strokes::draw::silhouette::NO_OBJECT;
-use strokes::draw::stroke::StrokeUniform;
-use strokes::graph::buffers::{
-    ARC_PER_PX, BACKWARD, CUT_END, CUT_START, CUT_WHOLE, Chain, ChainState, Element, GraphHeader,
-    GraphUniform, ITEMS_PER_SUM, Joint, LinkNode, MAX_LINK_ROUNDS, NO_NODE, NOT_DRAWN, ON_LOOP,
-    PathPoint, Ribbon, Stroke, arguments,
+use strokes::layouts::{
+    ARC_PER_PX, BACKWARD, CUT_END, CUT_START, CUT_WHOLE, Chain, ChainState, ChunkUniform,
+    CompositeUniform, DetectUniform, DrawArguments, EDGES_PER_RUN, FillUniform, GraphUniform,
+    ITEMS_PER_SUM, Joint, LinkStyleUniform, MAX_LAYERS, MAX_LINK_ROUNDS, MAX_STROKE_SETS,
+    MITRE_LIMIT, NO_NODE, NO_OBJECT, NOT_DRAWN, ON_LOOP, ObjectUniform, PackedRecord, REVERSED,
+    RunState, SURFACE_CUT, SURFACE_END, StrokeUniform, Visibility, arguments,
 };
-use strokes::graph::path::LinkStyleUniform;
-use strokes::mesh::layout::{ChunkUniform, EDGES_PER_RUN, PackedRecord};
-use strokes::mesh::link_table::{REVERSED, SURFACE_CUT, SURFACE_END};
-use strokes::style::drawing_style::{MAX_LAYERS, MAX_STROKE_SETS, Visibility};
-use strokes::style::link_style::{End, Join, MITRE_LIMIT};
-use strokes::view::detect::DetectUniform;
-use strokes::view::frame::{FrameUniform, MAX_CLIP_PLANES, ObjectUniform};
-use strokes::view::live_lists::{DrawArguments, RunState, Tally};
+use strokes::{
+    Element, End, FrameUniform, GraphHeader, Join, LinkNode, MAX_CLIP_PLANES, PathPoint, Ribbon,
+    Stroke, Tally,
+};
 use viewer::pass_graph::material::MaterialUniform;
 use viewer::pass_graph::surface::SurfaceRange;
 

@@ -122,7 +122,7 @@ fn a_slider_sets_its_variable() {
 #[test]
 fn classes_have_counts_and_go_off() {
     let mut session = session("");
-    let mut tally = strokes::view::live_lists::Tally::default();
+    let mut tally = strokes::Tally::default();
     tally.features[0] = 1234;
     session.keep(FrameStatistics { tally: Some(tally), passes: Vec::new(), frame_ms: 1.0 });
     let mut harness = side(Tab::Lines, session);

@@ -1,16 +1,15 @@
 //! Ribbons as coverage, and the coverage laid over the picture.
 //!
-//! A draw of strokes has a channel of a texture; what overlaps there counts once, by
-//! the maximum. Up to four draws that follow each other share a texture, which is laid
-//! over the picture in one pass over it, each channel in its colour.
+//! Each stroke set has a channel of a texture, where overlaps count once, by the maximum. Up to
+//! four consecutive sets share a texture, which is laid over the picture in one pass, each
+//! channel in its color.
 //!
 //! ```text
-//!   ribbons of draw k --max--> channel k of the coverage --over--> picture
+//!   ribbons of set k --max--> channel k of the coverage --over--> picture
 //! ```
 //!
-//! Rejected: blending segments into the picture one by one, each its own part of a
-//! join: where a stroke crosses itself it would be darker, and where segments are
-//! shorter than they are wide, parts of joins overlap or leave gaps.
+//! Rejected: blending segments into the picture one by one. A stroke that crosses itself would
+//! be darker there, and joins of segments shorter than wide would overlap or leave gaps.
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh_shaders::ShaderError;
@@ -21,14 +20,14 @@ use crate::gpu::bind::{bind_buffers, bind_layout, storage_entry, uniform_buffer,
 use crate::gpu::shader::embedded_module;
 use crate::gpu::target_formats::{COVERAGE_FORMAT, TargetFormats};
 
-/// Draws that share a texture: one for each channel.
+/// Stroke sets that share a texture: one for each channel.
 pub(crate) const CHANNELS: usize = 4;
 
-/// The colours of the channels. WGSL twin: `shaders/graph/composite.wgsl`.
+/// The colors of the channels. WGSL twin: `shaders/graph/composite.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct CompositeUniform {
-    /// Premultiplied, in the order in which they are laid.
+    /// Premultiplied RGBA, in the order in which they are laid.
     pub colors: [[f32; 4]; CHANNELS],
 }
 
@@ -40,7 +39,7 @@ pub(crate) struct CoveragePipeline {
     /// By channel: solid and textured.
     ribbons: Vec<[wgpu::RenderPipeline; 2]>,
     composite_layout: wgpu::BindGroupLayout,
-    /// By how many channels are in use, less one.
+    /// By the number of channels in use, less one.
     composite: Vec<wgpu::RenderPipeline>,
 }
 
@@ -97,7 +96,7 @@ impl CoveragePipeline {
         pass.set_pipeline(&self.ribbons[channel][usize::from(is_textured)]);
     }
 
-    /// The colours of a texture's channels, and the texture.
+    /// Binds a coverage texture with the colors of its channels.
     pub(crate) fn composite_group(
         &self,
         device: &wgpu::Device,

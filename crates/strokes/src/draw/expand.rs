@@ -1,16 +1,16 @@
-//! Expansion: the vertices of each live stroke, worked out once.
+//! Expansion: computes the vertices of each live stroke once.
 //!
-//! A stroke with caps has ten vertices in four triangles. Were they worked out
-//! where they are drawn, the edge would be fetched, clipped and projected ten
-//! times; here it is once, and the vertex shader only hands on. Software drivers,
-//! which run vertex shaders on one thread and compute shaders on all, gain most.
+//! A stroke with caps has ten vertices in four triangles. Vertex shaders would fetch, clip and
+//! project its edge ten times; the expansion does it once, and the vertex shader passes the
+//! result on. Software drivers, which run vertex shaders on one thread and compute shaders on
+//! all, gain most.
 //!
-//! There is room for a part of the edges only (`mesh/capacity.rs`); in a view
-//! with more strokes than that the rest is drawn from the live list, after them
-//! and with the same vertices, so no view costs memory for the worst one.
+//! There is room for a part of the edges (`mesh/capacity.rs`). A view with more strokes draws
+//! the rest from the live list, after the others and with the same vertices, so no view costs
+//! memory for the worst one.
 //!
-//! Rejected: room for every edge, 200 bytes each; a second look at the counts on
-//! the CPU, which would wait for the GPU in every frame.
+//! Rejected: room for every edge, 200 bytes each; reading the counts on the CPU, which would
+//! wait for the GPU in every frame.
 
 use edgemesh::line::kind::LineKind;
 use edgemesh_shaders::ShaderError;
@@ -37,8 +37,8 @@ impl ExpandPipeline {
         Ok(Self(compute_pipeline(device, &module, "expand_strokes", &groups, &constants)))
     }
 
-    /// Records the expansion for the stroke set with this number; `@group(0)` must be
-    /// the frame, `@group(1)` the style, `@group(2)` the edges.
+    /// Records the expansion for the stroke set `set_index`; `@group(0)` must be the frame,
+    /// `@group(1)` the style, `@group(2)` the edges.
     pub(crate) fn record(
         &self,
         pass: &mut wgpu::ComputePass,

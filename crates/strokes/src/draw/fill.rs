@@ -1,14 +1,13 @@
-//! The fill: the surface in one flat colour, and the depth that hides strokes.
+//! The fill: the surface in one flat color, and the depth that hides strokes.
 //!
-//! The surface is pushed away from the eye a little (the paper's section 3.5
-//! uses the same offset), in proportion to its slope on the screen, so that a
-//! stroke along an edge is not swallowed by the faces beside it. The push is that
-//! of about one pixel of slope, whatever the width of the strokes; wide strokes
-//! follow their faces by themselves (`stroke_vertex.wgsl`).
+//! The surface is pushed away from the eye in proportion to its slope on the screen (the paper's
+//! section 3.5 uses the same offset), so that the faces beside an edge do not swallow its
+//! stroke. The push is about one pixel of slope, whatever the width of the strokes; wide strokes
+//! follow their faces (`stroke_vertex.wgsl`).
 //!
-//! Rejected: pulling the strokes forward by a constant, as no constant is right
-//! for a face seen head on and for one seen edge on; a push that grows with the
-//! strokes, as hidden lines then show through along every silhouette.
+//! Rejected: pulling the strokes forward by a constant, since no constant is right both for a
+//! face seen head on and for one seen edge on; a push that grows with the strokes, since hidden
+//! lines would show through along every silhouette.
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh_shaders::ShaderError;
@@ -22,29 +21,29 @@ use crate::mesh::instance::MeshInstance;
 /// The constant part of the push, in steps of the depth buffer.
 const PUSH_STEPS: i32 = 8;
 
-/// What every draw of one fill shares. WGSL twin: `shaders/fill.wgsl`.
+/// The style of a fill. WGSL twin: `shaders/fill.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct FillUniform {
-    /// Premultiplied colour.
+    /// Premultiplied RGBA.
     pub color: [f32; 4],
 }
 
-/// What a fill writes.
+/// The attachments that a fill writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FillKind {
-    /// Colour, depth and stencil.
+    /// Color, depth and stencil.
     Whole,
-    /// Depth and stencil: what lies behind shows through.
+    /// Depth and stencil: the background shows through.
     Clear,
-    /// The stencil alone, where the surface is what one sees.
+    /// The stencil alone, where the surface is the nearest one.
     Stencil,
 }
 
 /// The pipelines of the fill.
 #[derive(Debug)]
 pub(crate) struct FillPipeline {
-    /// Without clip planes, and with some.
+    /// Without and with clip planes.
     whole: [wgpu::RenderPipeline; 2],
     clear: [wgpu::RenderPipeline; 2],
     stencil: [wgpu::RenderPipeline; 2],
@@ -85,13 +84,13 @@ impl FillPipeline {
         })
     }
 
-    /// The group of a colour.
+    /// `@group(1)` of a premultiplied color.
     pub(crate) fn pass(&self, device: &wgpu::Device, color: [f32; 4]) -> wgpu::BindGroup {
         let uniform = uniform_buffer(device, "fill", &FillUniform { color });
         bind_buffers(device, "fill", &self.pass_layout, &[(0, &uniform)])
     }
 
-    /// The group of an object.
+    /// `@group(2)` of an object.
     pub(crate) fn bind(&self, device: &wgpu::Device, object: &wgpu::Buffer) -> wgpu::BindGroup {
         bind_buffers(device, "fill object", &self.object_layout, &[(0, object)])
     }
@@ -105,7 +104,7 @@ impl FillPipeline {
         pass.set_pipeline(&pipelines[usize::from(clips)]);
     }
 
-    /// Draws one instance; after [`Self::set`], `@group(0)` must be the frame, `@group(1)` the
+    /// Draws one instance after [`Self::set`]; `@group(0)` must be the frame, `@group(1)` the
     /// color, `@group(2)` the object.
     pub(crate) fn record(pass: &mut wgpu::RenderPass, instance: &MeshInstance) {
         let parts = instance.mesh().fill.iter().zip(&instance.geometry().fill);
@@ -164,7 +163,7 @@ fn pipeline(
 }
 
 fn depth_stencil(formats: &TargetFormats, kind: FillKind) -> wgpu::DepthStencilState {
-    // The stencil alone comes after all fills, and finds the depth of its own.
+    // The stencil alone is written after all fills, where the depth is that of the object.
     let depth_compare = match kind {
         FillKind::Whole | FillKind::Clear => CompareFunction::Greater,
         FillKind::Stencil => CompareFunction::Equal,
@@ -189,10 +188,12 @@ fn depth_stencil(formats: &TargetFormats, kind: FillKind) -> wgpu::DepthStencilS
     }
 }
 
-/// Away from the eye is toward 0 in reversed depth. A sample lies up to a pixel
-/// from where the edge's depth was taken; the driver's slope is the larger of
-/// the two screen directions, so a slope across the diagonal counts as the root
-/// of two of it.
+/// The depth bias for surfaces under strokes: pushes them away from the eye by about one pixel of
+/// slope, so that they do not swallow the strokes along their edges.
+///
+/// Reversed depth is smaller farther away. A sample lies up to a pixel from where the edge's
+/// depth was taken; the driver takes the larger slope of the two screen axes, and a diagonal one
+/// can be larger by the root of 2.
 #[must_use]
 pub const fn push_away() -> wgpu::DepthBiasState {
     wgpu::DepthBiasState {

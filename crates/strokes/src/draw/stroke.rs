@@ -1,20 +1,20 @@
-//! Strokes: thin lines, quads with caps, half disks and fins along the edges that
-//! a view draws (paper, sections 3.2 to 3.5).
+//! Strokes: thin lines, quads with caps, half disks and fins along the edges that a view draws
+//! (paper, sections 3.2 to 3.5).
 //!
-//! Their vertices come from one of four places:
+//! Their vertices have one of four sources:
 //!
-//! | source | what the vertex shader does |
+//! | source | the vertex shader |
 //! |---|---|
-//! | expanded | hands on what the expansion worked out |
-//! | listed | works it out for the edges of the live list that found no room there |
-//! | all | the paper's path: decides for every edge, drawn or not, by its index |
-//! | attributes | the paper's path and layouts: from four vertices an edge, in passes for the quad and its ends |
+//! | expanded | passes on the vertices of the expansion |
+//! | listed | computes those of the edges of the live list that were not expanded |
+//! | all | detects too, as in the paper: decides for every edge by its index |
+//! | attributes | detects from the paper's layouts: four vertices per edge, in passes for the quad and its ends |
 //!
-//! All of them call the same functions, so they draw the same picture. What is
-//! hidden is drawn by turning the depth test around (section 3.5); a silhouette
-//! where the stencil is not that of its own object (section 3.4; step 4 of the
-//! printed list keeps what the text means to suppress). Contours over the surface
-//! that they bound decide both in their fragments (`stroke_over_surface.wgsl`).
+//! All of them call the same functions, so they draw the same picture. Hidden strokes turn the
+//! depth test around (section 3.5). A silhouette is drawn where the stencil has not the value of
+//! its own object (section 3.4; step 4 of the printed list keeps what the text means to
+//! suppress). Contours over the surface that they bound decide both in their fragments
+//! (`stroke_over_surface.wgsl`).
 //!
 //! ```text
 //!        6                          9
@@ -40,19 +40,17 @@ use crate::mesh::layout::Layout;
 use crate::style::brush::{Brush, BrushTextures};
 use crate::style::drawing_style::{StrokeSet, Visibility, Width};
 
-/// What all strokes of a draw share. WGSL twin:
-/// `shaders/common/stroke_style.wgsl`.
+/// The style of a stroke set. WGSL twin: `shaders/common/stroke_style.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct StrokeUniform {
-    /// Premultiplied colour.
+    /// Premultiplied RGBA.
     pub color: [f32; 4],
-    /// Distances where strokes begin to fade and where they are gone; equal for
-    /// never.
+    /// Distances at which strokes begin to fade and are gone; equal for no fading.
     pub fade: [f32; 2],
     /// Width in pixels, or in units of the world.
     pub width: f32,
-    /// Length of the brush over its height.
+    /// Width of the brush over its height.
     pub brush_aspect: f32,
     /// A [`LineKind`].
     pub kind: u32,
@@ -60,7 +58,7 @@ pub struct StrokeUniform {
     pub placement: u32,
     /// A [`edgemesh::line::placement::Parameterization`].
     pub parameterization: u32,
-    /// 1 where the width is in units of the world.
+    /// 1 if the width is in units of the world.
     pub is_world_width: u32,
     /// The layer whose edges are drawn.
     pub layer: u32,
@@ -68,14 +66,14 @@ pub struct StrokeUniform {
     pub set_index: u32,
     /// Indices per edge.
     pub index_count: u32,
-    /// 1 where edges that their own solid hides are drawn.
+    /// 1 if edges that their own solid hides are drawn.
     pub shows_hidden: u32,
     /// The classes, for vertex shaders that detect.
     pub classes: ClassTable,
 }
 
 impl StrokeUniform {
-    /// The uniform of the draw with this number.
+    /// The uniform of the stroke set with this number.
     pub(crate) fn new(set: &StrokeSet, set_index: usize, table: &ClassTable) -> Self {
         let style = &set.style;
         let (width, is_world_width) = match style.width {
@@ -100,7 +98,7 @@ impl StrokeUniform {
     }
 }
 
-/// The bind group of a style.
+/// `@group(1)` of a stroke set.
 pub(crate) fn style_group(
     gpu: &Gpu,
     layouts: &StrokeLayouts,
@@ -132,7 +130,7 @@ pub(crate) fn style_group(
     })
 }
 
-/// Where the vertices of strokes come from.
+/// The source of the vertices of strokes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum VertexSource {
     Expanded,
@@ -141,7 +139,7 @@ pub(crate) enum VertexSource {
     Attributes,
 }
 
-/// What tells pipelines of strokes apart.
+/// The key of a pipeline of strokes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct StrokeVariant {
     pub(crate) source: VertexSource,
@@ -287,7 +285,7 @@ pub(crate) fn stroke_pipeline(
     }))
 }
 
-/// Without the groups at the end that there are none of.
+/// Without the unused groups at the end.
 fn trimmed<'a, 'b>(
     groups: &'b [Option<&'a wgpu::BindGroupLayout>],
 ) -> &'b [Option<&'a wgpu::BindGroupLayout>] {
@@ -296,8 +294,7 @@ fn trimmed<'a, 'b>(
 }
 
 fn depth_stencil(formats: &TargetFormats, variant: StrokeVariant) -> wgpu::DepthStencilState {
-    // Depth is reversed. What is behind anything is hidden, and what is not is
-    // visible: no sample is in both or in neither.
+    // Depth is reversed. A sample behind something is hidden, any other visible: none is both.
     let compare = match variant.visibility {
         _ if variant.is_over_surface => CompareFunction::Always,
         Visibility::Hidden => CompareFunction::Less,
@@ -317,8 +314,7 @@ fn depth_stencil(formats: &TargetFormats, variant: StrokeVariant) -> wgpu::Depth
     };
     wgpu::DepthStencilState {
         format: formats.depth,
-        // Strokes hide nothing; they lie over each other in the order of the
-        // records.
+        // Strokes hide nothing; they lie over each other in the order of the records.
         depth_write_enabled: Some(false),
         depth_compare: Some(compare),
         stencil,

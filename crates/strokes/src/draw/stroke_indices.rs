@@ -3,21 +3,21 @@
 use edgemesh::line::kind::LineKind;
 use wgpu::util::DeviceExt as _;
 
-/// Index buffers that all meshes share.
+/// The key of an index buffer, which all meshes share.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum IndexKey {
-    /// Vertices that were expanded.
+    /// Expanded vertices.
     Expanded(LineKind),
-    /// Of four vertices an edge the first two.
+    /// The first two of four vertices per edge.
     Lines,
-    /// The quads of four vertices an edge.
+    /// Quads of four vertices per edge.
     Quads,
-    /// One triangle of an end from four vertices an edge.
+    /// One triangle of an end, from four vertices per edge.
     Ends,
 }
 
 impl IndexKey {
-    /// The indices of the first edge, and how many vertices an edge has.
+    /// The indices of the first edge, and the number of vertices per edge.
     pub(crate) fn pattern(self) -> (Vec<u32>, u32) {
         match self {
             Self::Expanded(kind) => (kind.indices(), kind.vertex_count()),

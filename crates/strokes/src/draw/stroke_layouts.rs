@@ -1,7 +1,7 @@
-//! What the pipelines of strokes bind, and where.
+//! The bind group layouts of strokes.
 //!
-//! No shader of strokes reads more than three uniform buffers: Mesa's software
-//! Vulkan driver (22.3) falls over a fourth where shaders branch on what is in it.
+//! No shader of strokes reads more than three uniform buffers: Mesa's software Vulkan driver
+//! (22.3) crashes on a fourth if the shader branches on its contents.
 
 use wgpu::ShaderStages;
 
@@ -15,19 +15,19 @@ use crate::mesh::layout::Layout;
 pub(crate) struct StrokeLayouts {
     /// `@group(0)`.
     pub(crate) frame: wgpu::BindGroupLayout,
-    /// `@group(0)` of strokes that ask what was filled.
+    /// `@group(0)` of strokes that read the fill.
     pub(crate) frame_fill: wgpu::BindGroupLayout,
     /// `@group(1)`: the style.
     pub(crate) pass: wgpu::BindGroupLayout,
-    /// `@group(2)` where edges are pulled: the object and the edges.
+    /// `@group(2)` of shaders that read edges from buffers: the object and the edges.
     pub(crate) edges: wgpu::BindGroupLayout,
-    /// `@group(2)` where edges come as vertices: the object.
+    /// `@group(2)` of shaders that get edges as vertices: the object.
     pub(crate) object: wgpu::BindGroupLayout,
     /// `@group(3)` of the expansion: live list, arguments, vertices.
     pub(crate) expand: wgpu::BindGroupLayout,
     /// `@group(3)` of strokes from the list: live list, arguments.
     pub(crate) listed: wgpu::BindGroupLayout,
-    /// `@group(3)` where every edge is drawn: face planes.
+    /// `@group(3)` of strokes of all edges: face planes.
     pub(crate) planes: wgpu::BindGroupLayout,
 }
 
@@ -61,7 +61,7 @@ impl StrokeLayouts {
         }
     }
 
-    /// All four groups of a pipeline.
+    /// The four groups of a pipeline, with `draw` as the third and `view` as the fourth.
     pub(crate) const fn groups<'a>(
         &'a self,
         draw: Option<&'a wgpu::BindGroupLayout>,

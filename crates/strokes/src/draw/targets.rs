@@ -1,8 +1,7 @@
 //! The textures that a picture is drawn into.
 //!
-//! Colours are sRGB values in an 8-bit format without conversion, and blending
-//! happens between those values, as in SVG and in drawing programs: half a pixel
-//! of black ink on white paper is the middle grey that one expects.
+//! Colors are sRGB values in an 8-bit format without conversion, and are blended as such, as in
+//! SVG and in drawing programs: half a pixel of black ink on white paper is middle gray.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -14,7 +13,7 @@ use crate::gpu::bind::uniform_entry;
 use crate::gpu::target_formats::{COVERAGE_FORMAT, TargetFormats};
 use crate::view::frame::FrameBinding;
 
-/// Colour and depth of one size and sample count.
+/// The textures that a picture is drawn into: color and depth of one size and sample count.
 #[derive(Debug)]
 pub struct Targets {
     /// Width and height in pixels.
@@ -22,34 +21,35 @@ pub struct Targets {
     formats: TargetFormats,
     picture: wgpu::Texture,
     picture_view: wgpu::TextureView,
-    /// The texture with several samples, where there are several.
+    /// If pixels have several samples.
     sampled_view: Option<wgpu::TextureView>,
     depth_view: wgpu::TextureView,
-    /// The depth alone, to be read.
+    /// The depth aspect alone.
     depth_texture: wgpu::TextureView,
-    /// The stencil alone, to be read, where there is one.
+    /// The stencil aspect alone, if there is one.
     object_texture: Option<wgpu::TextureView>,
-    /// Coverage of linked strokes, as many as a frame has needed so far.
+    /// Coverage of linked strokes: as many textures as any frame needed.
     coverage: Mutex<Vec<wgpu::TextureView>>,
 }
 
-/// Textures of a program that strokes are drawn into.
+/// A program's own textures, to draw strokes into.
 #[derive(Debug, Clone)]
 pub struct TargetTextures {
-    /// The picture, of one sample per pixel; with `samples`, they are averaged into it.
+    /// The picture, of one sample per pixel.
     pub color: wgpu::Texture,
-    /// Four samples per pixel of the same format, if the program draws with several.
+    /// Four samples per pixel in the format of `color`, if the program draws with several; they
+    /// are averaged to `color`.
     pub samples: Option<wgpu::Texture>,
-    /// Depth, with or without a stencil, of as many samples; it is read as a texture too.
+    /// Depth, with or without a stencil, of as many samples. Shaders read it as a texture.
     pub depth: wgpu::Texture,
 }
 
-/// Textures of a program do not fit together.
+/// Why textures do not fit together.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum TargetError {
-    /// A texture is of another size than the color.
-    #[error("the texture '{name}' is of another size than the color")]
+    /// A texture has another size than the color.
+    #[error("the texture '{name}' has another size than the color")]
     Size {
         /// The field of [`TargetTextures`].
         name: &'static str,
@@ -60,12 +60,18 @@ pub enum TargetError {
         /// The field of [`TargetTextures`].
         name: &'static str,
     },
+    /// The samples have another format than the color.
+    #[error("the texture '{name}' has another format than the color")]
+    Format {
+        /// The field of [`TargetTextures`].
+        name: &'static str,
+    },
     /// A texture lacks a usage.
     #[error("the texture '{name}' needs the usage {usage:?}")]
     Usage {
         /// The field of [`TargetTextures`].
         name: &'static str,
-        /// What it must be usable for.
+        /// The usages that it needs.
         usage: wgpu::TextureUsages,
     },
     /// The depth texture has no depth.
@@ -77,7 +83,10 @@ pub enum TargetError {
 }
 
 impl Targets {
-    /// Makes the textures; `size` must not be zero nor beyond the device's limit.
+    /// Makes textures of `size`, width and height in pixels.
+    ///
+    /// wgpu reports an error, which [`Gpu::make`](crate::Gpu::make) catches, if a side is 0 or
+    /// beyond the device's limit, or there is no memory.
     #[must_use]
     pub fn new(device: &wgpu::Device, size: [u32; 2], formats: TargetFormats) -> Self {
         let samples = formats.samples;
@@ -102,11 +111,11 @@ impl Targets {
         Self::of(size, formats, picture, sampled.as_ref(), &depth)
     }
 
-    /// Targets that are textures of the program: strokes are drawn into what is there.
+    /// Takes a program's own textures.
     ///
-    /// Depth is reversed, 1 near and 0 far, and surfaces are drawn to it with
-    /// [`push_away`](crate::draw::fill::push_away), so that they do not swallow strokes along
-    /// their edges.
+    /// With [`Fill::Done`](crate::Fill::Done) strokes are drawn over what the program drew.
+    /// Its depth must be reversed, 1 near and 0 far, and its surfaces drawn with
+    /// [`push_away`](crate::push_away).
     ///
     /// # Errors
     /// [`TargetError`], if the textures do not fit together or lack a usage.
@@ -138,6 +147,9 @@ impl Targets {
             if !texture.usage().contains(usage) {
                 return Err(TargetError::Usage { name, usage });
             }
+        }
+        if samples.as_ref().is_some_and(|samples| samples.format() != color.format()) {
+            return Err(TargetError::Format { name: "samples" });
         }
         if !depth.format().has_depth_aspect() {
             return Err(TargetError::NoDepth { format: depth.format() });
@@ -171,7 +183,7 @@ impl Targets {
         }
     }
 
-    /// The frame with what these targets hold of the fill, in a [`frame_fill_layout`].
+    /// Binds the frame with the depth and stencil of these targets, by [`frame_fill_layout`].
     pub(crate) fn bind_with_frame(
         &self,
         device: &wgpu::Device,
@@ -198,7 +210,7 @@ impl Targets {
     /// The first `count` textures for the coverage of linked strokes.
     pub(crate) fn coverage(&self, device: &wgpu::Device, count: usize) -> Vec<wgpu::TextureView> {
         let [width, height] = self.size;
-        // Views are pushed whole; a thread that panicked left none half made.
+        // Views are pushed whole: a thread that panicked left the list valid.
         let mut views = self.coverage.lock().unwrap_or_else(PoisonError::into_inner);
         while views.len() < count {
             let texture = device.create_texture(&wgpu::TextureDescriptor {
@@ -217,48 +229,43 @@ impl Targets {
         views[..count].to_vec()
     }
 
-    /// The formats.
+    /// Formats and sample count.
     #[must_use]
     pub const fn formats(&self) -> &TargetFormats {
         &self.formats
     }
 
-    /// The depth, to be read.
+    /// The depth, for shaders to read.
     #[must_use]
     pub const fn depth_texture(&self) -> &wgpu::TextureView {
         &self.depth_texture
     }
 
-    /// The values of the objects in the stencil, to be read.
-    #[must_use]
-    pub const fn object_texture(&self) -> Option<&wgpu::TextureView> {
-        self.object_texture.as_ref()
-    }
-
-    /// Bytes that textures of this size take, for messages.
+    /// Bytes of textures of this size, for messages.
     #[must_use]
     pub const fn byte_count(size: [u32; 2], samples: u32) -> u64 {
         let pixels = size[0] as u64 * size[1] as u64;
-        // The picture, and colour and depth for each sample; one sample is
-        // drawn into the picture itself.
+        // The picture, and color and depth for each sample; a single sample is drawn into the
+        // picture itself.
         let color_samples = if samples > 1 { samples as u64 } else { 0 };
         pixels * 4 * (1 + color_samples + samples as u64)
     }
 
-    /// The size as pipelines want it.
+    /// Width and height in pixels.
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "texture sizes are small")]
     pub const fn viewport_px(&self) -> Vec2 {
         Vec2::new(self.size[0] as f32, self.size[1] as f32)
     }
 
-    /// The finished picture.
+    /// The picture, of one sample per pixel.
     #[must_use]
     pub const fn picture(&self) -> &wgpu::Texture {
         &self.picture
     }
 
-    /// The colour attachment; resolved into the picture where `is_last`.
+    /// The color attachment; with `is_last` its samples are averaged to the picture and
+    /// dropped.
     #[must_use]
     pub fn color_attachment(
         &self,
@@ -272,14 +279,14 @@ impl Targets {
             resolve_target: resolves.then_some(&self.picture_view),
             ops: wgpu::Operations {
                 load,
-                // What was resolved is not needed sample by sample any more.
+                // Resolved samples are not needed any more.
                 store: if resolves { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store },
             },
         }
     }
 
-    /// Copies the picture as it is, its samples averaged, to a texture of its size and
-    /// format.
+    /// Copies the picture, its samples averaged, to `texture` with the view `to`; the texture
+    /// must have the picture's size and format.
     pub fn copy_picture(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -309,28 +316,26 @@ impl Targets {
         }
     }
 
-    /// Depth and stencil, cleared to nothing drawn.
+    /// The depth attachment, cleared to the far plane and to no object.
     #[must_use]
     pub fn cleared_depth(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
         // Reversed depth: 0 is the far plane.
         self.depth(wgpu::LoadOp::Clear(0.0), wgpu::LoadOp::Clear(NO_OBJECT))
     }
 
-    /// Depth and stencil as they are.
+    /// The depth attachment as it is.
     #[must_use]
     pub fn kept_depth(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
         self.depth(wgpu::LoadOp::Load, wgpu::LoadOp::Load)
     }
 
-    /// Depth as it is, and the stencil cleared.
-    #[must_use]
-    pub fn cleared_stencil(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    /// The depth attachment with the depth as it is and the stencil cleared.
+    pub(crate) fn cleared_stencil(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
         self.depth(wgpu::LoadOp::Load, wgpu::LoadOp::Clear(NO_OBJECT))
     }
 
-    /// Depth and stencil as they are, to be tested against, and read meanwhile.
-    #[must_use]
-    pub const fn read_depth(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    /// The depth attachment read only, so that shaders can read it meanwhile.
+    pub(crate) const fn read_depth(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
         wgpu::RenderPassDepthStencilAttachment {
             view: &self.depth_view,
             depth_ops: None,
@@ -353,10 +358,9 @@ impl Targets {
     }
 }
 
-/// `@group(0)` of strokes that ask what was filled: the frame, the depth as a
-/// texture of one sample a pixel (binding 1) or of several (2), and, for targets
-/// with a stencil, the objects in the same way (3 or 4).
-#[must_use]
+/// `@group(0)` of strokes that read the fill: the frame, the depth as a texture of one sample
+/// per pixel (binding 1) or of several (2), and the stencil of targets that have one in the
+/// same way (3 or 4).
 pub(crate) fn frame_fill_layout(
     device: &wgpu::Device,
     formats: &TargetFormats,
@@ -384,7 +388,7 @@ pub(crate) fn frame_fill_layout(
     })
 }
 
-/// The bindings of the depth and of the objects.
+/// The bindings of depth and stencil.
 const fn fill_bindings(samples: u32) -> [u32; 2] {
     if samples > 1 { [2, 4] } else { [1, 3] }
 }

@@ -3,7 +3,7 @@
 use bytemuck::Pod;
 use wgpu::util::DeviceExt as _;
 
-/// A uniform buffer that holds `value`.
+/// A uniform buffer that holds `value` and can be written anew.
 pub(crate) fn uniform_buffer<T: Pod>(
     device: &wgpu::Device,
     label: &str,
@@ -16,7 +16,6 @@ pub(crate) fn uniform_buffer<T: Pod>(
     })
 }
 
-/// A bind group layout.
 pub(crate) fn bind_layout(
     device: &wgpu::Device,
     label: &str,
@@ -43,6 +42,21 @@ pub(crate) const fn storage_entry(
     buffer_entry(binding, visibility, wgpu::BufferBindingType::Storage { read_only })
 }
 
+/// A layout entry for a uniform buffer of compute shaders.
+pub(crate) const fn compute_uniform(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    uniform_entry(binding, wgpu::ShaderStages::COMPUTE)
+}
+
+/// A layout entry for a storage buffer that compute shaders read.
+pub(crate) const fn compute_read(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    storage_entry(binding, wgpu::ShaderStages::COMPUTE, true)
+}
+
+/// A layout entry for a storage buffer that compute shaders read and write.
+pub(crate) const fn compute_write(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    storage_entry(binding, wgpu::ShaderStages::COMPUTE, false)
+}
+
 const fn buffer_entry(
     binding: u32,
     visibility: wgpu::ShaderStages,
@@ -56,7 +70,7 @@ const fn buffer_entry(
     }
 }
 
-/// Binds whole buffers by their numbers.
+/// Binds whole buffers; each comes with the number of its binding.
 pub(crate) fn bind_buffers(
     device: &wgpu::Device,
     label: &str,

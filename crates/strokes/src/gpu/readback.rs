@@ -9,11 +9,13 @@ use thiserror::Error;
 
 use crate::gpu::device::Gpu;
 
-/// The GPU did not hand its memory back.
+/// A texture or buffer was not read back: it cannot be copied from, or the device was lost or
+/// has no memory for the copy.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 #[error("the picture could not be read back from the graphics adapter: {reason}")]
 pub struct ReadbackError {
-    /// What the driver said.
+    /// The mismatch, or the driver's message.
     pub reason: String,
 }
 
@@ -23,29 +25,33 @@ impl ReadbackError {
     }
 }
 
-/// Reads an RGBA texture of 8 bits a channel and one sample; waits for all
+/// Reads a texture of 8-bit RGBA and one sample per pixel, without conversion; waits for all
 /// submitted work.
 ///
 /// # Errors
-/// Where the device is lost or has no room for the copy.
+/// As [`read_texels`], and if the format is another one.
 pub fn read_picture(gpu: &Gpu, texture: &wgpu::Texture) -> Result<RgbaImage, ReadbackError> {
-    RgbaImage::from_raw(texture.width(), texture.height(), read_texels(gpu, texture, 4)?)
+    let format = texture.format();
+    if format.remove_srgb_suffix() != wgpu::TextureFormat::Rgba8Unorm {
+        return Err(ReadbackError::new(format!(
+            "a texture of {format:?} is not an 8-bit RGBA picture"
+        )));
+    }
+    RgbaImage::from_raw(texture.width(), texture.height(), read_texels(gpu, texture)?)
         .ok_or_else(|| ReadbackError::new("it gave too few bytes"))
 }
 
-/// Reads a texture of one sample and so many bytes a texel, row by row.
+/// Reads the first mip level of a two-dimensional texture, row by row without gaps; waits for
+/// all submitted work.
 ///
 /// # Errors
-/// Where the device is lost or has no room for the copy.
-pub fn read_texels<T: Pod>(
-    gpu: &Gpu,
-    texture: &wgpu::Texture,
-    bytes_per_texel: u32,
-) -> Result<Vec<T>, ReadbackError> {
-    let (width, height) = (texture.width(), texture.height());
-    let row_bytes = bytes_per_texel * width;
+/// [`ReadbackError`], if the texture has several samples or layers, has a format without bytes
+/// per texel, or was made without [`COPY_SRC`](wgpu::TextureUsages::COPY_SRC); and if the
+/// device is lost or has no memory for the copy.
+pub fn read_texels<T: Pod>(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<T>, ReadbackError> {
+    let row_bytes = bytes_per_texel(texture)? * texture.width();
     let padded_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-    let buffer = staging(gpu, u64::from(padded_bytes) * u64::from(height))?;
+    let buffer = staging(gpu, u64::from(padded_bytes) * u64::from(texture.height()))?;
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     encoder.copy_texture_to_buffer(
         texture.as_image_copy(),
@@ -66,20 +72,36 @@ pub fn read_texels<T: Pod>(
     Ok(bytemuck::pod_collect_to_vec(&bytes))
 }
 
-/// Reads the first `count` items of a buffer that may be copied from.
+/// Bytes of a texel, if the texture can be copied to a buffer.
+fn bytes_per_texel(texture: &wgpu::Texture) -> Result<u32, ReadbackError> {
+    if texture.sample_count() > 1 {
+        return Err(ReadbackError::new("the texture has several samples per pixel"));
+    }
+    if texture.dimension() != wgpu::TextureDimension::D2 || texture.depth_or_array_layers() > 1 {
+        return Err(ReadbackError::new("the texture has several layers"));
+    }
+    if !texture.usage().contains(wgpu::TextureUsages::COPY_SRC) {
+        return Err(ReadbackError::new("the texture was made without the usage COPY_SRC"));
+    }
+    let format = texture.format();
+    format
+        .block_copy_size(None)
+        .filter(|_| format.block_dimensions() == (1, 1))
+        .ok_or_else(|| ReadbackError::new(format!("{format:?} has no bytes per texel")))
+}
+
+/// Reads the first `count` items of a buffer; waits for all submitted work.
 ///
 /// # Errors
-/// Where the device is lost or has no room for the copy.
+/// [`ReadbackError`], if the buffer is shorter, or was made without
+/// [`COPY_SRC`](wgpu::BufferUsages::COPY_SRC), or the items are not a multiple of 4 bytes; and
+/// if the device is lost or has no memory for the copy.
 pub fn read_buffer<T: Pod>(
     gpu: &Gpu,
     source: &wgpu::Buffer,
     count: usize,
 ) -> Result<Vec<T>, ReadbackError> {
-    let byte_count = (count * size_of::<T>()) as u64;
-    let buffer = staging(gpu, byte_count)?;
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    encoder.copy_buffer_to_buffer(source, 0, &buffer, 0, byte_count);
-    gpu.queue.submit([encoder.finish()]);
+    let buffer = copy_to_staging::<T>(gpu, source, count)?;
     Ok(bytemuck::pod_collect_to_vec(&map(gpu, &buffer)?))
 }
 
@@ -92,24 +114,20 @@ pub struct PendingRead<T> {
 }
 
 impl<T: Pod> PendingRead<T> {
-    /// Begins to read the first `count` items of a buffer that may be copied from, as it
-    /// is after everything that was submitted.
+    /// Begins to read the first `count` items of a buffer, as it is after everything that was
+    /// submitted.
     ///
     /// # Errors
-    /// Where the device is lost or has no room for the copy.
+    /// As [`read_buffer`].
     pub fn begin(gpu: &Gpu, source: &wgpu::Buffer, count: usize) -> Result<Self, ReadbackError> {
-        let byte_count = (count * size_of::<T>()) as u64;
-        let buffer = staging(gpu, byte_count)?;
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        encoder.copy_buffer_to_buffer(source, 0, &buffer, 0, byte_count);
-        gpu.queue.submit([encoder.finish()]);
+        let buffer = copy_to_staging::<T>(gpu, source, count)?;
         Ok(Self { answer: begin_map(&buffer), buffer, items: PhantomData })
     }
 
-    /// The items, if they are there; does not wait.
+    /// The items once they have arrived, `None` until then; does not wait.
     ///
     /// # Errors
-    /// Where the device is lost.
+    /// [`ReadbackError`], if the device is lost, and after the items were handed out.
     pub fn poll(&self, gpu: &Gpu) -> Result<Option<Vec<T>>, ReadbackError> {
         gpu.device.poll(wgpu::PollType::Poll).map_err(ReadbackError::new)?;
         match self.answer.try_recv() {
@@ -122,6 +140,30 @@ impl<T: Pod> PendingRead<T> {
             }
         }
     }
+}
+
+/// Submits a copy of the first `count` items of a buffer to one that can be mapped.
+fn copy_to_staging<T: Pod>(
+    gpu: &Gpu,
+    source: &wgpu::Buffer,
+    count: usize,
+) -> Result<wgpu::Buffer, ReadbackError> {
+    let byte_count = (count as u64).saturating_mul(size_of::<T>() as u64);
+    if byte_count > source.size() {
+        let has = source.size();
+        return Err(ReadbackError::new(format!("{byte_count} bytes of a buffer of {has}")));
+    }
+    if !byte_count.is_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT) {
+        return Err(ReadbackError::new(format!("{byte_count} bytes are not a multiple of 4")));
+    }
+    if !source.usage().contains(wgpu::BufferUsages::COPY_SRC) {
+        return Err(ReadbackError::new("the buffer was made without the usage COPY_SRC"));
+    }
+    let buffer = staging(gpu, byte_count)?;
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    encoder.copy_buffer_to_buffer(source, 0, &buffer, 0, byte_count);
+    gpu.queue.submit([encoder.finish()]);
+    Ok(buffer)
 }
 
 fn staging(gpu: &Gpu, size: u64) -> Result<wgpu::Buffer, ReadbackError> {

@@ -1,25 +1,25 @@
-//! What was made before and may be wanted again.
+//! A cache of what was used last.
 
-/// Made things with their keys, so many of them; the one that was not used for the longest
-/// time goes first.
+/// A cache of values by key: the value that was not used for the longest time is dropped
+/// first.
 #[derive(Debug)]
 pub struct Recent<K, V> {
     most: usize,
-    /// The one that was used last behind all others.
+    /// In the order of their last use.
     known: Vec<(K, V)>,
 }
 
 impl<K, V: Clone> Recent<K, V> {
-    /// Room for `most` things.
+    /// A cache of at most `most` values, but at least one.
     #[must_use]
     pub const fn new(most: usize) -> Self {
         Self { most, known: Vec::new() }
     }
 
-    /// What has a key that `is_it`, made with its key where it is not known.
+    /// The value whose key is `is_it`; `make` makes key and value if the cache has none.
     ///
     /// # Errors
-    /// Those of `make`; what is known stays.
+    /// Those of `make`; the cache stays as it is.
     pub fn get<E>(
         &mut self,
         is_it: impl Fn(&K) -> bool,

@@ -2,7 +2,7 @@
 
 use edgemesh_shaders::{ShaderError, ShaderSource};
 
-/// Makes the module of a shader on a device.
+/// Compiles a shader with its imports; `label` is its name in wgpu's messages.
 #[must_use]
 pub fn shader_module(
     device: &wgpu::Device,

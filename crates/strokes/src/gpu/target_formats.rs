@@ -4,33 +4,30 @@ use edgemesh_shaders::{ShaderError, ShaderSource};
 
 use crate::gpu::shader::shader_module;
 
-/// The format of coverage.
 pub(crate) const COVERAGE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-/// The format of pictures.
-pub const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-/// The formats and the samples that pipelines and targets must agree on.
+/// The formats and the sample count that pipelines and targets must agree on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TargetFormats {
-    /// Of the picture: [`COLOR_FORMAT`], or floats where a picture is to be
-    /// worked on further.
+    /// Format of the picture: `Rgba8Unorm`, or floats if later passes work on it.
     pub color: wgpu::TextureFormat,
-    /// Of the depth: reversed, 1 near, 0 far.
+    /// Format of the depth, with or without a stencil. Depth is reversed: 1 near, 0 far.
     pub depth: wgpu::TextureFormat,
-    /// Samples a pixel, 1 or 4.
+    /// Samples per pixel, 1 or 4.
     pub samples: u32,
 }
 
 impl TargetFormats {
-    /// The formats for looks without silhouettes.
+    /// The formats for styles without silhouettes: `Rgba8Unorm` and `Depth32Float`.
     #[must_use]
     pub const fn new(samples: u32) -> Self {
         Self { color: COLOR_FORMAT, depth: wgpu::TextureFormat::Depth32Float, samples }
     }
 
-    /// The formats for looks with silhouettes, which need a stencil. Devices
-    /// without one beside 32 bits of depth have 24.
+    /// The formats for styles with silhouettes, which need a stencil. The depth has 24 bits
+    /// if the device has no stencil beside 32.
     #[must_use]
     pub fn with_stencil(device: &wgpu::Device, samples: u32) -> Self {
         let is_exact = device.features().contains(wgpu::Features::DEPTH32FLOAT_STENCIL8);
@@ -42,13 +39,13 @@ impl TargetFormats {
         Self { depth, ..Self::new(samples) }
     }
 
-    /// Whether there is a stencil beside the depth.
+    /// Whether the depth format has a stencil.
     #[must_use]
     pub fn has_stencil(&self) -> bool {
         self.depth.has_stencil_aspect()
     }
 
-    /// The file that stands for a placeholder where shaders read what was filled:
+    /// The file that replaces a placeholder in shaders that read the fill:
     /// `common/fill_depth.wgsl` or `common/fill_object.wgsl`.
     fn shader_file(&self, placeholder: &str) -> Option<&'static str> {
         match (placeholder, self.samples > 1) {
@@ -61,8 +58,7 @@ impl TargetFormats {
         }
     }
 
-    /// The module of an embedded shader that reads what was filled in pictures of these
-    /// formats.
+    /// The module of an embedded shader that reads the fill of targets of these formats.
     pub(crate) fn shader_module(
         &self,
         device: &wgpu::Device,

@@ -1,12 +1,11 @@
-//! How long each pass took on the GPU, by timestamp queries where the adapter
-//! has them.
+//! How long each pass takes on the GPU, by timestamp queries.
 
 use wgpu::Features;
 
 use crate::gpu::device::Gpu;
 use crate::gpu::readback::{PendingRead, ReadbackError, read_buffer};
 
-/// Two timestamps a pass.
+/// Measures a run of passes: two timestamps per pass.
 #[derive(Debug)]
 pub struct GpuTimer {
     queries: wgpu::QuerySet,
@@ -15,11 +14,13 @@ pub struct GpuTimer {
 }
 
 impl GpuTimer {
-    /// A timer for `pass_count` passes; `None` where the device has no
-    /// timestamps, or there are no passes.
+    /// A timer for `pass_count` passes; `None` if the device has no timestamps, or cannot
+    /// hold that many (0, or more than 2048).
     #[must_use]
     pub fn new(gpu: &Gpu, pass_count: u32) -> Option<Self> {
-        if pass_count == 0 || !gpu.device.features().contains(Features::TIMESTAMP_QUERY) {
+        let has_timestamps = gpu.device.features().contains(Features::TIMESTAMP_QUERY);
+        let is_in_range = (1..=wgpu::QUERY_SET_MAX_QUERIES / 2).contains(&pass_count);
+        if !(has_timestamps && is_in_range) {
             return None;
         }
         let count = 2 * pass_count;
@@ -37,13 +38,12 @@ impl GpuTimer {
         Some(Self { queries, resolved, pass_count })
     }
 
-    /// The passes from `first` on.
+    /// The passes from number `first` on.
     #[must_use]
     pub const fn passes_from(&self, first: u32) -> TimedPasses<'_> {
         TimedPasses { timer: self, first }
     }
 
-    /// The queries around compute pass `index`.
     const fn compute(&self, index: u32) -> wgpu::ComputePassTimestampWrites<'_> {
         wgpu::ComputePassTimestampWrites {
             query_set: &self.queries,
@@ -52,7 +52,6 @@ impl GpuTimer {
         }
     }
 
-    /// The queries around render pass `index`.
     const fn render(&self, index: u32) -> wgpu::RenderPassTimestampWrites<'_> {
         wgpu::RenderPassTimestampWrites {
             query_set: &self.queries,
@@ -61,16 +60,15 @@ impl GpuTimer {
         }
     }
 
-    /// After the last pass, in the same submission.
+    /// Encodes the end of the run; call it after the last pass, in the same submission.
     pub fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.resolve_query_set(&self.queries, 0..2 * self.pass_count, &self.resolved, 0);
     }
 
-    /// Milliseconds of each pass of the last submission, and from the start of the
-    /// first to the end of the last.
+    /// Waits for the last submission and reads its times.
     ///
     /// # Errors
-    /// Where the device is lost.
+    /// [`ReadbackError`], if the device is lost.
     pub fn read(&self, gpu: &Gpu) -> Result<GpuTimes, ReadbackError> {
         Ok(self.times(gpu, &read_buffer(gpu, &self.resolved, self.tick_count())?))
     }
@@ -78,7 +76,7 @@ impl GpuTimer {
     /// Begins to read the ticks of the last submission, for [`Self::times`].
     ///
     /// # Errors
-    /// Where the device is lost.
+    /// [`ReadbackError`], if the device is lost.
     pub fn begin_read(&self, gpu: &Gpu) -> Result<PendingRead<u64>, ReadbackError> {
         PendingRead::begin(gpu, &self.resolved, self.tick_count())
     }
@@ -87,7 +85,7 @@ impl GpuTimer {
         2 * self.pass_count as usize
     }
 
-    /// What the ticks of all passes are in milliseconds.
+    /// Converts ticks, two per pass, to milliseconds.
     #[must_use]
     pub fn times(&self, gpu: &Gpu, ticks: &[u64]) -> GpuTimes {
         let ns_per_tick = f64::from(gpu.queue.get_timestamp_period());
@@ -100,7 +98,8 @@ impl GpuTimer {
     }
 }
 
-/// A run of the passes of a timer.
+/// The passes of a timer from one of them on. Numbers must stay below the timer's count:
+/// wgpu rejects other passes.
 #[derive(Debug, Clone, Copy)]
 pub struct TimedPasses<'a> {
     timer: &'a GpuTimer,
@@ -108,19 +107,24 @@ pub struct TimedPasses<'a> {
 }
 
 impl<'a> TimedPasses<'a> {
-    /// The passes from number `index` of the run on.
+    /// The passes from number `index` of these on.
     #[must_use]
     pub const fn from(&self, index: u32) -> Self {
         Self { timer: self.timer, first: self.first + index }
     }
 
-    /// The queries around compute pass `index` of the run.
+    /// How many passes there are.
+    pub(crate) const fn count(&self) -> u32 {
+        self.timer.pass_count.saturating_sub(self.first)
+    }
+
+    /// The queries around compute pass `index`.
     #[must_use]
     pub const fn compute(&self, index: u32) -> wgpu::ComputePassTimestampWrites<'a> {
         self.timer.compute(self.first + index)
     }
 
-    /// The queries around render pass `index` of the run.
+    /// The queries around render pass `index`.
     #[must_use]
     pub const fn render(&self, index: u32) -> wgpu::RenderPassTimestampWrites<'a> {
         self.timer.render(self.first + index)
@@ -129,9 +133,10 @@ impl<'a> TimedPasses<'a> {
 
 /// How long a frame took on the GPU.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct GpuTimes {
-    /// Each pass.
+    /// Milliseconds of each pass.
     pub passes_ms: Vec<f64>,
-    /// All of them, with what lies between.
+    /// Milliseconds from the start of the first pass to the end of the last.
     pub frame_ms: f64,
 }

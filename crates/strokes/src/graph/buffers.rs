@@ -2,12 +2,12 @@
 //!
 //! | buffer | bytes |
 //! |---|---|
-//! | nodes, elements | 32 and 48 an edge that can be linked (of 8 edges one) |
-//! | states of linking, twice | 16 each |
-//! | nodes before, chains | 4 and 8 |
-//! | sums | 8 for 16 items |
-//! | joints | 16 an edge that can be linked |
-//! | points, strokes, ribbons | 48, 16 and 80 a point (two for each edge that can be linked, and up to 65,536) |
+//! | nodes, elements | 32 and 48 per edge that can be linked (one edge in 8) |
+//! | chain states, twice | 16 per edge that can be linked |
+//! | previous nodes, chains | 4 and 8 per edge that can be linked |
+//! | sums | 8 per 16 items |
+//! | joints | 16 per edge that can be linked |
+//! | points, strokes, ribbons | 48, 16 and 80 per point (two per edge that can be linked, and up to 65,536) |
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh::index::to_u32;
@@ -18,51 +18,50 @@ use crate::mesh::capacity::BYTES_PER_NODE;
 use crate::mesh::layout::ChunkUniform;
 use crate::style::drawing_style::{MAX_LAYERS, MAX_STROKE_SETS};
 
-/// Rounds of linking, at most: each looks four times as far, and 4 to this power is the number
-/// of all indices. WGSL twin: the constant of this name.
+/// The most rounds of linking: each looks four times as far, and 4 to this power is the number of
+/// all indices. WGSL twin: the constant of this name.
 pub const MAX_LINK_ROUNDS: usize = 16;
 
-/// Items that one invocation sums up before a scan. WGSL twin: the constant of this
-/// name.
+/// Items that one invocation sums up before a scan. WGSL twin: the constant of this name.
 pub const ITEMS_PER_SUM: u32 = 16;
 
-/// In [`LinkNode::edge`]: the chain runs from its `v1` to its `v0`. WGSL twin: the
+/// In [`LinkNode::edge`]: the chain runs from the record's `v1` to its `v0`. WGSL twin: the
 /// constant of this name.
 pub const BACKWARD: u32 = 1 << 30;
 
-/// No node follows. WGSL twin: the constant of this name.
+/// No node follows; also the bits of the record in [`LinkNode::edge`]. WGSL twin: the constant of
+/// this name.
 pub const NO_NODE: u32 = (1 << 29) - 1;
 
-/// In [`LinkNode::next`]: clipped where it begins. WGSL twin: as above.
+/// In [`LinkNode::next`]: the edge is clipped where it begins. WGSL twin: as above.
 pub const CUT_START: u32 = 1 << 31;
 
-/// In [`LinkNode::next`]: clipped where it ends. WGSL twin: as above.
+/// In [`LinkNode::next`]: the edge is clipped where it ends. WGSL twin: as above.
 pub const CUT_END: u32 = 1 << 30;
 
-/// In [`LinkNode::next`]: clipped as a whole. WGSL twin: as above.
+/// In [`LinkNode::next`]: the whole edge is clipped. WGSL twin: as above.
 pub const CUT_WHOLE: u32 = 1 << 29;
 
-/// In [`Element::count`]: the last element is followed by the first. WGSL twin: as
-/// above.
+/// In [`Element::count`]: the first element follows the last. WGSL twin: as above.
 pub const ON_LOOP: u32 = 1 << 31;
 
-/// Steps of arc length a pixel. WGSL twin: the constant of this name.
+/// Steps of arc length per pixel. WGSL twin: the constant of this name.
 pub const ARC_PER_PX: f32 = 1024.0;
 
-/// Which draws are linked, and how much there is room for. WGSL twin:
-/// `shaders/common/stroke_graph.wgsl`, as of all structs here.
+/// Which stroke sets are linked, and the sizes of the buffers. WGSL twin:
+/// `shaders/common/stroke_graph.wgsl`, as for all structs here.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct GraphUniform {
     /// Chunks of the mesh.
     pub chunk_count: u32,
-    /// Stroke sets of the style.
+    /// How many of `sets` are in use.
     pub set_count: u32,
-    /// Joints of all stroke sets that there is room for.
+    /// The most joints of all stroke sets.
     pub joint_capacity: u32,
-    /// Points of all paths that there is room for.
+    /// The most points of all paths.
     pub point_capacity: u32,
-    /// 1 if contours are in a layer as such, else 0.
+    /// 1 if a layer draws contours, else 0.
     pub draws_contours: u32,
     /// The most linked stroke sets of one layer.
     pub sets_per_layer: u32,
@@ -72,11 +71,11 @@ pub struct GraphUniform {
     pub sets: [LinkedSet; MAX_STROKE_SETS],
 }
 
-/// What linking must know of a stroke set.
+/// A stroke set as linking reads it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct LinkedSet {
-    /// Its layer.
+    /// The layer whose edges are drawn.
     pub layer: u32,
     /// 1 if its strokes are linked.
     pub is_linked: u32,
@@ -84,60 +83,63 @@ pub struct LinkedSet {
     pub padding: [u32; 2],
 }
 
-/// How much of everything there is in a view.
+/// The counts of a stroke graph.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[non_exhaustive]
 #[repr(C)]
 pub struct GraphHeader {
-    /// Edges that are linked.
+    /// Linked edges.
     pub node_count: u32,
-    /// Elements of all linked stroke sets together: one joint each.
+    /// Joints of all linked stroke sets: one per element.
     pub joint_count: u32,
-    /// Points along them.
+    /// Points of all paths.
     pub point_count: u32,
-    /// Strokes along them.
+    /// Strokes of all paths.
     pub stroke_count: u32,
     /// Chains of all layers.
     pub chain_count: u32,
     /// Arc length of all chains, in pixels.
     pub total_px: f32,
-    /// Points that there is room for.
+    /// The most points of all paths.
     pub point_capacity: u32,
     /// The most linked stroke sets of one layer.
     pub sets_per_layer: u32,
-    /// Where the nodes of each layer begin; the last is their number.
+    /// The first node of each layer; the last is the number of nodes.
     pub layer_first: [u32; MAX_LAYERS + 1],
-    /// Where the joints of each stroke set begin, and their number.
+    /// The first joint of each stroke set; the last is the number of joints.
     pub set_first: [u32; MAX_STROKE_SETS + 1],
     /// 1 for each round of linking that changed anything.
     pub changed: [u32; MAX_LINK_ROUNDS],
 }
 
-/// One drawn edge, in the direction of its chain.
+/// A linked edge, in the direction of its chain.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[non_exhaustive]
 #[repr(C)]
 pub struct LinkNode {
-    /// Where it begins, in pixels from the middle of the picture, y up.
+    /// Start of the edge, in pixels from the middle of the picture, y up.
     pub s0: [f32; 2],
-    /// Where it ends.
+    /// End of the edge.
     pub s1: [f32; 2],
-    /// Depth where it begins.
+    /// Depth at the start.
     pub z0: f32,
-    /// Depth where it ends.
+    /// Depth at the end.
     pub z1: f32,
-    /// The edge's index in the mesh, with the line bits of contours and of what its own
-    /// solid hides, and [`BACKWARD`].
+    /// Index of the record in the mesh (29 bits), with `LineBits` of contours and of edges that
+    /// their own solid hides, and bit 30 if the chain runs from the record's `v1` to its `v0`.
     pub edge: u32,
-    /// The node that follows, or [`NO_NODE`], with [`CUT_START`] and the others.
+    /// The node that follows, or all ones (29 bits), with bits of what is clipped: the whole
+    /// edge (29), its end (30), its start (31).
     pub next: u32,
 }
 
-/// What a node knows of its chain after some rounds of linking.
+/// The links of a node after some rounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct ChainState {
-    /// The node so many steps further on.
+    /// The node `reach` steps on.
     pub jump: u32,
-    /// The last node of an open chain, or the smallest so far with [`ON_LOOP`].
+    /// The last node of an open chain; on a loop the smallest node so far, with [`ON_LOOP`].
     pub anchor: u32,
     /// Steps to the anchor.
     pub distance: u32,
@@ -149,145 +151,168 @@ pub struct ChainState {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Chain {
-    /// Its first element.
+    /// First element.
     pub first: u32,
-    /// How many it has.
+    /// Number of elements.
     pub count: u32,
 }
 
 /// An element of a chain, in the order of the chain.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[non_exhaustive]
 #[repr(C)]
 pub struct Element {
-    /// As in its node.
+    /// As in [`LinkNode`].
     pub s0: [f32; 2],
-    /// As in its node.
+    /// As in [`LinkNode`].
     pub s1: [f32; 2],
-    /// As in its node.
+    /// As in [`LinkNode`].
     pub z0: f32,
-    /// As in its node.
+    /// As in [`LinkNode`].
     pub z1: f32,
-    /// As in its node.
+    /// As in [`LinkNode`].
     pub edge: u32,
-    /// As in its node.
+    /// As in [`LinkNode`].
     pub next: u32,
-    /// The first element of its chain.
+    /// First element of the chain.
     pub first: u32,
-    /// How many elements its chain has, with [`ON_LOOP`] where the last is followed
-    /// by the first.
+    /// Number of elements of the chain, with bit 31 on a loop: the first element follows the
+    /// last.
     pub count: u32,
-    /// Arc length up to here in [`ARC_PER_PX`] of a pixel, from anywhere.
+    /// Arc length up to here in 1/1024 pixels, from an arbitrary start; it wraps around.
     pub arc: u32,
-    /// Its node.
+    /// Index of the node.
     pub node: u32,
 }
 
-/// The beginning of an element in the path of a stroke set.
+impl Element {
+    /// Index of the record in the mesh.
+    #[must_use]
+    pub const fn record(&self) -> u32 {
+        self.edge & NO_NODE
+    }
+
+    /// Whether the chain runs from the record's `v1` to its `v0`.
+    #[must_use]
+    pub const fn is_backward(&self) -> bool {
+        self.edge & BACKWARD != 0
+    }
+
+    /// Number of elements of the chain.
+    #[must_use]
+    pub const fn chain_length(&self) -> u32 {
+        self.count & !ON_LOOP
+    }
+}
+
+/// The start of an element in the path of a stroke set.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Joint {
-    /// Cosine of the turn there, measured over some pixels.
+    /// Cosine of the turn, measured over some pixels.
     pub cosine: f32,
-    /// Whether it is a break, a corner, a place to split at: one bit each.
+    /// A break, a corner, a place to split at: one bit each.
     pub kind: u32,
-    /// Points of the element.
+    /// Number of points of the element.
     pub point_count: u32,
-    /// The first of them.
+    /// First point of the element.
     pub first_point: u32,
 }
 
-/// A point of a path; with the one that follows it, a segment.
+/// A point of a path. It begins the segment to the next point.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[non_exhaustive]
 #[repr(C)]
 pub struct PathPoint {
     /// Pixels from the middle of the picture, y up.
     pub position: [f32; 2],
-    /// How far beside it the line is drawn, in pixels.
+    /// From the point to the drawn line, in pixels.
     pub offset: [f32; 2],
-    /// Its depth.
+    /// Depth, 1 near and 0 far.
     pub depth: f32,
-    /// Arc length up to here along the points, in [`ARC_PER_PX`] of a pixel, from
-    /// anywhere.
+    /// Arc length up to here in 1/1024 pixels, from an arbitrary start; it wraps around.
     pub arc: u32,
-    /// The joint of the element that it is on.
+    /// Joint of the point's element.
     pub joint: u32,
-    /// See the shader; the stroke set is above the lowest eight bits.
+    /// `POINT_` flags of `shaders/common/stroke_graph.wgsl` in the lowest eight bits, the stroke
+    /// set above them.
     pub flags: u32,
-    /// What of its segment is drawn, as fractions.
+    /// Start and end of the drawn part of the segment, as fractions.
     pub cut: [f32; 2],
-    /// The stroke that its segment is a part of.
+    /// The stroke of the segment.
     pub stroke: u32,
     /// Unused.
     pub padding: u32,
 }
 
-/// A stroke.
+/// A stroke of the graph: consecutive segments.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[non_exhaustive]
 #[repr(C)]
 pub struct Stroke {
-    /// The point where its first segment begins.
+    /// The point that begins the first segment.
     pub first: u32,
-    /// The point where its last segment begins.
+    /// The point that begins the last segment.
     pub last: u32,
-    /// Arc length where it begins, as that of points.
+    /// Arc length at the start, as in [`PathPoint::arc`].
     pub start_arc: u32,
-    /// Arc length where it ends.
+    /// Arc length at the end.
     pub end_arc: u32,
 }
 
-/// A segment of a stroke, ready to be drawn.
+/// A segment of a stroke as it is drawn. Pairs are values at its start and at its end.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[non_exhaustive]
 #[repr(C)]
 pub struct Ribbon {
-    /// Where it begins, in pixels from the middle of the picture, y up.
+    /// Start, in pixels from the middle of the picture, y up.
     pub a: [f32; 2],
-    /// Where it ends.
+    /// End, in the same pixels.
     pub b: [f32; 2],
-    /// Along the brush at both ends.
+    /// Repeats of the brush along the stroke.
     pub u: [f32; 2],
-    /// Half of its width at both ends, in pixels.
+    /// Half of the width, in pixels.
     pub half_width: [f32; 2],
-    /// Unit vector of half of the turn where it begins, along and across the segment.
+    /// Unit vector of half the turn at the start, along and across the segment.
     pub join0: [f32; 2],
-    /// The same where it ends.
+    /// Unit vector of half the turn at the end.
     pub join1: [f32; 2],
-    /// Dashes so far at both ends, in periods.
+    /// Periods of dashes along the stroke.
     pub dash: [f32; 2],
-    /// Depth of its line at both ends.
+    /// Depth of the line.
     pub depth: [f32; 2],
-    /// Of a period, how much is ink; 1 for whole lines.
+    /// Fraction of a dash period that is ink; 1 for whole lines.
     pub ink: f32,
-    /// Its opacity at both ends, as fractions of 16 bits.
+    /// Opacities as fractions of 16 bits, the start in the lower half.
     pub opacity: u32,
-    /// How it begins and ends, and on which side it lies.
+    /// Kinds of both ends, and the side of the line that the ribbon lies on.
     pub ends: u32,
-    /// What is filled so many pixels before the line hides it; 0 for never.
+    /// Surfaces more than this many pixels in front of the line hide the ribbon; 0 if none does.
     pub near_px: f32,
 }
 
 impl Ribbon {
-    /// Whether there is anything to draw: not so behind the end of a path, and where it
-    /// is hidden.
+    /// Whether the segment is drawn: it is not past the end of a path, and not hidden.
     #[must_use]
     pub const fn is_drawn(&self) -> bool {
         self.ends & NOT_DRAWN != NOT_DRAWN
     }
 }
 
-/// In [`Ribbon::ends`]: nothing. WGSL twin: the constant of this name.
+/// In [`Ribbon::ends`]: nothing is drawn. WGSL twin: the constant of this name.
 pub const NOT_DRAWN: u32 = 15;
 
-/// How large a dispatch is.
+/// The size of a dispatch.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Groups {
     /// One workgroup.
     One,
-    /// As many as the arguments say, at one of the places in [`arguments`].
+    /// Read from the arguments, at one of the places in [`arguments`].
     By(u32),
 }
 
-/// Where the arguments of each kind of dispatch and draw begin, in words. WGSL twins: the
-/// constants of these names.
+/// Places of the arguments of dispatches and draws, in words. WGSL twins: the constants of these
+/// names.
 pub mod arguments {
     use crate::style::drawing_style::MAX_STROKE_SETS;
 
@@ -312,14 +337,14 @@ pub mod arguments {
 
 const _: () = assert!(BYTES_PER_NODE == 8 * size_of::<Ribbon>() as u64, "as the mesh reckons");
 
-/// Points of the even grid along paths that there is room for, besides two for each
-/// element: a quarter of a million pixels of lines at four pixels a point. Where that
-/// is too little the points lie further apart. Meshes of a few edges have fewer.
+/// The most points of the even grid along paths, besides two for each element: a quarter of a
+/// million pixels of lines at four pixels per point. Longer lines have points further apart,
+/// and meshes of few edges have room for fewer.
 const GRID_POINTS: u32 = 1 << 16;
 const LEAST_GRID_POINTS: u32 = 1 << 11;
 const GRID_POINTS_A_NODE: u32 = 1 << 8;
 
-/// What there is room for.
+/// The sizes of the buffers.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct GraphSize {
     pub(crate) nodes: u32,
@@ -329,7 +354,7 @@ pub(crate) struct GraphSize {
 }
 
 impl GraphSize {
-    /// For stroke sets of which at most `sets_per_layer` are of one layer.
+    /// Sizes for stroke sets with at most `sets_per_layer` in one layer.
     pub(crate) fn new(device: &wgpu::Device, chunks: &[ChunkUniform], sets_per_layer: u32) -> Self {
         let nodes = chunks.iter().map(|chunk| chunk.node_capacity).sum::<u32>().max(1);
         let limit = device.limits().max_storage_buffer_binding_size;
@@ -341,14 +366,14 @@ impl GraphSize {
         Self { nodes, joints, points }
     }
 
-    /// Rounds that link the longest chain there can be: each looks four times as far.
+    /// Rounds that link the longest possible chain: each looks four times as far.
     pub(crate) fn rounds(&self) -> usize {
         let doublings = self.nodes.next_power_of_two().trailing_zeros();
         doublings.div_ceil(2).max(1) as usize
     }
 }
 
-/// The buffers.
+/// The buffers of a stroke graph.
 #[derive(Debug)]
 pub(crate) struct GraphBuffers {
     pub(crate) size: GraphSize,
@@ -382,7 +407,7 @@ impl GraphBuffers {
         let none = BufferUsages::empty();
         let nodes = size.nodes;
         let state = || buffer("chain states", nodes, size_of::<ChainState>(), none);
-        // Of each chunk what it may have, and room for where its layers begin.
+        // The node capacity of each chunk, and room for the bases of its layers.
         let mut bases: Vec<u32> = chunks.iter().map(|chunk| chunk.node_capacity).collect();
         bases.resize((MAX_LAYERS + 2) * chunks.len().max(1), 0);
         let chunk_count = to_u32(chunks.len());
@@ -403,14 +428,14 @@ impl GraphBuffers {
             chains: buffer("chains", nodes, size_of::<Chain>(), none),
             joints: buffer("joints", size.joints, size_of::<Joint>(), none),
             points: buffer("path points", size.points, size_of::<PathPoint>(), read_back),
-            // A stroke has a segment at least.
+            // A stroke has at least one segment.
             strokes: buffer("graph strokes", size.points, size_of::<Stroke>(), read_back),
             ribbons: buffer("ribbons", size.points, size_of::<Ribbon>(), read_back),
             size,
         }
     }
 
-    /// Dispatches as many workgroups as the arguments say at `at`, one of the places in
+    /// Dispatches the workgroups that the arguments have at `at`, one of the places in
     /// [`arguments`].
     pub(crate) fn dispatch(&self, pass: &mut wgpu::ComputePass, at: u32) {
         pass.dispatch_workgroups_indirect(&self.arguments, 4 * u64::from(at));

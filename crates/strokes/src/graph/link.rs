@@ -1,16 +1,15 @@
-//! Linking: every drawn edge becomes a node with a successor, and the nodes become
-//! chains (`shaders/graph/link_*.wgsl`).
+//! Linking: every drawn edge becomes a node with a successor, and the nodes become chains
+//! (`shaders/graph/link_*.wgsl`).
 //!
-//! No readback: the dispatches are as large as the view needs them, by arguments that
-//! the first of them writes; rounds are as many as the longest chain could need, and
-//! cost next to nothing once nothing changes.
+//! Nothing is read back: the first dispatch writes the sizes of the others. There are as many
+//! rounds as the longest chain could need; a round that changes nothing costs next to nothing.
 
 use edgemesh::index::to_u32;
 use edgemesh_shaders::ShaderError;
-use wgpu::ShaderStages;
 
 use crate::gpu::bind::{
-    bind_buffers, bind_layout, compute_pipeline, storage_entry, uniform_buffer, uniform_entry,
+    bind_buffers, bind_layout, compute_pipeline, compute_read, compute_uniform, compute_write,
+    uniform_buffer,
 };
 use crate::gpu::shader::embedded_module;
 use crate::graph::buffers::arguments::{CHUNK_GROUPS, NODE_GROUPS, NODE_SUM_GROUPS};
@@ -28,7 +27,7 @@ pub(crate) struct LinkPipeline {
     elements: wgpu::ComputePipeline,
     resolve: wgpu::ComputePipeline,
     jump: wgpu::ComputePipeline,
-    /// After the rounds: pipeline, and how large its dispatch is.
+    /// After the rounds, with the sizes of their dispatches.
     chains: Vec<(wgpu::ComputePipeline, Groups)>,
     rounds: Vec<wgpu::BindGroup>,
 }
@@ -42,13 +41,13 @@ struct Layouts {
     chains: wgpu::BindGroupLayout,
 }
 
-/// What linking needs of one object.
+/// The bind groups for the linking of one object.
 #[derive(Debug)]
 pub(crate) struct LinkBindings {
     bases: wgpu::BindGroup,
-    /// Edges and lists, one a chunk.
+    /// Edges and lists of each chunk.
     chunks: Vec<[wgpu::BindGroup; 2]>,
-    /// Reading one state and writing the other, and the other way round.
+    /// Reading one state and writing the other, in both directions.
     chains: [wgpu::BindGroup; 2],
     rounds: usize,
 }
@@ -165,7 +164,7 @@ impl LinkPipeline {
         })
     }
 
-    /// Forgets the last view; before [`Self::record`], outside of a pass.
+    /// Clears the links of the last view; call it before [`Self::record`], outside of a pass.
     pub(crate) fn clear(encoder: &mut wgpu::CommandEncoder, graph: &GraphBuffers) {
         encoder.clear_buffer(&graph.previous, 0, None);
     }
@@ -210,10 +209,7 @@ impl LinkPipeline {
 
 impl Layouts {
     fn new(device: &wgpu::Device, layout: Layout) -> Self {
-        let compute = ShaderStages::COMPUTE;
-        let uniform = |binding| uniform_entry(binding, compute);
-        let read = |binding| storage_entry(binding, compute, true);
-        let write = |binding| storage_entry(binding, compute, false);
+        let (uniform, read, write) = (compute_uniform, compute_read, compute_write);
         let make = |label: &str, entries: &[wgpu::BindGroupLayoutEntry]| {
             bind_layout(device, label, entries)
         };

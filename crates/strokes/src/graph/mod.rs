@@ -1,9 +1,9 @@
-//! The stroke graph: the edges that a view draws, linked into chains on the GPU in
-//! every frame, and the strokes along them.
+//! The stroke graph: the edges that a view draws, linked into chains on the GPU in every frame,
+//! and the strokes along them.
 //!
-//! The paper draws every edge by itself, and says what that costs: gaps between the
-//! caps of creases (Figure 5), textures that break at every edge (Figure 8). Its
-//! vertex programs saw nothing but their own edge; here compute shaders link them.
+//! The paper draws every edge by itself, since a vertex program reads no other edge, and shows
+//! the cost: gaps between the caps of creases (Figure 5), textures that break at every edge
+//! (Figure 8). Here compute shaders link the edges.
 //!
 //! ```text
 //!   live edges --link_elements--> nodes, each with its successor
@@ -15,7 +15,7 @@
 //!   ribbons --coverage-----> each pixel once, laid over the picture
 //! ```
 
-pub mod buffers;
+pub(crate) mod buffers;
 pub(crate) mod link;
-pub mod path;
-pub mod readback;
+pub(crate) mod path;
+pub(crate) mod readback;

@@ -1,15 +1,14 @@
-//! From chains to ribbons: corners, evenly spaced points, what of them is visible,
-//! strokes, and the segments to draw (`shaders/graph/path_*.wgsl`).
+//! From chains to ribbons: corners, evenly spaced points and their visibility, strokes, and the
+//! segments to draw (`shaders/graph/path_*.wgsl`).
 //!
-//! One run for all linked draws of an object, after the fill, whose depth says what is
-//! visible.
+//! One run serves all linked stroke sets of an object. It follows the fill, whose depth decides
+//! what is visible.
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh_shaders::ShaderError;
-use wgpu::ShaderStages;
 
 use crate::gpu::bind::{
-    bind_buffers, bind_layout, compute_pipeline, storage_entry, uniform_buffer, uniform_entry,
+    bind_buffers, bind_layout, compute_pipeline, compute_uniform, compute_write, uniform_buffer,
 };
 use crate::gpu::target_formats::TargetFormats;
 use crate::graph::buffers::arguments::{
@@ -20,64 +19,64 @@ use crate::style::brush::Brush;
 use crate::style::drawing_style::{DrawingStyle, MAX_STROKE_SETS, StrokeSet, Width};
 use crate::style::link_style::{BrushFit, CURVE_LENGTH, LinkStyle};
 
-/// How the strokes of a linked draw look. WGSL twin: `shaders/common/link_style.wgsl`.
+/// How the strokes of a linked set look. WGSL twin: `shaders/common/link_style.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct LinkStyleUniform {
-    /// The layer.
+    /// The layer whose edges are linked.
     pub layer: u32,
     /// A [`crate::style::drawing_style::Visibility`].
     pub visibility: u32,
     /// A [`edgemesh::line::placement::Placement`].
     pub placement: u32,
-    /// 1 where the width is in units of the world.
+    /// 1 if the width is in units of the world.
     pub is_world_width: u32,
-    /// The width.
+    /// In pixels, or in units of the world.
     pub width: f32,
-    /// Pixels between points along a link.
+    /// Pixels between points along a path.
     pub step_px: f32,
-    /// Strokes are cut where they turn more than this cosine says.
+    /// Strokes are cut where the cosine of their turn is smaller.
     pub corner_cosine: f32,
-    /// 1 where strokes are cut where they are hidden.
+    /// 1 if strokes are cut where they are hidden.
     pub is_cut_where_hidden: u32,
     /// A [`crate::style::link_style::Join`].
     pub join: u32,
     /// A [`crate::style::link_style::End`].
     pub end: u32,
-    /// Shorter strokes fade; negative for those shorter than wide.
+    /// Shorter strokes fade; negative stands for the width.
     pub min_length_px: f32,
-    /// Longer ones are cut; 0 for never.
+    /// Longer strokes are cut; 0 cuts none.
     pub max_length_px: f32,
-    /// Length of the brush over its height.
+    /// Width of the brush over its height.
     pub brush_aspect: f32,
-    /// 1 where the brush is stretched to the stroke.
+    /// 1 if the brush is stretched to the stroke.
     pub is_stretched: u32,
-    /// Distances where strokes begin to fade and where they are gone.
+    /// Distances at which strokes begin to fade and are gone; equal for no fading.
     pub fade: [f32; 2],
-    /// Over how many pixels a stroke grows and shrinks.
+    /// Over how many pixels a stroke grows at its start and shrinks at its end.
     pub taper_px: [f32; 2],
-    /// Pixels beyond both ends.
+    /// How far a stroke goes on beyond each end.
     pub overshoot_px: f32,
-    /// How far lines leave their link.
+    /// How far lines swing from their path.
     pub wobble_px: f32,
-    /// At which wavelength.
+    /// The wavelength of the swing.
     pub wobble_length_px: f32,
-    /// How far a hand trembles.
+    /// How far strokes tremble around their path.
     pub jitter_px: f32,
-    /// Ink and gap; zeros for whole lines.
+    /// Ink and gap of dashes; zeros for whole lines.
     pub dash_px: [f32; 2],
-    /// Along a stroke, what is left of its width.
+    /// Factors of the width along a stroke.
     pub width_curve: [f32; CURVE_LENGTH],
-    /// What is left of its opacity.
+    /// Factors of the opacity along a stroke.
     pub opacity_curve: [f32; CURVE_LENGTH],
-    /// A whole number.
+    /// A whole number: another one gives another tremble.
     pub seed: f32,
     /// Unused.
     pub padding: [f32; 3],
 }
 
-/// The least distance between the points of a path: where segments are shorter than a
-/// few pixels, sampled lines show the mesh and not the shape.
+/// The least distance between the points of a path. Segments shorter than a few pixels would
+/// show the mesh, not the shape.
 const LEAST_STEP_PX: f32 = 4.0;
 
 impl LinkStyleUniform {
@@ -122,8 +121,7 @@ impl LinkStyleUniform {
     }
 
     /// The uniforms of all stroke sets of a style; zero for sets that are not linked.
-    #[must_use]
-    pub fn of(style: &DrawingStyle) -> [Self; MAX_STROKE_SETS] {
+    fn of(style: &DrawingStyle) -> [Self; MAX_STROKE_SETS] {
         let mut uniforms = [Self::zeroed(); MAX_STROKE_SETS];
         for (uniform, set) in uniforms.iter_mut().zip(&style.stroke_sets()) {
             if let Some(link) = set.style.link.as_ref().filter(|_| set.style.is_linked()) {
@@ -134,8 +132,8 @@ impl LinkStyleUniform {
     }
 }
 
-/// The run: files with their entry points, and how large each dispatch is. What is one
-/// workgroup scans sums.
+/// The run: files with their entry points and the sizes of their dispatches. Scans of sums run
+/// in one workgroup.
 const STEPS: &[(&str, &[(&str, Groups)])] = &[
     (
         "graph/path_joints.wgsl",
@@ -170,7 +168,7 @@ pub(crate) struct PathPipeline {
     steps: Vec<(wgpu::ComputePipeline, Groups)>,
 }
 
-/// What they need of one object.
+/// The bind groups for the paths of one object.
 #[derive(Debug)]
 pub(crate) struct PathBindings {
     object: wgpu::BindGroup,
@@ -185,15 +183,13 @@ impl PathPipeline {
         frame_fill: &wgpu::BindGroupLayout,
         formats: &TargetFormats,
     ) -> Result<Self, ShaderError> {
-        let compute = ShaderStages::COMPUTE;
         let make = |label: &str, entries: &[wgpu::BindGroupLayoutEntry]| {
             bind_layout(device, label, entries)
         };
-        let write = |binding| storage_entry(binding, compute, false);
-        let pass = make("link styles", &[uniform_entry(0, compute)]);
-        let object = make("path object", &[uniform_entry(0, compute)]);
-        let paths = make("paths", &[0, 2, 3, 4, 5, 6, 7].map(write));
-        let sums = make("path sums", &[0, 3, 4, 8].map(write));
+        let pass = make("link styles", &[compute_uniform(0)]);
+        let object = make("path object", &[compute_uniform(0)]);
+        let paths = make("paths", &[0, 2, 3, 4, 5, 6, 7].map(compute_write));
+        let sums = make("path sums", &[0, 3, 4, 8].map(compute_write));
         let mut steps = Vec::new();
         for (file, entries) in STEPS {
             let module = formats.shader_module(device, file)?;
@@ -240,8 +236,8 @@ impl PathPipeline {
         }
     }
 
-    /// Records the run for one object; `@group(0)` must be the frame with the fill,
-    /// `@group(1)` the look's styles.
+    /// Records the run for one object; `@group(0)` must be the frame with the fill, `@group(1)`
+    /// the link styles.
     pub(crate) fn record(
         &self,
         pass: &mut wgpu::ComputePass,

@@ -1,4 +1,4 @@
-//! The stroke graph as a view made it, in memory: for tests, measurements and inspection.
+//! The stroke graph of a view in memory, for tests, measurements and inspection.
 
 use crate::gpu::device::Gpu;
 use crate::gpu::readback::{ReadbackError, read_buffer};
@@ -10,19 +10,19 @@ use crate::graph::buffers::{
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct GraphReadback {
-    /// How much of everything there is.
+    /// The counts.
     pub header: GraphHeader,
-    /// The layer of each stroke set that is linked.
-    pub set_layers: Vec<Option<u32>>,
-    /// The edges that are linked, layer by layer.
+    /// The layer of each stroke set; `None` for sets that are not linked.
+    set_layers: Vec<Option<u32>>,
+    /// The linked edges, layer by layer.
     pub nodes: Vec<LinkNode>,
-    /// The elements of all chains, one chain after another.
+    /// The elements of all chains, chain by chain.
     pub elements: Vec<Element>,
     /// The points of all paths, stroke set by stroke set.
     pub points: Vec<PathPoint>,
-    /// The strokes along them.
+    /// The strokes of all paths.
     pub strokes: Vec<Stroke>,
-    /// Their segments, one per point.
+    /// The segments of all paths, one per point.
     pub ribbons: Vec<Ribbon>,
 }
 
@@ -53,19 +53,19 @@ impl GraphReadback {
         firsts.iter().rposition(|first| *first <= joint).unwrap_or(0)
     }
 
-    /// The layer of a joint.
+    /// The layer of a joint; 0 if there is no such joint.
     #[must_use]
     pub fn layer_of(&self, joint: u32) -> usize {
         self.set_layers.get(self.set_of(joint)).copied().flatten().unwrap_or(0) as usize
     }
 
-    /// The layer of a node.
+    /// The layer of a node; the last one if there is no such node.
     #[must_use]
     pub fn layer_of_node(&self, node: u32) -> usize {
         self.header.layer_first.iter().rposition(|first| *first <= node).unwrap_or(0)
     }
 
-    /// The index of the element that begins at a joint.
+    /// The index of the element that begins at a joint of [`PathPoint::joint`].
     #[must_use]
     pub fn element_of(&self, joint: u32) -> usize {
         let first = self.header.set_first[self.set_of(joint)];

@@ -1,20 +1,19 @@
-//! One edge mesh on the GPU, in one of three layouts, in chunks that the adapter
-//! can bind.
+//! One edge mesh on the GPU, in one of four layouts, in chunks that the adapter can bind.
 //!
 //! | buffer | bytes | in the layouts |
 //! |---|---|---|
-//! | edge records | 20 an edge | indexed |
-//! | positions, vertex normals | 12 a vertex each | indexed |
-//! | triangles | 12 a face | indexed |
-//! | face planes | 32 a face | indexed |
-//! | cones around 32 faces | 1 a face | indexed |
-//! | edge vertices | 320, 160 or 192 an edge | replicated, at 16 bits, face normals |
-//! | cones around 64 edges | 0.5 an edge | all |
-//! | links | 12 an edge | all, where strokes are to be linked |
-//! | positions and triangles of the fill | 12 a vertex, 12 a face | replicated, or in chunks |
+//! | edge records | 20 per edge | indexed |
+//! | positions, vertex normals | 12 per vertex each | indexed |
+//! | triangles | 12 per face | indexed |
+//! | face planes | 32 per face | indexed |
+//! | cones around 32 faces | 1 per face | indexed |
+//! | edge vertices | 320, 160 or 192 per edge | replicated, at 16 bits, face normals |
+//! | cones around 64 edges | 0.5 per edge | all |
+//! | links | 12 per edge | all, with [`MeshOptions::links`] |
+//! | positions and triangles of the fill | 12 per vertex, 12 per face | replicated, or in chunks |
 //!
-//! In the indexed layout the fill and the strokes share positions and triangles.
-//! What a view makes of a chunk is in [`crate::view::live_lists`].
+//! In the indexed layout the fill and the strokes share positions and triangles. The lists that
+//! a view makes of a chunk are in `view/live_lists.rs`.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -40,32 +39,33 @@ use crate::mesh::layout::{ChunkUniform, EDGES_PER_RUN, FACES_PER_WORD, Layout, P
 use crate::mesh::link_table::LinkTable;
 use crate::mesh::surface::{SurfaceArrays, SurfaceBuffers};
 
-/// Bytes of what a view knows of a run of edges: `RunState` in [`crate::view::live_lists`].
+/// Bytes of `RunState` in `view/live_lists.rs`.
 pub(crate) const RUN_STATE_BYTES: usize = 40;
 
 /// The mesh does not fit the device.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 #[error(
     "the mesh is too large for this adapter: its {what} need {need} bytes in one buffer, the \
      adapter takes {limit}"
 )]
 pub struct MeshTooLarge {
-    /// Which buffer.
+    /// Contents of the buffer, in the plural.
     pub what: &'static str,
     /// Bytes needed.
     pub need: u64,
-    /// Bytes that the device takes at most.
+    /// The most bytes of a buffer.
     pub limit: u64,
 }
 
-/// What a mesh is uploaded for.
+/// How a mesh is uploaded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct MeshOptions {
-    /// How its edges lie in memory.
+    /// How edges lie in memory.
     pub layout: Layout,
-    /// Whether its edges can be linked into strokes: 12 bytes more per edge.
+    /// Whether edges can be linked into strokes: 12 bytes more per edge.
     pub links: bool,
-    /// Whether its surface can be shaded: 32 bytes per corner with attributes of its own.
+    /// Whether the surface can be shaded: 32 bytes per corner with distinct attributes.
     pub surface: bool,
 }
 
@@ -76,12 +76,12 @@ impl From<Layout> for MeshOptions {
     }
 }
 
-/// What no pose changes of a chunk.
+/// The buffers of a chunk that are the same in all poses.
 #[derive(Debug)]
 pub(crate) struct ChunkBuffers {
     pub(crate) size: ChunkUniform,
     pub(crate) uniform: wgpu::Buffer,
-    /// Which edge follows which, if edges can be linked.
+    /// With [`MeshOptions::links`].
     pub(crate) links: Option<wgpu::Buffer>,
 }
 
@@ -92,12 +92,12 @@ pub(crate) struct FillTriangles {
     pub(crate) index_count: u32,
 }
 
-/// The buffers of one mesh.
+/// An edge mesh on the GPU.
 #[derive(Debug)]
 pub struct MeshBuffers {
     options: MeshOptions,
     pub(crate) chunks: Vec<ChunkBuffers>,
-    /// As many as there are [`Geometry::fill`] buffers.
+    /// One per buffer of [`Geometry::fill`].
     pub(crate) fill: Vec<FillTriangles>,
     surface: Option<SurfaceBuffers>,
     rest: Arc<Geometry>,
@@ -109,8 +109,11 @@ impl MeshBuffers {
     /// Uploads `mesh`.
     ///
     /// # Errors
-    /// [`MeshTooLarge`], before anything is uploaded, if the adapter cannot bind even what a
-    /// run of edges needs, or cannot hold the surface.
+    /// [`MeshTooLarge`], before anything is uploaded, if the adapter cannot bind a run of 64
+    /// edges with its faces, or cannot hold the surface.
+    ///
+    /// # Panics
+    /// If an index of `mesh` is out of range; meshes that `edgemesh` builds or reads have none.
     pub fn new(
         device: &wgpu::Device,
         mesh: &EdgeMesh,
@@ -176,7 +179,7 @@ impl MeshBuffers {
         })
     }
 
-    /// What the mesh was uploaded for.
+    /// The options of the upload.
     #[must_use]
     pub const fn options(&self) -> MeshOptions {
         self.options
@@ -188,31 +191,31 @@ impl MeshBuffers {
         &self.bounds
     }
 
-    /// The geometry as the mesh has it, without a pose.
+    /// The geometry without a pose.
     pub(crate) const fn rest(&self) -> &Arc<Geometry> {
         &self.rest
     }
 
-    /// The triangles of the surface; `None` if the mesh was uploaded without it.
+    /// The triangles of the surface; `None` without [`MeshOptions::surface`].
     #[must_use]
     pub const fn surface(&self) -> Option<&SurfaceBuffers> {
         self.surface.as_ref()
     }
 
-    /// Bytes of all buffers that no view changes.
+    /// Bytes of all buffers of the mesh.
     #[must_use]
     pub const fn byte_count(&self) -> u64 {
         self.byte_count
     }
 
-    /// How many chunks the mesh is in.
+    /// Number of chunks.
     #[must_use]
     pub const fn chunk_count(&self) -> usize {
         self.chunks.len()
     }
 }
 
-/// What the device can bind of a mesh at once.
+/// How much of a mesh the device can bind at once.
 fn chunk_limits(
     device: &wgpu::Device,
     layout: Layout,
@@ -227,7 +230,7 @@ fn chunk_limits(
         Layout::FaceNormals => 4 * size_of::<FinVertex>(),
     };
     let bytes = usize::try_from(limit).unwrap_or(usize::MAX);
-    // A run of edges and its faces are the least that can be worked on.
+    // The least chunk is a run of edges with its faces.
     let run = EDGES_PER_RUN as usize;
     let needs = [
         ("edges", run * bytes_per_edge),
@@ -240,7 +243,7 @@ fn chunk_limits(
             return Err(MeshTooLarge { what, need: need as u64, limit });
         }
     }
-    // The live list has three bits of each entry for other things.
+    // Three bits of each entry of the live list are flags.
     let edges = (bytes / bytes_per_edge).min(MAX_INDEX / 2);
     Ok(ChunkLimits { edges, faces: bytes / size_of::<FacePlane>(), vertices: bytes / 12 })
 }
@@ -367,7 +370,7 @@ impl Upload<'_> {
         }
     }
 
-    /// Triangles for the fill alone, in parts that fit a buffer; their positions go to
+    /// Triangles for the fill alone, in parts that fit a buffer; pushes their positions to
     /// `positions`.
     fn fill(&self, positions: &mut Vec<wgpu::Buffer>) -> Vec<FillTriangles> {
         let mesh = self.mesh;
@@ -388,7 +391,7 @@ impl Upload<'_> {
             let corners: Vec<[f32; 3]> = mesh.positions.par_iter().map(|&p| position(p)).collect();
             return vec![buffers(&corners, &mesh.triangles)];
         }
-        // Each triangle has corners of its own: no part has more than it can hold.
+        // Triangles share no corners, so no part has more than it can hold.
         let mut part = |triangles: &[[u32; 3]]| {
             let corners: Vec<[f32; 3]> = triangles
                 .iter()
@@ -403,7 +406,7 @@ impl Upload<'_> {
         mesh.triangles.chunks((most / 3).max(1)).map(&mut part).collect()
     }
 
-    /// The surface; `positions` if they are on the GPU already.
+    /// The surface, with `positions` if they are on the GPU already.
     fn surface(
         &self,
         arrays: &SurfaceArrays,
@@ -433,9 +436,9 @@ fn run_cones(chunk: &Chunk, planes: &[FacePlane]) -> Vec<NormalCone> {
     chunk.records.par_chunks(EDGES_PER_RUN as usize).map(of_run).collect()
 }
 
-/// The planes of a chunk's faces as they are at 16 bits. A face whose rounded
-/// corners say nothing of where it looks has none, and no cluster answers for it:
-/// one without area, which stands in its neighbour's plane in the vertices.
+/// The planes of a chunk's faces at 16 bits. A face whose rounded corners have no area, or turn
+/// it over, gets no normal, so that no cone stands for it: the edge vertices give it its
+/// neighbor's plane.
 fn rounded_planes(chunk: &Chunk, quantization: &Quantization) -> Vec<FacePlane> {
     let plane = |(triangle, plane): (&[u32; 3], &FacePlane)| {
         let corners = triangle.map(|vertex| {
@@ -444,8 +447,8 @@ fn rounded_planes(chunk: &Chunk, quantization: &Quantization) -> Vec<FacePlane> 
         });
         let [a, b, c] = corners;
         let normal = (b - a).cross(c - a).normalize_or_zero().as_vec3();
-        let is_told = normal.dot(Vec3::from_slice(&plane.normal)) > 0.0;
-        let normal = if is_told { normal } else { Vec3::ZERO };
+        let is_kept = normal.dot(Vec3::from_slice(&plane.normal)) > 0.0;
+        let normal = if is_kept { normal } else { Vec3::ZERO };
         FacePlane { normal: normal.extend(0.0).into(), point: a.as_vec3().extend(1.0).into() }
     };
     chunk.triangles.par_iter().zip(&chunk.planes[..]).map(plane).collect()

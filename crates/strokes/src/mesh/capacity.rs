@@ -1,4 +1,4 @@
-//! How much room a chunk gets for what views make of it.
+//! How much room a chunk gets for the lists of a view.
 //!
 //! Views list, expand and link edges in buffers whose sizes depend on the mesh alone, so
 //! that no view allocates. A view that needs more draws the rest straight from its list.

@@ -1,14 +1,13 @@
 //! Cuts a mesh into chunks whose buffers an adapter can bind.
 //!
-//! A chunk has a run of the records, and of faces and vertices what those need,
-//! numbered anew; faces and vertices between two chunks are in both. Each face is
-//! the same to the bit wherever it is, so a contour that runs from one chunk into
-//! the next does not break, and chunks drawn in order draw the picture of the
-//! whole. Cuts are between runs of edges, so that what a view says of runs is one
-//! list for all chunks.
+//! A chunk has consecutive records with the faces and vertices that they need, numbered anew;
+//! faces and vertices between two chunks are in both. A face has the same bits in every chunk,
+//! so a contour that runs from one chunk into the next does not break, and chunks drawn in order
+//! give the picture of the whole. Cuts are between runs of edges, so that the run states of a
+//! view are one list for all chunks.
 //!
-//! Rejected: cutting by space. The strokes would be drawn in another order, and
-//! where translucent ones cross, one would see it.
+//! Rejected: cutting by space. Strokes would be drawn in another order, which shows where
+//! translucent ones cross.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -23,7 +22,7 @@ use crate::mesh::layout::{EDGES_PER_RUN, PackedRecord};
 /// A part of a mesh.
 #[derive(Debug)]
 pub(crate) struct Chunk<'a> {
-    /// Its records among those of the mesh.
+    /// The range of its records in the mesh.
     pub(crate) edges: Range<usize>,
     pub(crate) records: Vec<PackedRecord>,
     pub(crate) positions: Cow<'a, [[f32; 3]]>,
@@ -32,7 +31,7 @@ pub(crate) struct Chunk<'a> {
     pub(crate) planes: Cow<'a, [FacePlane]>,
 }
 
-/// What one chunk can hold: a run of edges with all that it needs, or more.
+/// The most that one chunk can hold: at least a run of edges with its faces and vertices.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ChunkLimits {
     pub(crate) edges: usize,
@@ -41,7 +40,7 @@ pub(crate) struct ChunkLimits {
 }
 
 impl ChunkLimits {
-    /// Whether all of `mesh` is one chunk.
+    /// Whether `mesh` fits into one chunk.
     fn hold(&self, mesh: &EdgeMesh) -> bool {
         mesh.records.len() <= self.edges
             && mesh.triangles.len() <= self.faces
@@ -49,7 +48,7 @@ impl ChunkLimits {
     }
 }
 
-/// Cuts `mesh`, whose edges have these words; at least one chunk.
+/// Cuts `mesh` into one chunk or more; `words` are the words of its edges.
 pub(crate) fn chunks<'a>(
     mesh: &'a EdgeMesh,
     words: &[EdgeWord],
@@ -89,9 +88,9 @@ fn packed(record: &EdgeRecord, word: EdgeWord) -> PackedRecord {
     PackedRecord { v0, v1, face_a, face_b, word }
 }
 
-/// What a chunk has of the faces or vertices, in the order in which they came.
+/// The faces or vertices of a chunk, in the order in which they were taken.
 struct Subset {
-    /// The place of each in the chunk, or [`NONE`].
+    /// The index in the chunk of each one of the mesh, or [`NONE`].
     places: Vec<u32>,
     taken: Vec<u32>,
 }
@@ -146,7 +145,7 @@ impl<'a> Cutter<'a> {
         }
     }
 
-    /// How many faces and vertices a run of edges brings along.
+    /// How many faces and vertices a run of edges adds.
     fn count_new(&self, run: &[EdgeRecord]) -> (usize, usize) {
         let mut faces: Vec<u32> = run
             .iter()

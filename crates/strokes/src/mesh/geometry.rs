@@ -1,21 +1,21 @@
-//! Positions and normals of one instance on the GPU, in one place that a pose can write.
+//! Positions and normals of one instance on the GPU, together, so that a pose can write them.
 //!
-//! A pose writes all of it but edge records and triangles; links and sizes are in
-//! [`crate::mesh::buffers`]. Instances of the same mesh share the geometry at rest.
+//! A pose writes everything here except edge records and triangles. Links and sizes are in
+//! `mesh/buffers.rs`. Instances of the same mesh share the geometry at rest.
 //!
 //! ```text
-//!   positions   | welded vertices ......... | corners with attributes of their own |
+//!   positions   | welded vertices ......... | corners with distinct attributes |
 //!                 ^ strokes, detection, fill  ^ surfaces read both
 //! ```
 
 /// The geometry of one instance.
 #[derive(Debug)]
-pub struct Geometry {
+pub(crate) struct Geometry {
     /// One per chunk.
     pub(crate) chunks: Vec<ChunkGeometry>,
     /// Positions of the triangles that hide strokes, one buffer per part of the fill.
     pub(crate) fill: Vec<wgpu::Buffer>,
-    /// If the mesh was uploaded with its surface.
+    /// With [`MeshOptions::surface`](crate::MeshOptions::surface).
     pub(crate) surface: Option<SurfaceGeometry>,
 }
 
@@ -27,7 +27,7 @@ pub(crate) struct ChunkGeometry {
     pub(crate) run_cones: wgpu::Buffer,
 }
 
-/// Where the edges of a chunk lie.
+/// The edges of a chunk, by layout.
 #[derive(Debug)]
 pub(crate) enum EdgeGeometry {
     Indexed {
@@ -47,19 +47,12 @@ pub(crate) enum EdgeGeometry {
     },
 }
 
-/// The vertices of surfaces that are shaded.
+/// Positions and normals of a surface that is shaded.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct SurfaceGeometry {
     /// 12 bytes per vertex.
     pub positions: wgpu::Buffer,
     /// 12 bytes per vertex.
     pub normals: wgpu::Buffer,
-}
-
-impl Geometry {
-    /// The vertices of the surface; `None` if the mesh was uploaded without it.
-    #[must_use]
-    pub const fn surface(&self) -> Option<&SurfaceGeometry> {
-        self.surface.as_ref()
-    }
 }

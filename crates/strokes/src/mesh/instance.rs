@@ -5,33 +5,38 @@ use std::sync::Arc;
 use glam::DMat4;
 
 use crate::mesh::buffers::MeshBuffers;
-use crate::mesh::geometry::Geometry;
+use crate::mesh::geometry::{Geometry, SurfaceGeometry};
 
-/// A mesh in its place in the scene. Cheap to clone: clones share the mesh on the GPU.
+/// A mesh in its place in the scene. Cheap to clone: clones share the buffers.
 #[derive(Debug, Clone)]
 pub struct MeshInstance {
     mesh: Arc<MeshBuffers>,
     geometry: Arc<Geometry>,
-    /// Takes positions of the mesh to the scene.
+    /// From positions of the mesh to the scene.
     pub world_from_object: DMat4,
 }
 
 impl MeshInstance {
-    /// An instance of `mesh`, at rest.
+    /// An instance of `mesh` without a pose.
     #[must_use]
     pub fn new(mesh: &Arc<MeshBuffers>, world_from_object: DMat4) -> Self {
         Self { mesh: mesh.clone(), geometry: mesh.rest().clone(), world_from_object }
     }
 
-    /// The mesh.
+    /// The shared buffers.
     #[must_use]
     pub const fn mesh(&self) -> &Arc<MeshBuffers> {
         &self.mesh
     }
 
-    /// Its positions and normals.
+    /// Positions and normals of the surface; `None` without
+    /// [`MeshOptions::surface`](crate::MeshOptions::surface).
     #[must_use]
-    pub const fn geometry(&self) -> &Arc<Geometry> {
+    pub fn surface_geometry(&self) -> Option<&SurfaceGeometry> {
+        self.geometry.surface.as_ref()
+    }
+
+    pub(crate) const fn geometry(&self) -> &Arc<Geometry> {
         &self.geometry
     }
 }

@@ -6,33 +6,33 @@ use edgemesh_shaders::{ShaderError, ShaderSource};
 
 use crate::gpu::shader::shader_module;
 
-/// Edges that one invocation looks at. WGSL twin: the constant of this name in
+/// Edges per invocation. WGSL twin: the constant of this name in
 /// `shaders/common/view_runs.wgsl`.
 pub const EDGES_PER_RUN: u32 = 64;
 
-/// Faces whose facing bits are one word.
+/// Faces per word of facing bits.
 pub(crate) const FACES_PER_WORD: usize = 32;
 
 /// How edges lie in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
 pub enum Layout {
-    /// Records of indices: 20 bytes an edge.
+    /// Records of indices: 20 bytes per edge.
     #[default]
     Indexed,
-    /// The paper's, in 32-bit floats: 320 bytes an edge.
+    /// The paper's replicated vertices in 32-bit floats: 320 bytes per edge.
     Replicated,
-    /// The paper's, at 16 bits: 160 bytes an edge.
+    /// The paper's replicated vertices at 16 bits: 160 bytes per edge.
     Replicated16,
-    /// Card and Mitchell's fins, to compare with: 192 bytes an edge. They draw
-    /// contours and boundaries as fins, whatever the look says of kinds and
-    /// classes, and only where vertex shaders detect.
+    /// Card and Mitchell's fins, to compare with: 192 bytes per edge. Contours and boundaries
+    /// are drawn as fins, whatever kinds and classes the style has, and vertex shaders detect.
     FaceNormals,
 }
 
 impl Layout {
-    /// The file of this layout that stands for a placeholder: `common/edge_source.wgsl`
-    /// (where an edge's geometry comes from) or `common/edge_faces.wgsl` (how a view sees
-    /// its faces). Files of one placeholder have functions of the same names.
+    /// The file of this layout that replaces a placeholder: `common/edge_source.wgsl` (the
+    /// geometry of an edge) or `common/edge_faces.wgsl` (the facing of its faces). The files for
+    /// one placeholder define functions of the same names.
     fn shader_file(self, placeholder: &str) -> Option<&'static str> {
         match (placeholder, self) {
             ("common/edge_source.wgsl", Self::Indexed) => Some("common/edges_indexed.wgsl"),
@@ -59,7 +59,7 @@ impl Layout {
     }
 }
 
-/// How large a chunk is. WGSL twin: `ChunkUniform` in `shaders/common/mesh.wgsl`.
+/// The sizes of a chunk. WGSL twin: `ChunkUniform` in `shaders/common/mesh.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct ChunkUniform {
@@ -69,13 +69,13 @@ pub struct ChunkUniform {
     pub edge_count: u32,
     /// Runs of [`EDGES_PER_RUN`] edges.
     pub run_count: u32,
-    /// Strokes that there is room for between expansion and drawing.
+    /// The most strokes that are expanded.
     pub capacity: u32,
-    /// The chunk's first run among those of the mesh.
+    /// Number of the chunk's first run in the mesh.
     pub first_run: u32,
-    /// The chunk's number.
+    /// Number of the chunk in the mesh.
     pub chunk_index: u32,
-    /// Edges that can be linked into strokes.
+    /// The most edges that are linked into strokes.
     pub node_capacity: u32,
     /// Unused.
     pub padding: u32,
@@ -85,7 +85,7 @@ pub struct ChunkUniform {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct PackedRecord {
-    /// Start vertex in the chunk.
+    /// Start vertex, numbered in the chunk.
     pub v0: u32,
     /// End vertex.
     pub v1: u32,
@@ -93,6 +93,6 @@ pub struct PackedRecord {
     pub face_a: u32,
     /// The face across, or `NONE`.
     pub face_b: u32,
-    /// Static flags and the angle of the crease.
+    /// Static flags and crease angle.
     pub word: EdgeWord,
 }

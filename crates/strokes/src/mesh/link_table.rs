@@ -1,10 +1,10 @@
-//! Which edge follows which: what a walk from contour to contour needs, and the
-//! preprocessor's chains, as twelve bytes an edge.
+//! Which edge follows which: the half-edges for walks from contour to contour, and the chains of
+//! the preprocessor, in twelve bytes per edge.
 //!
-//! A record is two half-edges, the side of face A and that of face B, numbered
-//! `2 edge` and `2 edge + 1`. Each names the next half-edge around its face; across
-//! an edge is the other number of the pair. So a shader turns through the fan of a
-//! vertex without faces, vertices or positions.
+//! A record is two half-edges, one along face A and one along face B, numbered `2 edge` and
+//! `2 edge + 1`. Each names the next half-edge around its face; the other number of its pair is
+//! the half-edge across. So a shader turns through the fan of a vertex without reading faces,
+//! vertices or positions.
 //!
 //! ```text
 //!         w          2e:      v0 to v1 along face A
@@ -14,12 +14,12 @@
 //!      \ B   /
 //! ```
 //!
-//! A chunk has the pairs of its own records, and behind them those that fans around
-//! its vertices lead over: a walk never leaves it. Whether an edge is a contour is
-//! known for all chunks at once ([`crate::view::live_lists`]).
+//! A chunk has the pairs of its own records, followed by those that the fans around its vertices
+//! cross, so that no walk leaves it. Run states of all chunks are one buffer
+//! (`view/live_lists.rs`), so a walk knows of each edge whether it is a contour.
 //!
-//! WGSL twin: `shaders/graph/link_elements.wgsl`. Rejected: faces with their three
-//! records, which need the facing bits and planes of all faces around a chunk too.
+//! WGSL twin: `shaders/graph/link_elements.wgsl`. Rejected: faces with their three records,
+//! which also need the facing bits and planes of all faces around a chunk.
 
 use std::ops::Range;
 
@@ -29,26 +29,25 @@ use edgemesh::edge_mesh::face_edges::FaceEdges;
 use edgemesh::edge_mesh::static_links::StaticLinks;
 use edgemesh::index::{NONE, to_u32};
 
-/// The walk ends: the surface does. WGSL twin: the constant of this name.
+/// The walk ends at the end of the surface. WGSL twin: the constant of this name.
 pub const SURFACE_END: u32 = NONE;
 
-/// The walk ends: the surface has no two sides here. WGSL twin: the constant of this
+/// The walk ends where the surface has not two consistent sides. WGSL twin: the constant of this
 /// name.
 pub const SURFACE_CUT: u32 = NONE - 1;
 
-/// In a static link: the chain runs from the record's `v1` to its `v0`. WGSL twin:
-/// the constant of this name.
+/// Bit of a static link: the chain runs from the record's `v1` to its `v0`. WGSL twin: the
+/// constant of this name.
 pub const REVERSED: u32 = 1 << 31;
 
-/// The edge of a static link; all ones where none follows.
+/// Bits of the edge in a static link; all ones if no edge follows.
 const EDGE_MASK: u32 = (1 << 29) - 1;
 
-/// Edges that walks do not turn across.
+/// Flags of edges that walks do not cross.
 const CUTS: EdgeFlags = EdgeFlags::CLASH.union(EdgeFlags::NON_MANIFOLD);
 
-/// Of each record the next half-edges of its two sides, and the edge that follows in
-/// the preprocessor's chain, with [`REVERSED`]; of records of other chunks the edge's
-/// index in the mesh instead.
+/// The next half-edges of a record's two sides, and the edge that follows in the preprocessor's
+/// chain, with [`REVERSED`]; for records of other chunks the third is their index in the mesh.
 pub(crate) type LinkWords = [u32; 3];
 
 /// The links of all edges of a mesh.
@@ -79,7 +78,7 @@ impl LinkTable {
         }
         let renumber = |half_edge: u32| match half_edge {
             SURFACE_END | SURFACE_CUT => half_edge,
-            // One that no walk over this chunk comes to.
+            // No walk over this chunk reaches it.
             _ => {
                 local.place(half_edge / 2, &place).map_or(SURFACE_CUT, |at| 2 * at + half_edge % 2)
             }

@@ -1,21 +1,17 @@
 //! Edge meshes on the GPU.
 //!
-//! - [`layout`]: how edges lie in memory.
-//! - [`buffers`]: a mesh, uploaded; [`geometry`]: what a pose moves of it; [`surface`]: its
-//!   triangles with material ranges.
-//! - [`instance`]: a mesh in its place.
+//! - `layout`: how edges lie in memory.
+//! - `buffers`: an uploaded mesh; `geometry`: its positions and normals, which a pose can write;
+//!   `surface`: its triangles with material ranges.
+//! - `instance`: a mesh in its place.
 //! - `chunk`: parts of a mesh that fit a binding; `capacity`: how much room each gets.
-//! - [`link_table`]: which edge follows which.
+//! - `link_table`: which edge follows which.
 
-pub mod buffers;
+pub(crate) mod buffers;
 pub(crate) mod capacity;
 mod chunk;
-pub mod geometry;
-pub mod instance;
-pub mod layout;
-pub mod link_table;
-pub mod surface;
-
-pub use self::buffers::{MeshBuffers, MeshOptions, MeshTooLarge};
-pub use self::instance::MeshInstance;
-pub use self::layout::Layout;
+pub(crate) mod geometry;
+pub(crate) mod instance;
+pub(crate) mod layout;
+pub(crate) mod link_table;
+pub(crate) mod surface;

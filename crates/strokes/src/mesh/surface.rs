@@ -12,25 +12,27 @@ use edgemesh::index::{NONE, to_u32};
 
 /// Triangles of one material and group.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct MaterialRange {
-    /// A range of the index buffer.
+    /// Range in the index buffer.
     pub indices: Range<u32>,
     /// Index of the material, or [`NONE`].
     pub material: u32,
     /// Index of the group, or [`NONE`].
     pub group: u32,
-    /// Whether the model has texture coordinates here.
+    /// Whether the model has texture coordinates for these triangles.
     pub has_texcoords: bool,
 }
 
-/// What no pose changes of a surface, on the GPU.
+/// The buffers of a surface that are the same in all poses.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct SurfaceBuffers {
     /// 8 bytes per vertex.
     pub texcoords: wgpu::Buffer,
     /// Three indices of 4 bytes per triangle.
     pub indices: wgpu::Buffer,
-    /// Ranges of `indices`.
+    /// All of `indices`, range by range.
     pub ranges: Vec<MaterialRange>,
 }
 
@@ -45,7 +47,7 @@ pub(crate) struct SurfaceArrays {
 }
 
 impl SurfaceArrays {
-    /// The surface of `mesh`. Without a fill it is shaded smoothly, by the vertex normals.
+    /// The surface of `mesh`; a mesh without a fill is shaded by its vertex normals.
     pub(crate) fn of(mesh: &EdgeMesh) -> Self {
         let mut arrays = Self {
             positions: mesh.positions.clone(),

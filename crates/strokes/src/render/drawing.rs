@@ -1,12 +1,13 @@
-//! The instances of a scene in their styles, with what the last view made of them.
+//! The instances of a scene in their styles, with their lists and stroke graphs.
 //!
-//! Lists and stroke graphs stay from frame to frame, and from style to style as far as they
-//! have the same shape. A drawing belongs to one renderer and to one eye.
+//! Lists and stroke graphs stay from frame to frame, and from style to style if those have the
+//! same shape. A drawing belongs to one eye, and to renderers with the same options.
 
 use std::sync::Arc;
 
 use edgemesh::index::to_u32;
 
+use crate::draw::stroke_indices::IndexKey;
 use crate::gpu::bind::{bind_buffers, uniform_buffer};
 use crate::gpu::device::Gpu;
 use crate::gpu::readback::{PendingRead, ReadbackError, read_buffer};
@@ -19,19 +20,23 @@ use crate::mesh::geometry::{ChunkGeometry, EdgeGeometry};
 use crate::mesh::instance::MeshInstance;
 use crate::mesh::layout::ChunkUniform;
 use crate::render::error::RenderError;
-use crate::render::pipelines::{DetectionStage, Pipelines};
+use crate::render::frame_request::{FrameRequest, PASS_NAMES};
+use crate::render::options::{DetectionStage, RendererOptions};
+use crate::render::pipelines::Pipelines;
 use crate::render::prepared_style::{ListShape, PreparedStyle};
 use crate::view::detect::DetectBindings;
 use crate::view::live_lists::{ChunkLists, ObjectRuns, Tally};
-use crate::view::view_state::{ObjectState, ViewState};
+use crate::view::view_state::ObjectState;
 
-/// The instances of a scene in their styles, with what the last view made of them.
+/// The instances of a scene in their styles, with the lists and stroke graphs of the last frame.
 #[derive(Debug, Default)]
 pub struct Drawing {
+    /// Those of the renderer that updated the drawing.
+    options: Option<RendererOptions>,
     objects: Vec<DrawnObject>,
 }
 
-/// One instance in its style, with what the last view made of it.
+/// An instance in its style, with the lists and the stroke graph of the last frame.
 #[derive(Debug)]
 pub struct DrawnObject {
     pub(crate) instance: MeshInstance,
@@ -45,7 +50,7 @@ pub struct DrawnObject {
     pub(crate) runs: ObjectRuns,
     /// If strokes are linked.
     pub(crate) graph: Option<ObjectGraph>,
-    /// Whether the static edges are still to be found.
+    /// Whether the static edges must be found again.
     pub(crate) is_stale: bool,
 }
 
@@ -72,7 +77,7 @@ pub(crate) struct DrawnChunk {
     pub(crate) lists: Option<BoundLists>,
 }
 
-/// The lists of a chunk, and how they are bound.
+/// The lists of a chunk, with their bind groups.
 #[derive(Debug)]
 pub(crate) struct BoundLists {
     pub(crate) lists: ChunkLists,
@@ -84,7 +89,7 @@ pub(crate) struct BoundLists {
 }
 
 impl Drawing {
-    /// A drawing of nothing yet; the renderer fills it.
+    /// An empty drawing, for [`Renderer::encode`](crate::Renderer::encode).
     #[must_use]
     pub fn new() -> Self {
         Self::default()
@@ -100,24 +105,30 @@ impl Drawing {
         &mut self.objects
     }
 
-    /// Makes the drawing one of `instances` in `styles`; keeps lists and graphs that fit.
+    /// Takes over the instances and styles of `request`; keeps lists and graphs that fit.
     pub(crate) fn update(
         &mut self,
         gpu: &Gpu,
         pipelines: &mut Pipelines,
-        view: &ViewState,
-        instances: &[MeshInstance],
-        styles: &[Arc<PreparedStyle>],
+        request: &FrameRequest,
     ) -> Result<(), RenderError> {
-        check(pipelines, view, instances, styles)?;
+        check(&pipelines.options, request)?;
+        let FrameRequest { view, instances, styles, .. } = *request;
+        if self.options.replace(pipelines.options) != Some(pipelines.options) {
+            self.objects.clear();
+        }
+        // Another renderer with the same options may have prepared the styles.
+        if styles.iter().any(|style| style.is_linked()) {
+            pipelines.build_graph(&gpu.device)?;
+        }
         self.objects.truncate(instances.len());
         for (at, (instance, style)) in instances.iter().zip(styles).enumerate() {
+            grow_indices(&gpu.device, pipelines, instance.mesh(), style);
             let state = &view.objects()[at];
             let known = self.objects.get_mut(at).filter(|known| known.fits(instance, state));
             match known {
                 Some(known) => known.restyle(&gpu.device, pipelines, instance, style),
                 None => {
-                    grow_indices(&gpu.device, pipelines, instance.mesh(), style);
                     let new = DrawnObject::new(&gpu.device, pipelines, instance, style, state);
                     if at < self.objects.len() {
                         self.objects[at] = new;
@@ -127,21 +138,27 @@ impl Drawing {
                 }
             }
             if let Some(graph) = &self.objects[at].graph {
-                let key = crate::draw::stroke_indices::IndexKey::Quads;
-                pipelines.grow_indices(&gpu.device, key, graph.buffers.size.points);
+                let points = graph.buffers.size.points;
+                pipelines.grow_indices(&gpu.device, IndexKey::Quads, points);
             }
         }
         Ok(())
     }
 }
 
-/// Whether styles, meshes and view fit together.
-fn check(
-    pipelines: &Pipelines,
-    view: &ViewState,
-    instances: &[MeshInstance],
-    styles: &[Arc<PreparedStyle>],
-) -> Result<(), RenderError> {
+/// Whether the parts of a frame fit the renderer's options and each other.
+fn check(options: &RendererOptions, request: &FrameRequest) -> Result<(), RenderError> {
+    let FrameRequest { view, instances, styles, .. } = *request;
+    for targets in [Some(request.targets), request.overview].into_iter().flatten() {
+        if *targets.formats() != options.formats {
+            let targets = *targets.formats();
+            return Err(RenderError::Formats { targets, renderer: options.formats });
+        }
+    }
+    let needed = to_u32(PASS_NAMES.len());
+    if let Some(passes) = request.timer.map(|timer| timer.count()).filter(|&has| has < needed) {
+        return Err(RenderError::ShortTimer { passes, needed });
+    }
     if styles.len() != instances.len() {
         return Err(RenderError::StyleCount { styles: styles.len(), instances: instances.len() });
     }
@@ -149,13 +166,15 @@ fn check(
         let (view, instances) = (view.objects().len(), instances.len());
         return Err(RenderError::ViewState { view, instances });
     }
-    let renderer = pipelines.options.layout;
     for (instance, style) in instances.iter().zip(styles) {
-        let options = instance.mesh().options();
-        if options.layout != renderer {
-            return Err(RenderError::Layout { mesh: options.layout, renderer });
+        if style.options != *options {
+            return Err(RenderError::OtherRenderer);
         }
-        if style.is_linked() && !options.links {
+        let mesh = instance.mesh().options();
+        if mesh.layout != options.layout {
+            return Err(RenderError::Layout { mesh: mesh.layout, renderer: options.layout });
+        }
+        if style.is_linked() && !mesh.links {
             return Err(RenderError::NoLinks);
         }
     }
@@ -174,7 +193,7 @@ fn grow_indices(
                 device,
                 key,
                 match key {
-                    crate::draw::stroke_indices::IndexKey::Expanded(_) => chunk.size.capacity,
+                    IndexKey::Expanded(_) => chunk.size.capacity,
                     _ => chunk.size.edge_count,
                 },
             );
@@ -222,11 +241,11 @@ impl DrawnObject {
             && self.uniform == *state.uniform()
     }
 
-    /// Goes over to another style, or to another place.
+    /// Takes over another style or place.
     fn restyle(
         &mut self,
         device: &wgpu::Device,
-        pipelines: &mut Pipelines,
+        pipelines: &Pipelines,
         instance: &MeshInstance,
         style: &Arc<PreparedStyle>,
     ) {
@@ -234,7 +253,6 @@ impl DrawnObject {
         if Arc::ptr_eq(&self.style, style) {
             return;
         }
-        grow_indices(device, pipelines, instance.mesh(), style);
         let shape = style.list_shape();
         self.is_stale |= self.style.classes != style.classes;
         let binder =
@@ -252,25 +270,26 @@ impl DrawnObject {
         self.style = style.clone();
     }
 
-    /// The instance.
+    /// The instance that is drawn.
     #[must_use]
     pub const fn instance(&self) -> &MeshInstance {
         &self.instance
     }
 
-    /// The counts of the last view; zero if vertex shaders detect.
+    /// The counts of the last frame, zero if vertex shaders detect; waits for all submitted
+    /// work.
     ///
     /// # Errors
-    /// If the device is lost.
+    /// [`ReadbackError`], if the device is lost or has no memory for the copy.
     pub fn read_tally(&self, gpu: &Gpu) -> Result<Tally, ReadbackError> {
         let tallies: Vec<Tally> = self.read_tallies(gpu)?;
         Ok(tallies.iter().fold(Tally::default(), |sum, tally| sum.plus(tally)))
     }
 
-    /// Begins to read the counts of each chunk in the last view.
+    /// Begins to read the counts of each chunk in the last frame.
     ///
     /// # Errors
-    /// If the device is lost.
+    /// As [`Self::read_tally`].
     pub fn begin_read_tallies(&self, gpu: &Gpu) -> Result<PendingRead<Tally>, ReadbackError> {
         PendingRead::begin(gpu, &self.runs.tallies, self.chunks.len())
     }
@@ -279,11 +298,11 @@ impl DrawnObject {
         read_buffer(gpu, &self.runs.tallies, self.chunks.len())
     }
 
-    /// The live list of one chunk in the last view: each entry is the index of a record of
-    /// the chunk, with the first three of `LineBits` above it.
+    /// The live list of one chunk in the last frame, empty if there is no such chunk: each entry
+    /// is the index of a record of the chunk, with the first three of `LineBits` above it.
     ///
     /// # Errors
-    /// If the device is lost.
+    /// As [`Self::read_tally`].
     pub fn read_live(&self, gpu: &Gpu, chunk: usize) -> Result<Vec<u32>, ReadbackError> {
         let bound = self.chunks.get(chunk).and_then(|chunk| chunk.lists.as_ref());
         let Some(bound) = bound else { return Ok(Vec::new()) };
@@ -291,10 +310,10 @@ impl DrawnObject {
         read_buffer(gpu, &bound.lists.live, count as usize)
     }
 
-    /// The stroke graph of the last view; `None` if no strokes are linked.
+    /// The stroke graph of the last frame; `None` if no strokes are linked.
     ///
     /// # Errors
-    /// If the device is lost.
+    /// As [`Self::read_tally`].
     pub fn read_graph(&self, gpu: &Gpu) -> Result<Option<GraphReadback>, ReadbackError> {
         let Some(graph) = &self.graph else { return Ok(None) };
         let sets = self.style.sets.iter();
@@ -302,11 +321,11 @@ impl DrawnObject {
         GraphReadback::read(gpu, &graph.buffers, set_layers).map(Some)
     }
 
-    /// The facing bits of one chunk in the last view, 32 faces per word; empty but in the
-    /// indexed layout.
+    /// The facing bits of one chunk in the last frame, 32 faces per word; empty in all but the
+    /// indexed layout, and if there is no such chunk.
     ///
     /// # Errors
-    /// If the device is lost.
+    /// As [`Self::read_tally`].
     pub fn read_facing(&self, gpu: &Gpu, chunk: usize) -> Result<Vec<u32>, ReadbackError> {
         let bound = self.chunks.get(chunk).and_then(|chunk| chunk.lists.as_ref());
         let Some(bound) = bound else { return Ok(Vec::new()) };
@@ -315,7 +334,7 @@ impl DrawnObject {
     }
 }
 
-/// What all bindings of an object share.
+/// The parts that all bindings of an object share.
 struct Binder<'a> {
     device: &'a wgpu::Device,
     pipelines: &'a Pipelines,

@@ -1,5 +1,5 @@
-//! The part of a frame that draws: the fill, the coverage of linked strokes, and all
-//! strokes in order.
+//! The passes of a frame that draw: the fill, the coverage of linked strokes, and all strokes in
+//! order.
 
 use std::sync::Arc;
 
@@ -22,36 +22,36 @@ use crate::style::drawing_style::Visibility;
 use crate::view::live_lists::{DrawArguments, REST_OFFSET};
 use crate::view::view_state::{ObjectState, ScreenBox};
 
-/// An object in its place on the screen.
+/// An object with its state in the view.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Placed<'a> {
     pub(crate) object: &'a DrawnObject,
     pub(crate) state: &'a ObjectState,
 }
 
-/// The part of a frame that draws.
+/// The passes of a frame that draw.
 pub(crate) struct FrameEncoder<'a> {
     pub(crate) pipelines: &'a Pipelines,
     pub(crate) targets: &'a Targets,
     /// `@group(0)`.
     pub(crate) frame: &'a wgpu::BindGroup,
     pub(crate) objects: &'a [Placed<'a>],
-    /// The frame with what was filled, where a draw asks for it.
+    /// The frame with the fill, if a draw reads it.
     pub(crate) frame_fill: Option<wgpu::BindGroup>,
-    /// The same of the whole picture, where a part is drawn.
+    /// The frame with the fill of the whole picture, if a tile is drawn.
     pub(crate) overview_fill: Option<wgpu::BindGroup>,
     pub(crate) steps: Vec<DrawStep>,
-    /// Whether the samples are averaged to the picture in the end.
+    /// Whether samples are averaged to the picture at the end.
     pub(crate) resolves: bool,
     /// Whether there are clip planes.
     pub(crate) clips: bool,
 }
 
-/// What is drawn at once, in the order of a frame.
+/// Strokes that are drawn at once.
 pub(crate) enum DrawStep {
     /// One stroke set of an object, edge by edge.
     Edges { object: usize, set: usize },
-    /// Linked strokes: up to four stroke sets, each of all objects in that style.
+    /// Linked strokes of up to four stroke sets, each of all objects in its style.
     Linked(Vec<LinkedStrokes>),
 }
 
@@ -61,7 +61,8 @@ pub(crate) struct LinkedStrokes {
 }
 
 impl DrawStep {
-    /// All but silhouettes that are drawn edge by edge, which need the stencil.
+    /// The steps of a frame in order, without silhouettes that are drawn edge by edge: those
+    /// need the stencil.
     pub(crate) fn plan(objects: &[Placed]) -> Vec<Self> {
         let mut steps: Vec<Self> = Vec::new();
         for visibility in [Visibility::Hidden, Visibility::Visible, Visibility::Silhouette] {
@@ -102,11 +103,11 @@ impl DrawStep {
     }
 }
 
-/// The stencil values of the objects, cut where the stencil must be cleared.
+/// The stencil values of the objects, in batches between two clears of the stencil.
 pub(crate) struct StencilBatches {
-    /// One an object; [`NO_OBJECT`] for those without a silhouette.
+    /// One per object; [`NO_OBJECT`] for those without a silhouette.
     values: Vec<u32>,
-    /// The first object of each batch behind the first one.
+    /// The first object of each batch after the first batch.
     clears: Vec<usize>,
 }
 
@@ -184,7 +185,7 @@ impl FrameEncoder<'_> {
         })
     }
 
-    /// From chains to ribbons, by the depth of the fill.
+    /// Encodes the way from chains to ribbons, by the depth of the fill.
     pub(crate) fn encode_paths(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -209,7 +210,7 @@ impl FrameEncoder<'_> {
         }
     }
 
-    /// The coverage of linked strokes, one texture a batch.
+    /// Encodes the coverage of linked strokes, one texture per batch.
     pub(crate) fn encode_coverage(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -258,7 +259,7 @@ impl FrameEncoder<'_> {
         }
     }
 
-    /// How each batch of coverage is laid over the picture.
+    /// The bind groups that lay each batch of coverage over the picture.
     pub(crate) fn composite_groups(
         &self,
         device: &wgpu::Device,
@@ -293,7 +294,7 @@ impl FrameEncoder<'_> {
         touched.map_or(everything, |touched| touched.pixels(reach_px, size))
     }
 
-    /// What the steps say, in order.
+    /// Draws the steps in order.
     fn draw_steps(&self, pass: &mut wgpu::RenderPass, laid: &[wgpu::BindGroup], values: &[u32]) {
         let mut laid = laid.iter();
         for step in &self.steps {
@@ -305,14 +306,14 @@ impl FrameEncoder<'_> {
                     let pipelines = self.pipelines.graph.as_ref();
                     let [left, top, width, height] = self.touched(sets);
                     let composite = pipelines.zip(laid.next());
-                    // Objects beside the picture touch nothing of it.
+                    // Objects beside the picture do not touch it.
                     if let Some((pipelines, group)) = composite.filter(|_| width * height > 0) {
                         pass.set_scissor_rect(left, top, width, height);
                         pipelines.coverage.record_composite(pass, group, sets.len());
                         let [width, height] = self.targets.size;
                         pass.set_scissor_rect(0, 0, width, height);
                     }
-                    // What found no room to be linked.
+                    // Edges that were not linked for lack of room.
                     for linked in sets {
                         for &object in &linked.objects {
                             pass.set_stencil_reference(values[object]);
@@ -361,8 +362,8 @@ impl FrameEncoder<'_> {
         }
     }
 
-    /// Clears the stencil and writes the values of a batch of objects where their own depth is
-    /// what is seen.
+    /// Clears the stencil and writes the values of a batch of objects where they are the
+    /// nearest.
     fn encode_stencil(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -383,7 +384,7 @@ impl FrameEncoder<'_> {
         }
     }
 
-    /// One stroke set of an object, edge by edge.
+    /// Draws one stroke set of an object, edge by edge.
     fn strokes(&self, pass: &mut wgpu::RenderPass, object: &DrawnObject, index: usize) {
         let Some(set) = object.style.sets.get(index) else { return };
         let with_fill = self.frame_fill.as_ref().filter(|_| set.lies_over_surface);
@@ -410,13 +411,13 @@ impl FrameEncoder<'_> {
                     pass.set_vertex_buffer(0, vertices.slice(..));
                     self.attribute_strokes(pass, set.kind, size.edge_count);
                 }
-                // Attributes are drawn from replicated vertices alone.
+                // Only replicated vertices have attributes.
                 (StrokeVertices::Attributes(_), EdgeGeometry::Indexed { .. }) => {}
             }
         }
     }
 
-    /// What was expanded, then the rest of the list.
+    /// Draws the expanded strokes, then the rest of the list.
     fn listed_strokes(
         &self,
         pass: &mut wgpu::RenderPass,
@@ -440,7 +441,7 @@ impl FrameEncoder<'_> {
         pass.draw_indirect(&bound.lists.arguments, arguments + REST_OFFSET);
     }
 
-    /// The paper's passes: all quads, then all ends, a triangle of each at a time.
+    /// Draws the paper's passes: all quads, then all ends, one triangle of each at a time.
     fn attribute_strokes(&self, pass: &mut wgpu::RenderPass, kind: LineKind, edge_count: u32) {
         let key = if kind == LineKind::Thin { IndexKey::Lines } else { IndexKey::Quads };
         let per_edge = to_u32(key.pattern().0.len());

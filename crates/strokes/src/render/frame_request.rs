@@ -1,4 +1,4 @@
-//! What a frame is drawn from, and what it is drawn over.
+//! The parts of a frame: instances, styles, view and targets.
 
 use std::sync::Arc;
 
@@ -8,40 +8,41 @@ use crate::mesh::instance::MeshInstance;
 use crate::render::prepared_style::PreparedStyle;
 use crate::view::view_state::ViewState;
 
-/// The passes of a frame, in order, as [`GpuTimer`](crate::gpu::timer::GpuTimer) numbers them.
+/// The passes of a frame, in the order of [`GpuTimer`](crate::GpuTimer).
 pub const PASS_NAMES: [&str; 7] =
     ["detect", "link", "expand", "fill", "paths", "coverage", "strokes"];
 
-/// What is done about the surface before strokes are drawn.
+/// How surfaces are drawn under the strokes.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Fill {
-    /// The picture is cleared to a premultiplied color, and objects are filled.
+    /// The picture is cleared to a premultiplied color (RGBA, 0 to 1), and objects are filled.
     Clear([f64; 4]),
-    /// The picture stays; its depth is made anew.
+    /// The picture stays, the depth is cleared, and objects are filled.
     Depth,
-    /// Picture and depth are there, drawn with [`crate::draw::fill::push_away`]; the stencil
-    /// is written if it is needed.
+    /// Picture and depth stay, with surfaces that were drawn with
+    /// [`push_away`](crate::push_away); the stencil is written if a style needs it.
     Done,
 }
 
 /// A frame to be encoded.
 #[derive(Debug, Clone, Copy)]
 pub struct FrameRequest<'a> {
-    /// What is drawn into.
+    /// The textures to draw into.
     pub targets: &'a Targets,
-    /// What is drawn.
+    /// The meshes to draw.
     pub instances: &'a [MeshInstance],
     /// The style of each instance.
     pub styles: &'a [Arc<PreparedStyle>],
     /// The eye, set for these instances by [`ViewState::set`].
     pub view: &'a ViewState,
-    /// What is under the strokes.
+    /// How surfaces are drawn under the strokes.
     pub fill: Fill,
-    /// The whole picture, smaller, if a tile of it is drawn: its depth decides where linked
+    /// The whole picture at a smaller size, if a tile is drawn: its depth decides where linked
     /// strokes are visible, so that they begin and end alike in all tiles.
     pub overview: Option<&'a Targets>,
-    /// Whether the samples are averaged to the picture at the end.
+    /// Whether samples are averaged to the picture at the end.
     pub resolves: bool,
-    /// [`PASS_NAMES`] passes of a timer.
+    /// As many passes of a timer as there are [`PASS_NAMES`].
     pub timer: Option<TimedPasses<'a>>,
 }

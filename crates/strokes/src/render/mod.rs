@@ -1,15 +1,17 @@
 //! The order of a frame.
 //!
-//! - [`renderer`]: what programs call; [`frame_request`]: what a frame is drawn from.
-//! - [`pipelines`]: all pipelines; [`prepared_style`]: a style with its pipelines.
-//! - [`drawing`]: what a view makes of the instances; [`scene_view`]: all of it for one eye.
+//! - `renderer`: the interface for programs; `frame_request`: the parts of a frame.
+//! - `options`: the kind of meshes and targets; `error`: why they do not fit together.
+//! - `pipelines`: all pipelines; `prepared_style`: a style with its pipelines.
+//! - `drawing`: the lists and graphs of the instances; `scene_view`: all of it for one eye.
 //! - `frame_encoder`: the passes that draw.
 
-pub mod drawing;
-pub mod error;
+pub(crate) mod drawing;
+pub(crate) mod error;
 mod frame_encoder;
-pub mod frame_request;
-pub mod pipelines;
-pub mod prepared_style;
-pub mod renderer;
-pub mod scene_view;
+pub(crate) mod frame_request;
+pub(crate) mod options;
+mod pipelines;
+pub(crate) mod prepared_style;
+pub(crate) mod renderer;
+pub(crate) mod scene_view;

@@ -1,4 +1,4 @@
-//! All pipelines for one kind of target and mesh, and what styles share.
+//! All pipelines for one kind of meshes and targets, and what styles share.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -16,58 +16,18 @@ use crate::draw::stroke::{StrokeVariant, VertexSource, stroke_pipeline, style_gr
 use crate::draw::stroke_indices::{IndexBuffer, IndexKey};
 use crate::draw::stroke_layouts::StrokeLayouts;
 use crate::gpu::device::Gpu;
-use crate::gpu::target_formats::TargetFormats;
 use crate::graph::link::LinkPipeline;
 use crate::graph::path::PathPipeline;
 use crate::mesh::layout::Layout;
 use crate::render::error::RenderError;
+use crate::render::options::{DetectionStage, RendererOptions};
 use crate::render::prepared_style::{PreparedStrokes, PreparedStyle, StrokeVertices};
 use crate::style::brush::BrushTextures;
-use crate::style::drawing_style::{DrawingStyle, StrokeSet};
+use crate::style::drawing_style::{DrawingStyle, MAX_LAYERS, StrokeSet};
 use crate::view::detect::DetectPipeline;
 use crate::view::frame::frame_layout;
 
-/// Where feature edges are detected.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum DetectionStage {
-    /// In compute shaders, which list the edges to draw.
-    #[default]
-    Compute,
-    /// In the vertex shader, as in the paper: every edge is drawn, and those that are no
-    /// features lie behind the near plane.
-    Vertex,
-}
-
-/// What a renderer is made for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct RendererOptions {
-    /// How the edges of all meshes lie in memory.
-    pub layout: Layout,
-    /// Where features are detected. [`Layout::FaceNormals`] always detects in the vertex
-    /// shader.
-    pub stage: DetectionStage,
-    /// What is drawn into.
-    pub formats: TargetFormats,
-}
-
-impl RendererOptions {
-    /// Edges in the indexed layout, detected in compute shaders.
-    #[must_use]
-    pub const fn new(formats: TargetFormats) -> Self {
-        Self { layout: Layout::Indexed, stage: DetectionStage::Compute, formats }
-    }
-
-    /// The options with unsupported combinations replaced.
-    #[must_use]
-    pub const fn supported(self) -> Self {
-        match self.layout {
-            Layout::FaceNormals => Self { stage: DetectionStage::Vertex, ..self },
-            _ => self,
-        }
-    }
-}
-
-/// All pipelines for one kind of target and mesh.
+/// All pipelines for one kind of meshes and targets.
 #[derive(Debug)]
 pub(crate) struct Pipelines {
     pub(crate) options: RendererOptions,
@@ -117,6 +77,10 @@ impl Pipelines {
         if style.silhouette.is_some() && !self.options.formats.has_stencil() {
             return Err(RenderError::NoStencil);
         }
+        if style.layers.len() > MAX_LAYERS {
+            let layers = style.layers.len();
+            return Err(RenderError::TooManyLayers { layers, limit: MAX_LAYERS });
+        }
         let device = &gpu.device;
         let classes = style.class_table();
         if style.is_linked() {
@@ -130,6 +94,7 @@ impl Pipelines {
             sets.push(self.prepare_strokes(gpu, set, index, &classes)?);
         }
         Ok(PreparedStyle {
+            options: self.options,
             classes,
             layer_count: to_u32(style.layers.len()).max(1),
             sets,
@@ -184,8 +149,8 @@ impl Pipelines {
         })
     }
 
-    /// Builds the pipelines of the stroke graph, once, if they can be used.
-    fn build_graph(&mut self, device: &wgpu::Device) -> Result<(), ShaderError> {
+    /// Builds the pipelines of the stroke graph once, if compute shaders detect.
+    pub(crate) fn build_graph(&mut self, device: &wgpu::Device) -> Result<(), ShaderError> {
         let RendererOptions { layout, stage, formats } = &self.options;
         if *stage == DetectionStage::Compute && self.graph.is_none() {
             self.graph = Some(GraphPipelines {

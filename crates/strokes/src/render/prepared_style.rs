@@ -9,11 +9,14 @@ use crate::draw::expand::ExpandPipeline;
 use crate::draw::fill::FillKind;
 use crate::draw::stroke_indices::IndexKey;
 use crate::graph::buffers::LinkedSet;
+use crate::render::options::RendererOptions;
 use crate::style::drawing_style::{MAX_STROKE_SETS, Visibility};
 
 /// A drawing style with its pipelines, uniforms and textures. Instances can share one.
 #[derive(Debug)]
 pub struct PreparedStyle {
+    /// Those of the renderer that prepared the style.
+    pub(crate) options: RendererOptions,
     pub(crate) classes: ClassTable,
     pub(crate) layer_count: u32,
     /// In the order of drawing.
@@ -37,8 +40,7 @@ pub(crate) struct PreparedStrokes {
     pub(crate) is_linked: bool,
     /// Premultiplied.
     pub(crate) color: [f32; 4],
-    /// How far ink lies from the lines at most, in pixels; `None` if widths are in units of
-    /// the world.
+    /// The most pixels between ink and its line; `None` if the width is in units of the world.
     pub(crate) reach_px: Option<f32>,
     pub(crate) is_textured: bool,
     /// `@group(1)` of strokes.
@@ -46,7 +48,7 @@ pub(crate) struct PreparedStrokes {
     pub(crate) vertices: StrokeVertices,
 }
 
-/// Where the vertices of a stroke set come from, with the pipelines that draw them.
+/// The source of a stroke set's vertices, with the pipelines that draw them.
 #[derive(Debug)]
 pub(crate) enum StrokeVertices {
     Lists {
@@ -58,7 +60,7 @@ pub(crate) enum StrokeVertices {
     Attributes(wgpu::RenderPipeline),
 }
 
-/// What the lists of a view must have room for: styles of the same shape share lists.
+/// The sizes that the lists of a view depend on: styles of the same shape share lists.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct ListShape {
     pub(crate) layer_count: u32,
@@ -69,7 +71,9 @@ pub(crate) struct ListShape {
 }
 
 impl PreparedStyle {
-    /// Whether any strokes are linked: the mesh must have links then.
+    /// Whether any strokes are linked. Meshes then need [`MeshOptions::links`].
+    ///
+    /// [`MeshOptions::links`]: crate::MeshOptions::links
     #[must_use]
     pub fn is_linked(&self) -> bool {
         self.sets.iter().any(|set| set.is_linked)

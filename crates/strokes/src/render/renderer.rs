@@ -4,7 +4,6 @@
 use std::sync::Arc;
 
 use edgemesh::view::camera::View;
-use edgemesh_shaders::ShaderError;
 
 use crate::draw::targets::Targets;
 use crate::gpu::device::Gpu;
@@ -14,7 +13,8 @@ use crate::render::drawing::{Drawing, DrawnObject};
 use crate::render::error::RenderError;
 use crate::render::frame_encoder::{DrawStep, FrameEncoder, Placed};
 use crate::render::frame_request::{Fill, FrameRequest, PASS_NAMES};
-use crate::render::pipelines::{Pipelines, RendererOptions};
+use crate::render::options::RendererOptions;
+use crate::render::pipelines::Pipelines;
 use crate::render::prepared_style::{PreparedStyle, StrokeVertices};
 use crate::render::scene_view::SceneView;
 use crate::style::drawing_style::DrawingStyle;
@@ -23,7 +23,7 @@ use crate::view::frame::{FrameUniform, Surroundings};
 use crate::view::tile::Tile;
 use crate::view::view_state::ViewState;
 
-/// Draws strokes into one kind of target, from meshes in one layout.
+/// Draws the strokes of meshes of one layout into targets of one format.
 #[derive(Debug)]
 pub struct Renderer {
     pipelines: Pipelines,
@@ -33,8 +33,8 @@ impl Renderer {
     /// Builds the pipelines that every style needs.
     ///
     /// # Errors
-    /// If a shader that ships is wrong: a fault of this crate.
-    pub fn new(gpu: &Gpu, options: RendererOptions) -> Result<Self, ShaderError> {
+    /// [`RenderError::Shader`], an internal error.
+    pub fn new(gpu: &Gpu, options: RendererOptions) -> Result<Self, RenderError> {
         Ok(Self { pipelines: Pipelines::new(gpu, options)? })
     }
 
@@ -44,11 +44,11 @@ impl Renderer {
         &self.pipelines.options
     }
 
-    /// Builds what a style needs: pipelines, uniforms, textures. Styles that share pipelines
-    /// and brushes share them on the GPU.
+    /// Builds the pipelines, uniforms and textures of a style. Styles share pipelines and
+    /// brushes.
     ///
     /// # Errors
-    /// [`RenderError::NoStencil`], and [`RenderError::Shader`].
+    /// [`RenderError::NoStencil`], [`RenderError::TooManyLayers`] and [`RenderError::Shader`].
     pub fn prepare(
         &mut self,
         gpu: &Gpu,
@@ -57,7 +57,8 @@ impl Renderer {
         self.pipelines.prepare(gpu, style).map(Arc::new)
     }
 
-    /// Submits one frame of `scene` as `view` sees it, over `background` (premultiplied).
+    /// Submits one frame of `scene` as `view` sees it, over `background` (premultiplied RGBA, 0
+    /// to 1).
     ///
     /// # Errors
     /// As [`Self::encode`].
@@ -92,12 +93,11 @@ impl Renderer {
         Ok(())
     }
 
-    /// Encodes a frame, to be submitted before the next one is encoded. `drawing` keeps what
-    /// the frame makes of the instances; give the same one with the same view state in the
-    /// next frame.
+    /// Encodes a frame, to be submitted before the next one is encoded. `drawing` keeps the
+    /// lists of the frame; pass it with the same view state in the next frame.
     ///
     /// # Errors
-    /// If instances, styles, view state and renderer do not fit together; nothing is encoded
+    /// [`RenderError`], if the parts of the request do not fit together; nothing is encoded
     /// then.
     pub fn encode(
         &mut self,
@@ -107,7 +107,7 @@ impl Renderer {
         request: &FrameRequest,
     ) -> Result<(), RenderError> {
         let FrameRequest { targets, view, timer, .. } = *request;
-        drawing.update(gpu, &mut self.pipelines, view, request.instances, request.styles)?;
+        drawing.update(gpu, &mut self.pipelines, request)?;
         let pipelines = &self.pipelines;
         let placed = placed(drawing, view);
         let frame = Frame { pipelines, view, placed: &placed, timer };
@@ -148,7 +148,7 @@ impl Renderer {
     }
 }
 
-/// The objects that the view's transforms do not flatten to nothing.
+/// The objects that their transforms do not flatten.
 fn placed<'a>(drawing: &'a Drawing, view: &'a ViewState) -> Vec<Placed<'a>> {
     let objects = drawing.objects().iter().zip(view.objects());
     objects

@@ -1,4 +1,4 @@
-//! A scene as one eye sees it, for programs that draw nothing but strokes.
+//! A scene as one eye sees it, for programs that draw only strokes.
 
 use std::sync::Arc;
 
@@ -8,21 +8,21 @@ use crate::render::drawing::Drawing;
 use crate::render::prepared_style::PreparedStyle;
 use crate::view::view_state::ViewState;
 
-/// A scene as one eye sees it: instances in their styles, and all that the GPU keeps for them.
+/// A scene as one eye sees it: instances in their styles, with their buffers.
 #[derive(Debug)]
 pub struct SceneView {
-    /// What is drawn.
+    /// The meshes to draw.
     pub instances: Vec<MeshInstance>,
     /// The style of each instance.
     pub styles: Vec<Arc<PreparedStyle>>,
-    /// The eye.
+    /// The uniforms of the eye.
     pub view: ViewState,
-    /// What the last view made of the instances.
+    /// The lists and stroke graphs of the last frame.
     pub drawing: Drawing,
 }
 
 impl SceneView {
-    /// `instances`, each in its style.
+    /// A scene of `instances`, each with its style.
     #[must_use]
     pub fn new(gpu: &Gpu, instances: Vec<MeshInstance>, styles: Vec<Arc<PreparedStyle>>) -> Self {
         Self { instances, styles, view: ViewState::new(&gpu.device), drawing: Drawing::new() }

@@ -1,60 +1,60 @@
 //! Brush textures: how ink lies along and across a stroke.
 //!
-//! A brush tiles along the stroke and is clamped across it: its top row is the
-//! outer rim, its bottom row the inner one. Only its alpha is used, the colour
-//! is the stroke's. Mip levels are averages of the level above, so that a brush
-//! drawn small keeps its amount of ink.
+//! A brush tiles along the stroke and is clamped across it: its top row is the outer rim, its
+//! bottom row the inner one. The brush gives the alpha and the stroke the color. Mip levels are
+//! averages of the level above, so that a brush drawn small keeps its amount of ink.
 
 use std::convert::Infallible;
 
-use image::GrayImage;
+use image::{GrayImage, RgbaImage};
 use thiserror::Error;
 
 use crate::gpu::device::Gpu;
 use crate::gpu::recent::Recent;
+use crate::gpu::texture::upload_levels;
 
-/// The longest side of a brush: what every adapter can hold.
-pub const MAX_SIDE: u32 = 8192;
-
-/// A brush cannot be made.
+/// Why pixels are no brush.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum BrushError {
-    /// It is too large, or has no texels.
-    #[error("is {width}x{height} pixels; a brush has 1 to {MAX_SIDE} a side")]
+    /// A side is 0 or longer than [`Brush::MAX_SIDE`].
+    #[error("is {width}x{height} pixels; a brush has 1 to {} a side", Brush::MAX_SIDE)]
     Size {
-        /// Its width.
+        /// Width in texels.
         width: u32,
-        /// Its height.
+        /// Height in texels.
         height: u32,
     },
     /// The coverage is not one byte per texel.
     #[error("has {found} bytes of coverage for {width}x{height} texels")]
     Length {
-        /// Its width.
+        /// Width in texels.
         width: u32,
-        /// Its height.
+        /// Height in texels.
         height: u32,
         /// Bytes of coverage.
         found: usize,
     },
 }
 
-/// A brush as coverage, one byte a texel.
+/// A stroke texture: coverage, one byte per texel.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Brush {
     coverage: GrayImage,
 }
 
 impl Brush {
+    /// The longest side in texels: what every adapter can hold.
+    pub const MAX_SIDE: u32 = 8192;
+
     /// A brush of `width` times `height` texels; `coverage` is their alpha, row by row from
     /// the outer rim.
     ///
     /// # Errors
-    /// [`BrushError`], if a side is 0 or larger than [`MAX_SIDE`], or `coverage` has another
-    /// length.
+    /// [`BrushError`], if a side is 0 or longer than [`Self::MAX_SIDE`], or `coverage` has
+    /// another length.
     pub fn new(width: u32, height: u32, coverage: Vec<u8>) -> Result<Self, BrushError> {
-        if width.min(height) == 0 || width.max(height) > MAX_SIDE {
+        if width.min(height) == 0 || width.max(height) > Self::MAX_SIDE {
             return Err(BrushError::Size { width, height });
         }
         let found = coverage.len();
@@ -65,19 +65,18 @@ impl Brush {
     }
 
     /// A brush that covers everything.
-    #[must_use]
-    pub fn solid() -> Self {
+    pub(crate) fn solid() -> Self {
         Self { coverage: GrayImage::from_pixel(1, 1, image::Luma([255])) }
     }
 
-    /// Length of the brush over its height.
+    /// Width over height.
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "texture sizes are small")]
     pub fn aspect(&self) -> f32 {
         self.coverage.width() as f32 / self.coverage.height() as f32
     }
 
-    /// The brush and its mip levels, largest first.
+    /// The mip levels, the brush itself first, a single texel last.
     #[must_use]
     pub fn mip_levels(&self) -> Vec<GrayImage> {
         let mut levels = vec![self.coverage.clone()];
@@ -91,43 +90,20 @@ impl Brush {
     }
 
     /// Uploads all levels; the texture's alpha is the coverage.
-    #[must_use]
-    pub fn upload(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> wgpu::TextureView {
-        let levels = self.mip_levels();
-        let extent = |level: &GrayImage| wgpu::Extent3d {
-            width: level.width(),
-            height: level.height(),
-            depth_or_array_layers: 1,
-        };
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("brush"),
-            size: extent(&levels[0]),
-            mip_level_count: edgemesh::index::to_u32(levels.len()),
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rgba8Unorm,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        });
-        for (mip_level, level) in (0..).zip(&levels) {
-            let texels: Vec<u8> = level.iter().flat_map(|&alpha| [alpha; 4]).collect();
-            queue.write_texture(
-                wgpu::TexelCopyTextureInfo { mip_level, ..texture.as_image_copy() },
-                &texels,
-                wgpu::TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(4 * level.width()),
-                    rows_per_image: None,
-                },
-                extent(level),
-            );
-        }
-        texture.create_view(&wgpu::TextureViewDescriptor::default())
+    fn upload(&self, gpu: &Gpu) -> wgpu::TextureView {
+        let levels: Vec<RgbaImage> = self.mip_levels().iter().map(four_channels).collect();
+        upload_levels(gpu, "brush", &levels)
     }
 }
 
-/// Averages two by two texels; an odd last row or column is averaged with
-/// itself.
+/// The coverage in all four channels.
+fn four_channels(level: &GrayImage) -> RgbaImage {
+    let (width, height) = level.dimensions();
+    RgbaImage::from_fn(width, height, |x, y| image::Rgba([level.get_pixel(x, y).0[0]; 4]))
+}
+
+/// Averages two by two texels. A side that is not even loses its last texels, one of a single
+/// texel is averaged with itself.
 fn halve(level: &GrayImage) -> GrayImage {
     let (width, height) = level.dimensions();
     GrayImage::from_fn((width / 2).max(1), (height / 2).max(1), |x, y| {
@@ -140,11 +116,10 @@ fn halve(level: &GrayImage) -> GrayImage {
     })
 }
 
-/// So many brushes are kept.
+/// How many brushes stay on the GPU.
 const MOST_KEPT: usize = 16;
 
-/// Brushes on the GPU, each once, and how they are sampled: tiled along, clamped across,
-/// mip-mapped.
+/// Brushes on the GPU, each once, with their sampler: tiled along, clamped across, mip-mapped.
 #[derive(Debug)]
 pub(crate) struct BrushTextures {
     pub(crate) sampler: wgpu::Sampler,
@@ -165,9 +140,9 @@ impl BrushTextures {
         Self { sampler, known: Recent::new(MOST_KEPT) }
     }
 
-    /// The texture of a brush.
+    /// The texture of a brush, uploaded if it is new.
     pub(crate) fn texture(&mut self, gpu: &Gpu, brush: &Brush) -> wgpu::TextureView {
-        let upload = || Ok((brush.clone(), brush.upload(&gpu.device, &gpu.queue)));
+        let upload = || Ok((brush.clone(), brush.upload(gpu)));
         let texture: Result<_, Infallible> = self.known.get(|known| known == brush, upload);
         let Ok(texture) = texture;
         texture
@@ -204,7 +179,7 @@ mod tests {
             let error = Brush::new(2, 1, vec![0; found]).unwrap_err();
             assert_eq!(error, BrushError::Length { width: 2, height: 1, found });
         }
-        for (width, height) in [(0, 4), (MAX_SIDE + 1, 1)] {
+        for (width, height) in [(0, 4), (Brush::MAX_SIDE + 1, 1)] {
             let error = Brush::new(width, height, Vec::new()).unwrap_err();
             assert_eq!(error, BrushError::Size { width, height });
         }

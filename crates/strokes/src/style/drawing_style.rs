@@ -1,9 +1,9 @@
 //! Drawing styles: the strokes of each line class, and the fill under them.
 //!
 //! Classes that are drawn alike are one *layer*: one list of edges. The strokes of a layer
-//! with one visibility are a *stroke set*: what is visible, what is hidden (paper, section
-//! 3.5), and for the layer with the contours the silhouette, which is drawn over the contours
-//! where they border on other things (section 3.4).
+//! with one visibility are a *stroke set*: visible, hidden (paper, section 3.5) and, for the
+//! layer with the contours, silhouette: drawn over the contours that separate the object from
+//! anything else (section 3.4).
 //!
 //! ```text
 //!   classes --ClassTable--> layers --+--> visible strokes
@@ -19,42 +19,43 @@ use edgemesh::line::placement::{Parameterization, Placement};
 use crate::style::brush::Brush;
 use crate::style::link_style::{LinkStyle, MITRE_LIMIT};
 
-/// Layers that one object can have: one per class. WGSL twin: the constant of this name.
+/// The most layers of an object: one per class. WGSL twin: the constant of this name.
 pub const MAX_LAYERS: usize = LineClass::COUNT;
 
-/// Stroke sets that one object can have: the visible and the hidden strokes of each layer, and
-/// the silhouettes of both kinds. WGSL twin: the constant of this name.
+/// The most stroke sets of an object: the visible and the hidden strokes of each layer, and two
+/// for silhouettes. WGSL twin: the constant of this name.
 pub const MAX_STROKE_SETS: usize = 2 * MAX_LAYERS + 2;
 
-/// How wide a stroke is.
+/// The width of a stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Width {
-    /// The same on the screen at any distance.
+    /// In pixels, the same at any distance.
     Pixels(f32),
-    /// In units of the scene: smaller farther away.
+    /// In units of the scene: smaller in the distance.
     World(f32),
 }
 
 /// How the strokes of a set are drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StrokeStyle {
-    /// Premultiplied colour.
+    /// Premultiplied RGBA, 0 to 1.
     pub color: [f32; 4],
-    /// Its width.
+    /// In pixels or in units of the scene.
     pub width: Width,
-    /// Thin line, quad or fin, and what is at the ends.
+    /// Thin line, quad or fin, with its ends.
     pub kind: LineKind,
-    /// Where on the edge it lies.
+    /// On which side of the edge the stroke lies.
     pub placement: Placement,
-    /// How the brush lies along it.
+    /// How the brush lies along the stroke.
     pub parameterization: Parameterization,
     /// The brush, or `None` for solid ink.
     pub brush: Option<Brush>,
     /// The distances from the eye, in units of the scene, where strokes begin to
     /// fade and where nothing is left of them.
     pub fade: Option<[f32; 2]>,
-    /// How edges are linked into strokes; `None` draws each edge by itself, as the
-    /// paper does. Where compute shaders detect; thin lines and fins are never linked.
+    /// How edges are linked into strokes; `None` draws each edge by itself, as the paper
+    /// does. Thin lines and fins are never linked, nor is anything if vertex shaders detect.
     pub link: Option<LinkStyle>,
 }
 
@@ -75,7 +76,8 @@ impl Default for StrokeStyle {
 }
 
 impl StrokeStyle {
-    /// How far linked strokes lie from their lines at most, in pixels.
+    /// The most pixels between linked strokes and their lines; `None` if the width is in
+    /// units of the scene, or nothing is linked.
     pub(crate) fn reach_px(&self) -> Option<f32> {
         let Width::Pixels(width) = self.width else { return None };
         let link = self.link.as_ref()?;
@@ -85,7 +87,7 @@ impl StrokeStyle {
         Some(MITRE_LIMIT * widest + beyond + 2.0)
     }
 
-    /// Whether edges are linked into strokes.
+    /// Whether edges are linked into strokes, if compute shaders detect.
     pub(crate) const fn is_linked(&self) -> bool {
         self.link.is_some() && !matches!(self.kind, LineKind::Thin | LineKind::Fin)
     }
@@ -94,11 +96,11 @@ impl StrokeStyle {
 /// Line classes that are drawn alike.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
-    /// The classes.
+    /// A class in several layers counts for the first of them.
     pub classes: Vec<LineClass>,
-    /// What is visible; `None` leaves it out.
+    /// Strokes of what is visible; `None` draws none.
     pub visible: Option<StrokeStyle>,
-    /// What is hidden; `None` leaves it out.
+    /// Strokes of what is hidden; `None` draws none.
     pub hidden: Option<StrokeStyle>,
 }
 
@@ -113,29 +115,29 @@ impl Layer {
 /// How the lines of an object are drawn.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct DrawingStyle {
-    /// Premultiplied colour of the surface; `None` fills only the depth, so that
-    /// what lies behind shows through and lines are still hidden.
+    /// Premultiplied RGBA of the surface, 0 to 1; `None` fills only the depth, so that lines
+    /// are hidden and the background shows through.
     pub fill_color: Option<[f32; 4]>,
-    /// The layers, the first drawn last, over all others. A class in none of them
-    /// is not drawn.
+    /// At most seven layers, the first drawn last, over all others. A class in none of them is
+    /// not drawn.
     pub layers: Vec<Layer>,
-    /// Strokes over those contours that are between the object and anything
-    /// else; needs a contour layer.
+    /// Strokes over the contours that separate the object from anything else. It needs a
+    /// layer with contours, and targets with a stencil.
     pub silhouette: Option<StrokeStyle>,
-    /// From which angles between the face normals, in radians, edges are ridges
-    /// and valleys; `None` for the creases as the mesh was built with.
+    /// The least angles between face normals, in radians, at which edges are ridges and
+    /// valleys; `None` for the creases that the mesh was built with.
     pub thresholds: Option<[f64; 2]>,
 }
 
-/// Which strokes of a layer a set has.
+/// Which strokes of a layer are in a set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[repr(u32)]
 pub enum Visibility {
-    /// What nothing hides.
+    /// Hidden by nothing.
     Visible = 0,
-    /// What something hides.
+    /// Hidden by a surface.
     Hidden = 1,
-    /// Visible, and not over the object itself.
+    /// Visible, and not in front of the object itself.
     Silhouette = 2,
 }
 
@@ -149,8 +151,8 @@ pub(crate) struct StrokeSet {
 }
 
 impl StrokeSet {
-    /// Whether it draws contours over the surface that they bound, which would
-    /// swallow them: their fragments ask at the edge whether they are visible.
+    /// Whether contours are drawn over the surface that they bound, which would swallow them:
+    /// their fragments ask at the edge whether they are visible.
     pub(crate) const fn lies_over_surface(&self) -> bool {
         let is_wide = !matches!(self.style.kind, LineKind::Thin | LineKind::Fin);
         let reaches_inside = matches!(self.style.placement, Placement::Centred | Placement::Inside);
@@ -159,13 +161,13 @@ impl StrokeSet {
 }
 
 impl DrawingStyle {
-    /// Whether any strokes are linked, where compute shaders detect.
+    /// Whether any strokes are linked, if compute shaders detect.
     pub(crate) fn is_linked(&self) -> bool {
         let of_layers = self.layers.iter().flat_map(|layer| [&layer.visible, &layer.hidden]);
         of_layers.chain([&self.silhouette]).flatten().any(StrokeStyle::is_linked)
     }
 
-    /// The layer of each class, and the thresholds.
+    /// The layer of each class, with the thresholds, as shaders read them.
     #[must_use]
     pub fn class_table(&self) -> ClassTable {
         let mut table = ClassTable::new(|class| {
@@ -183,8 +185,8 @@ impl DrawingStyle {
         table
     }
 
-    /// The stroke sets in the order of drawing: what is hidden, then what is visible, each
-    /// from the last layer to the first, then the silhouette.
+    /// The stroke sets in the order of drawing: hidden, then visible, each from the last layer
+    /// to the first, then the silhouette.
     pub(crate) fn stroke_sets(&self) -> Vec<StrokeSet> {
         let has_contours = |layer: &Layer| layer.classes.contains(&LineClass::Contour);
         let of_layers = |visibility, style: fn(&Layer) -> Option<&StrokeStyle>| {

@@ -3,17 +3,19 @@
 
 /// How the segments of a stroke meet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
 #[repr(u32)]
 pub enum Join {
     /// An arc around the corner.
     #[default]
     Round = 0,
-    /// The sides go on until they meet; round where that would be far away.
+    /// The sides go on until they meet; sharp corners are round.
     Mitred = 1,
 }
 
 /// How a stroke ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
 #[repr(u32)]
 pub enum End {
     /// A half disk beyond its end.
@@ -25,17 +27,18 @@ pub enum End {
     Pointed = 2,
 }
 
-/// Mitres that would reach further than so many half widths are round. WGSL twin: the
+/// Mitres that would reach further than this many half widths are round. WGSL twin: the
 /// constant of this name.
 pub const MITRE_LIMIT: f32 = 4.0;
 
-/// Values of a curve along a stroke.
+/// The number of values of a curve along a stroke.
 pub const CURVE_LENGTH: usize = 8;
 
 /// How the brush lies along a stroke.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
 pub enum BrushFit {
-    /// Whole repeats of it, held where the stroke has its middle.
+    /// Whole repeats, anchored at the middle of the stroke.
     #[default]
     Tiled,
     /// Once, as long as the stroke.
@@ -49,38 +52,37 @@ pub struct LinkStyle {
     pub join: Join,
     /// How strokes end.
     pub end: End,
-    /// Strokes are cut where they turn by more than this angle, in radians; more than
-    /// half a turn for never. Contours are cut at their cusps in any case.
+    /// Strokes are cut where they turn by more than this angle, in radians; an angle of more
+    /// than half a turn cuts none. Contours are cut at their cusps in any case.
     pub corner_rad: f32,
-    /// Whether a stroke ends where it is hidden and another begins where it comes out;
-    /// else it goes on unseen.
+    /// Whether a stroke ends where it is hidden, and a new one begins where it comes out;
+    /// otherwise it goes on unseen.
     pub is_cut_where_hidden: bool,
-    /// Shorter strokes fade, and those half as long are left out; `None` for those that
-    /// are shorter than wide, which are no strokes but blots.
+    /// Shorter strokes fade, and those less than half as long are left out. `None` stands for
+    /// the width: strokes shorter than wide are blots.
     pub min_length_px: Option<f32>,
-    /// Longer strokes are cut into equal parts; 0 for never.
+    /// Longer strokes are cut into equal parts; 0 cuts none.
     pub max_length_px: f32,
-    /// How the brush lies along them.
+    /// How the brush lies along strokes.
     pub brush_fit: BrushFit,
-    /// Over how many pixels a stroke grows to its width, and shrinks again.
+    /// Over how many pixels a stroke grows to its width at its start, and shrinks at its end.
     pub taper_px: [f32; 2],
-    /// How far a stroke goes on beyond both of its ends.
+    /// How far a stroke goes on beyond each of its ends.
     pub overshoot_px: f32,
-    /// Along a stroke, in even steps, what is left of its width.
+    /// Factors of the width along a stroke, in even steps.
     pub width_curve: [f32; CURVE_LENGTH],
-    /// Along a stroke, in even steps, what is left of its opacity.
+    /// Factors of the opacity along a stroke, in even steps.
     pub opacity_curve: [f32; CURVE_LENGTH],
-    /// How far lines swing from their path, and at which wavelength. They do so at the
-    /// same places of the object, whatever the view.
+    /// How far lines swing from their path: at the same places of the object in every view.
     pub wobble_px: f32,
-    /// In pixels, to within an octave.
+    /// The wavelength of the swing, to within an octave.
     pub wobble_length_px: f32,
-    /// How far a trembling hand leaves its path.
+    /// How far strokes tremble around their path.
     pub jitter_px: f32,
-    /// Another seed, another hand.
+    /// Another seed gives another tremble.
     pub seed: u16,
-    /// Ink and gap of dashes; their phase goes on where they are hidden, whatever
-    /// `is_cut_where_hidden` says.
+    /// Ink and gap of dashes; `None` for whole lines. Dashes go on where they are hidden,
+    /// whatever `is_cut_where_hidden` says.
     pub dash_px: Option<[f32; 2]>,
 }
 

@@ -1,23 +1,22 @@
 //! Detection: one facing bit a face, then the live edges by layer, in order.
 //!
-//! Small dispatches: `detect_faces` packs 32 facing bits an invocation, most of
-//! them by one look at a cone of normals; `count_runs`, `scan_runs` and
-//! `write_runs` list the edges to draw without any race, so that the same view
-//! always gives the same list. `find_static` goes before them when the classes
-//! change, and works out what no view does.
+//! `detect_faces` packs 32 facing bits per invocation, most of them after one test of a cone of
+//! normals. `count_runs`, `scan_runs` and `write_runs` list the edges to draw without races, so
+//! that the same view always gives the same list. `find_static` runs before them when the
+//! classes change, and finds the edges that are drawn in every view.
 //!
-//! Rejected: appending with one atomic counter, which is as fast but gives another
-//! order every time. The paper's own way, every edge through the vertex shader,
-//! is in [`crate::draw::stroke`], to compare with.
+//! Rejected: appending with one atomic counter, which is as fast but gives another order every
+//! time. The paper's way, every edge through the vertex shader, is in `draw/stroke.rs`, to
+//! compare with.
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh::index::to_u32;
 use edgemesh::line::class::ClassTable;
 use edgemesh_shaders::ShaderError;
-use wgpu::ShaderStages;
 
 use crate::gpu::bind::{
-    bind_buffers, bind_layout, compute_pipeline, storage_entry, uniform_buffer, uniform_entry,
+    bind_buffers, bind_layout, compute_pipeline, compute_read, compute_uniform, compute_write,
+    uniform_buffer,
 };
 use crate::gpu::shader::embedded_module;
 use crate::mesh::buffers::ChunkBuffers;
@@ -26,18 +25,18 @@ use crate::mesh::layout::{FACES_PER_WORD, Layout};
 use crate::style::drawing_style::{DrawingStyle, MAX_STROKE_SETS};
 use crate::view::live_lists::{ChunkLists, ObjectRuns, Tally};
 
-/// Invocations a workgroup, as in the shaders.
+/// Invocations per workgroup, as in the shaders.
 const WORKGROUP: u32 = 64;
 
-/// What detection must know of a drawing style. WGSL twin: `shaders/detect_edges.wgsl`.
+/// A drawing style as detection reads it. WGSL twin: `shaders/detect_edges.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct DetectUniform {
     /// Which classes are drawn, in which layer.
     pub classes: ClassTable,
-    /// Layers of the style.
+    /// At least 1.
     pub layer_count: u32,
-    /// Stroke sets of the style.
+    /// How many of `sets` are in use.
     pub set_count: u32,
     /// Unused.
     pub padding: [u32; 2],
@@ -45,11 +44,11 @@ pub struct DetectUniform {
     pub sets: [DetectedSet; MAX_STROKE_SETS],
 }
 
-/// What detection must know of a stroke set. WGSL twin: the struct of this name.
+/// A stroke set as detection reads it. WGSL twin: the struct of this name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct DetectedSet {
-    /// Its layer.
+    /// The layer whose edges are drawn.
     pub layer: u32,
     /// Indices per edge.
     pub indices_per_edge: u32,
@@ -60,9 +59,7 @@ pub struct DetectedSet {
 }
 
 impl DetectUniform {
-    /// The uniform of a style.
-    #[must_use]
-    pub fn new(style: &DrawingStyle) -> Self {
+    fn new(style: &DrawingStyle) -> Self {
         let mut sets = [DetectedSet::zeroed(); MAX_STROKE_SETS];
         let stroke_sets = style.stroke_sets();
         for (detected, set) in sets.iter_mut().zip(&stroke_sets) {
@@ -104,7 +101,7 @@ struct Layouts {
     edges_view: wgpu::BindGroupLayout,
 }
 
-/// What detection needs of one chunk of one object.
+/// The bind groups and sizes for the detection of one chunk of an object.
 #[derive(Debug)]
 pub(crate) struct DetectBindings {
     faces: Option<[wgpu::BindGroup; 2]>,
@@ -201,7 +198,7 @@ impl DetectPipeline {
         }
     }
 
-    /// Forgets the last view's counts, and with `is_stale` what the classes gave;
+    /// Clears the counts of the last view, and with `is_stale` those of static edges; call it
     /// before [`Self::record`], outside of a pass.
     pub(crate) fn clear(
         encoder: &mut wgpu::CommandEncoder,
@@ -216,8 +213,8 @@ impl DetectPipeline {
         }
     }
 
-    /// Records the detection of one chunk; `@group(0)` must be the frame and
-    /// `@group(1)` the look.
+    /// Records the detection of one chunk; `@group(0)` must be the frame and `@group(1)` the
+    /// style.
     pub(crate) fn record(
         &self,
         pass: &mut wgpu::ComputePass,
@@ -248,10 +245,7 @@ impl DetectPipeline {
 
 impl Layouts {
     fn new(device: &wgpu::Device, layout: Layout) -> Self {
-        let compute = ShaderStages::COMPUTE;
-        let uniform = |binding| uniform_entry(binding, compute);
-        let read = |binding| storage_entry(binding, compute, true);
-        let write = |binding| storage_entry(binding, compute, false);
+        let (uniform, read, write) = (compute_uniform, compute_read, compute_write);
         let make = |label: &str, entries: &[wgpu::BindGroupLayoutEntry]| {
             bind_layout(device, label, entries)
         };
@@ -269,7 +263,7 @@ impl Layouts {
     }
 }
 
-/// Workgroups for `count` items, so many an invocation.
+/// Workgroups for `count` items, `per_invocation` to each invocation.
 fn groups(count: usize, per_invocation: usize) -> u32 {
     to_u32(count.div_ceil(per_invocation)).div_ceil(WORKGROUP)
 }

@@ -1,4 +1,4 @@
-//! What one view needs, the same for every pass, and what it makes of one object.
+//! The uniform of a view, the same in every pass, and the uniform of an object in a view.
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh::edge_mesh::Bounds;
@@ -12,60 +12,60 @@ use glam::{DMat3, DMat4, Mat4, Vec4};
 use crate::gpu::bind::{bind_buffers, uniform_buffer, uniform_entry};
 use crate::view::tile::Tile;
 
-/// The uniform of a view: `@group(0)` everywhere. WGSL twin:
-/// `shaders/common/frame.wgsl`.
+/// The uniform of a view: `@group(0)` of every pass. WGSL twin: `shaders/common/frame.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct FrameUniform {
-    /// Size of what is drawn: the picture, or a part of it.
+    /// Size of the tile that is drawn, or of the whole picture.
     pub viewport_px: [f32; 2],
-    /// Pixels that a unit of the world has at w = 1.
+    /// Pixels per unit of the world at w = 1.
     pub px_per_unit: f32,
-    /// How many of `clip_planes` there are.
+    /// How many of `clip_planes` are in use.
     pub clip_plane_count: u32,
-    /// At a distance d along the line of sight, clip z is x d + y, and w is z d + w.
+    /// At the distance d along the line of sight, clip z is x d + y and clip w is z d + w.
     pub projection: [f32; 4],
     /// Size of the whole picture.
     pub picture_px: [f32; 2],
-    /// The upper left corner of what is drawn, from that of the picture.
+    /// The upper left corner of the tile, from that of the picture.
     pub corner_px: [f32; 2],
-    /// Where edges are clipped at the sides: left, right, bottom, top, at w = 1.
+    /// Where edges are clipped: left, right, bottom and top, in clip space at w = 1.
     pub guard_band: [f32; 4],
-    /// Takes points of clip space back to the world.
+    /// From clip space back to the world.
     pub world_from_clip: [[f32; 4]; 4],
     /// The eye with w = 1, or the direction to the viewer with w = 0.
     pub eye: [f32; 4],
-    /// The distance from the eye along the line of sight is the product of a point of
-    /// the world with this.
+    /// The scalar product with a point of the world is its distance from the eye along the
+    /// line of sight.
     pub sight: [f32; 4],
-    /// What is right in the picture, of unit length; w is 0.
+    /// Direction to the right of the picture, of unit length; w is 0.
     pub right: [f32; 4],
-    /// What is up in the picture, of unit length; w is 0.
+    /// Direction to the top of the picture, of unit length; w is 0.
     pub up: [f32; 4],
     /// A light at a point with w = 1, or in a direction of unit length with w = 0.
     pub light: [f32; 4],
-    /// Its colour.
+    /// RGB, 1 for white.
     pub light_color: [f32; 3],
     /// Half the diagonal of the box around the scene.
     pub scene_radius: f32,
-    /// A point of the world is drawn where its product with each of these is not
-    /// negative; those beyond the count are zero.
+    /// A point of the world is drawn if its scalar product with none of these is negative;
+    /// planes beyond the count are zero.
     pub clip_planes: [[f32; 4]; MAX_CLIP_PLANES],
 }
 
-/// Clip planes that a view can have. WGSL twin: the constant of this name.
+/// The most clip planes of a view. WGSL twin: the constant of this name.
 pub const MAX_CLIP_PLANES: usize = 6;
 
-/// What belongs to a view besides the eye.
+/// Light and clip planes of a view.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surroundings {
     /// A light at a point with w = 1, or in a direction of unit length with w = 0.
     pub light: [f32; 4],
-    /// Its colour.
+    /// RGB, 1 for white.
     pub light_color: [f32; 3],
     /// Half the diagonal of the box around the scene.
     pub scene_radius: f32,
-    /// What is behind any of these planes is cut away; at most [`MAX_CLIP_PLANES`].
+    /// Points of the world whose scalar product with one of these is negative are cut away.
+    /// Planes past [`MAX_CLIP_PLANES`] are ignored.
     pub clip_planes: Vec<[f32; 4]>,
 }
 
@@ -78,15 +78,15 @@ impl Default for Surroundings {
 }
 
 impl FrameUniform {
-    /// The uniform of `view` on a part of a picture; `view` sees the whole.
+    /// The uniform of a tile of the picture that `view` sees.
     #[must_use]
     pub fn new(view: &View, tile: &Tile, around: &Surroundings) -> Self {
-        // How long the row that makes y is, in units of the clip volume.
+        // The row of y is as long as a unit of the world is high in clip space.
         let y_row = view.clip_from_world.row(1).truncate();
         let px_per_unit = y_row.length() * tile.picture_px.y * 0.5;
         let [[z_scale, z_offset], [w_scale, w_offset]] =
             [2, 3].map(|row| along_sight(view.clip_from_world.row(row), view.distance));
-        // Rows of the view's matrix, but for the projection's scale.
+        // Rows of the view's matrix without the projection's scale.
         let axis = |row: usize| view.clip_from_world.row(row).truncate().normalize_or_zero();
         let mut clip_planes = [[0.0; 4]; MAX_CLIP_PLANES];
         clip_planes.iter_mut().zip(&around.clip_planes).for_each(|(plane, given)| *plane = *given);
@@ -111,9 +111,8 @@ impl FrameUniform {
         }
     }
 
-    /// The part of the picture that is drawn.
-    #[must_use]
-    pub fn tile(&self) -> Tile {
+    /// The tile that is drawn.
+    pub(crate) fn tile(&self) -> Tile {
         Tile {
             picture_px: self.picture_px.into(),
             corner_px: self.corner_px.into(),
@@ -122,8 +121,8 @@ impl FrameUniform {
     }
 }
 
-/// A row of the projection as a function of the distance along the line of sight,
-/// the only thing that z and w depend on: its factor and what is added.
+/// A row of the projection as a linear function of the distance along the line of sight, on
+/// which alone z and w depend: factor and offset.
 fn along_sight(row: Vec4, distance: Vec4) -> [f32; 2] {
     let (row, distance) = (row.as_dvec4(), distance.as_dvec4());
     let direction = distance.truncate();
@@ -133,44 +132,42 @@ fn along_sight(row: Vec4, distance: Vec4) -> [f32; 2] {
     [scale, offset].map(|value| value as f32)
 }
 
-/// What a view makes of one object. WGSL twin: `shaders/common/frame.wgsl`.
+/// The uniform of an object in a view. WGSL twin: `shaders/common/frame.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct ObjectUniform {
-    /// Takes the object's positions to clip space; depth 1 near, 0 far.
+    /// From the object's positions to clip space; depth is 1 near and 0 far.
     pub clip_from_object: [[f32; 4]; 4],
-    /// Takes it back.
+    /// From clip space back to the object.
     pub object_from_clip: [[f32; 4]; 4],
-    /// Takes its normals to clip space, as directions of a unit of the world.
+    /// From the object's normals to clip space, as directions of a unit of the world.
     pub clip_from_normal: [[f32; 4]; 4],
     /// The eye in the object's space with w = 1, or the direction to the viewer
     /// with w = 0.
     pub eye: [f32; 4],
-    /// The distance from the eye along the line of sight is the product of a
-    /// position with this.
+    /// The scalar product with a position is its distance from the eye along the line of
+    /// sight.
     pub distance: [f32; 4],
-    /// The object's origin on the screen, from the middle of what is drawn.
+    /// The object's origin on the screen, from the middle of the tile.
     pub origin_px: [f32; 2],
-    /// -1 where the object is seen as in a mirror, else 1.
+    /// -1 if the transform mirrors the object, else 1.
     pub mirror: f32,
-    /// 1 where the eye is outside of the object's box, else 0.
+    /// 1 if the eye is outside the object's box, else 0.
     pub eye_is_outside: u32,
     /// Replicated at 16 bits: the position of step 0.
     pub center: [f32; 3],
-    /// Replicated at 16 bits: units a step.
+    /// Replicated at 16 bits: units per step.
     pub step: f32,
-    /// Takes the object's positions to the world.
+    /// From the object's positions to the world.
     pub world_from_object: [[f32; 4]; 4],
-    /// Takes its normals to the world, as directions of a unit of the world.
+    /// From the object's normals to the world, as directions of a unit of the world.
     pub world_from_normal: [[f32; 4]; 4],
 }
 
 impl ObjectUniform {
-    /// What `view` makes of an object with `bounds` that `world_from_object`
-    /// places in the world, on a part of the picture that `view` sees. A transform that
-    /// cannot be undone draws nothing.
-    #[must_use]
-    pub fn new(
+    /// The uniform of an object with `bounds`, placed by `world_from_object`, in a tile of the
+    /// picture that `view` sees; `None` if the transform flattens the object.
+    pub(crate) fn new(
         view: &View,
         tile: &Tile,
         world_from_object: DMat4,
@@ -185,13 +182,13 @@ impl ObjectUniform {
         let clip_from_object = clip_from_world * world_from_object;
         let object_from_clip = clip_from_object.inverse().as_mat4();
         let clip_from_object = clip_from_object.as_mat4();
-        // Normals go by the inverse transposed; of unit length where the scale is
-        // the same along all axes.
+        // Normals go by the inverse transposed; they stay of unit length if the scale is the
+        // same along all axes.
         let normals = DMat3::from_mat4(object_from_world).transpose() * determinant.abs().cbrt();
         let clip_from_normal = (clip_from_world * DMat4::from_mat3(normals)).as_mat4();
         let eye = (object_from_world * view.eye.as_dvec4()).as_vec4();
         let origin = clip_from_object * Vec4::W;
-        // Behind the eye the origin has no place; any will do that stays.
+        // An origin behind the eye has no place on the screen: any fixed one will do.
         let is_in_front = origin.w > f32::EPSILON;
         let origin_px =
             if is_in_front { to_pixels(origin, tile.size_px) } else { -tile.middle_px() };
@@ -216,14 +213,13 @@ impl ObjectUniform {
         })
     }
 
-    /// The matrix that takes the object's positions to clip space.
-    #[must_use]
-    pub fn clip_from_object(&self) -> Mat4 {
+    /// From the object's positions to clip space.
+    pub(crate) fn clip_from_object(&self) -> Mat4 {
         Mat4::from_cols_array_2d(&self.clip_from_object)
     }
 }
 
-/// The layout that all pipelines share for `@group(0)`.
+/// The layout of `@group(0)`, which all pipelines share: the [`FrameUniform`] at binding 0.
 #[must_use]
 pub fn frame_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     let visibility = wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE;
@@ -235,33 +231,29 @@ pub fn frame_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
 
 /// The frame's uniform buffer and bind group.
 #[derive(Debug)]
-pub struct FrameBinding {
+pub(crate) struct FrameBinding {
     buffer: wgpu::Buffer,
     bind_group: wgpu::BindGroup,
 }
 
 impl FrameBinding {
-    /// Makes the buffer, holding `uniform`.
-    #[must_use]
-    pub fn new(device: &wgpu::Device, uniform: &FrameUniform) -> Self {
+    pub(crate) fn new(device: &wgpu::Device, uniform: &FrameUniform) -> Self {
         let buffer = uniform_buffer(device, "frame", uniform);
         let bind_group = bind_buffers(device, "frame", &frame_layout(device), &[(0, &buffer)]);
         Self { buffer, bind_group }
     }
 
     /// `@group(0)`.
-    #[must_use]
-    pub const fn bind_group(&self) -> &wgpu::BindGroup {
+    pub(crate) const fn bind_group(&self) -> &wgpu::BindGroup {
         &self.bind_group
     }
 
-    /// The uniform buffer.
     pub(crate) const fn buffer(&self) -> &wgpu::Buffer {
         &self.buffer
     }
 
     /// Replaces the uniform for the next submission.
-    pub fn write(&self, queue: &wgpu::Queue, uniform: &FrameUniform) {
+    pub(crate) fn write(&self, queue: &wgpu::Queue, uniform: &FrameUniform) {
         queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(uniform));
     }
 }

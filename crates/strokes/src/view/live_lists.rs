@@ -1,5 +1,5 @@
-//! What a view makes of one object and of each of its chunks, written by the GPU
-//! alone. The run states and tallies of all chunks are one buffer each.
+//! The lists of an object in a view, and of each of its chunks, written by the GPU alone. The
+//! run states and tallies of all chunks are one buffer each.
 //!
 //! | buffer | bytes |
 //! |---|---|
@@ -9,7 +9,7 @@
 //! | live edges | 4 per edge |
 //! | tally | 64 |
 //! | arguments of the draws | 1024 |
-//! | expanded vertices | up to 480 per stroke that there is room for (one edge in 16), per stroke set |
+//! | expanded vertices | up to 480 per stroke, for one edge in 16, per stroke set |
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh::line::class::LineClass;
@@ -28,13 +28,13 @@ use crate::style::drawing_style::{MAX_LAYERS, MAX_STROKE_SETS};
 pub struct RunState {
     /// Drawn in every view.
     pub static_edges: [u32; 2],
-    /// Those of them that their own solid can hide.
+    /// Static edges that their own solid can hide.
     pub solid: [u32; 2],
     /// Drawn in this view.
     pub live: [u32; 2],
     /// Contours of this view.
     pub contour: [u32; 2],
-    /// 1 where the winding of two faces clashes.
+    /// 1 if the winding of two faces clashes.
     pub has_clash: u32,
     /// Unused.
     pub padding: u32,
@@ -42,12 +42,12 @@ pub struct RunState {
 
 const _: () = assert!(size_of::<RunState>() == RUN_STATE_BYTES, "as the mesh reckons");
 
-/// The arguments of one draw of strokes. WGSL twin:
-/// `shaders/common/draw_arguments.wgsl`.
+/// The arguments of the draws of one stroke set: one of expanded strokes, one of the rest. WGSL
+/// twin: `shaders/common/draw_arguments.wgsl`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct DrawArguments {
-    /// Indices of the strokes that were expanded.
+    /// Indices of the expanded strokes.
     pub index_count: u32,
     /// Always 1.
     pub instance_count: u32,
@@ -57,23 +57,23 @@ pub struct DrawArguments {
     pub base_vertex: u32,
     /// Always 0.
     pub first_instance: u32,
-    /// Workgroups that expand them.
+    /// Workgroups of the expansion.
     pub groups_x: u32,
     /// Always 1.
     pub groups_y: u32,
     /// Always 1.
     pub groups_z: u32,
-    /// Vertices of the rest, drawn straight from the list.
+    /// Vertices of the rest, which is drawn straight from the list.
     pub vertex_count: u32,
     /// Always 1.
     pub rest_instance_count: u32,
-    /// The first of them.
+    /// First vertex of the rest.
     pub first_vertex: u32,
     /// Always 0.
     pub rest_first_instance: u32,
-    /// Where the draw's edges begin in the live list.
+    /// Where the stroke set's edges begin in the live list.
     pub first: u32,
-    /// How many of them are expanded.
+    /// How many of those edges are expanded.
     pub expanded: u32,
     /// Unused.
     pub padding: [u32; 2],
@@ -85,31 +85,32 @@ pub(crate) const GROUPS_OFFSET: u64 = std::mem::offset_of!(DrawArguments, groups
 /// Bytes from the start of [`DrawArguments`] to the rest.
 pub(crate) const REST_OFFSET: u64 = std::mem::offset_of!(DrawArguments, vertex_count) as u64;
 
-/// The counts of a chunk in a view. WGSL twin: `shaders/common/view_runs.wgsl`.
+/// The edge counts of a chunk, or of several, in a view. WGSL twin:
+/// `shaders/common/view_runs.wgsl`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Pod, Zeroable)]
+#[non_exhaustive]
 #[repr(C)]
 pub struct Tally {
     /// Edges in the live list.
     pub stroke_count: u32,
-    /// Edges of each line class: see [`FeatureCounts`].
+    /// Edges of each line class.
     pub features: [u32; LineClass::COUNT],
-    /// Where the edges of each layer begin in the live list; the last is their
-    /// number.
+    /// Where the edges of each layer begin in the live list; the last is the number of all.
     pub layer_first: [u32; MAX_LAYERS + 1],
 }
 
 impl Tally {
-    /// Bytes that every view counts anew: the strokes and the contours. The other counts stay
+    /// Bytes of the counts that every view clears: strokes and contours. The other counts hold
     /// until the classes change.
     pub(crate) const VIEW_BYTES: u64 = 8;
 
-    /// The counts of the line classes.
+    /// The edges of each line class, by name.
     #[must_use]
     pub const fn features(&self) -> FeatureCounts {
         FeatureCounts(self.features)
     }
 
-    /// The sums of both.
+    /// The sums of the counts of both.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
         Self {
@@ -126,7 +127,7 @@ const _: () = assert!(LineClass::Contour as usize == 0, "contours are counted in
 #[derive(Debug, Clone)]
 pub(crate) struct ObjectRuns {
     pub(crate) runs: wgpu::Buffer,
-    /// One a chunk.
+    /// One per chunk.
     pub(crate) tallies: wgpu::Buffer,
 }
 
@@ -157,7 +158,7 @@ pub(crate) struct ChunkLists {
     pub(crate) facing: wgpu::Buffer,
     pub(crate) counts: wgpu::Buffer,
     pub(crate) live: wgpu::Buffer,
-    /// The arguments of the draws, in order.
+    /// One [`DrawArguments`] per stroke set, in the order of drawing.
     pub(crate) arguments: wgpu::Buffer,
     /// Expanded vertices, one buffer per stroke set; `None` if none of its strokes is expanded.
     pub(crate) vertices: Vec<Option<wgpu::Buffer>>,

@@ -1,51 +1,48 @@
-//! A part of a picture, drawn alone where the whole is too large for a texture.
+//! Tiles: parts of a picture that is too large for one texture, drawn one by one.
 //!
-//! A part has a view of its own, whose clip space is a cut of that of the whole. What is
-//! measured in pixels is the same in both, so everything is drawn as in the whole, but
-//! that places are counted from the middle of the part. Lines that leave the part are
-//! clipped where the whole picture would clip them, so that strokes begin, end and count
-//! their length alike in all parts.
+//! The clip space of a tile is a cut of that of the whole picture. Lengths in pixels are the
+//! same in both; places are counted from the middle of the tile. Lines that leave the tile are
+//! clipped where the whole picture clips them, so strokes begin, end and measure their length
+//! alike in all tiles.
 
 use edgemesh::view::camera::View;
 use edgemesh::view::projection::GUARD_BAND;
 use glam::{DMat4, DVec2, Vec2};
 
-/// A part of a picture, or the whole.
+/// A tile of a picture, or the whole. Sizes must not be zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tile {
     /// Size of the whole picture.
     pub picture_px: Vec2,
-    /// The upper left corner of the part, from that of the picture.
+    /// The upper left corner of the tile, from that of the picture.
     pub corner_px: Vec2,
-    /// Size of the part.
+    /// Size of the tile.
     pub size_px: Vec2,
 }
 
 impl Tile {
-    /// All of a picture.
+    /// The whole picture as one tile.
     #[must_use]
     pub const fn whole(picture_px: Vec2) -> Self {
         Self { picture_px, corner_px: Vec2::ZERO, size_px: picture_px }
     }
 
-    /// What sees the part, where `view` sees the whole.
-    #[must_use]
-    pub fn view(&self, view: &View) -> View {
+    /// The view of the tile, if `view` sees the whole picture.
+    pub(crate) fn view(&self, view: &View) -> View {
         if self.size_px == self.picture_px {
             return *view;
         }
         let (scale, middle) = (self.scale(), self.middle());
-        // The middle comes to 0, and everything is as much larger as the part is smaller.
-        let mut part_from_whole = DMat4::from_diagonal(scale.extend(1.0).extend(1.0));
-        part_from_whole.w_axis = (-scale * middle).extend(0.0).extend(1.0);
-        let clip_from_world = part_from_whole * view.clip_from_world.as_dmat4();
+        // Moves the middle of the tile to 0, and enlarges the tile to the whole clip space.
+        let mut tile_from_whole = DMat4::from_diagonal(scale.extend(1.0).extend(1.0));
+        tile_from_whole.w_axis = (-scale * middle).extend(0.0).extend(1.0);
+        let clip_from_world = tile_from_whole * view.clip_from_world.as_dmat4();
         View { clip_from_world: clip_from_world.as_mat4(), ..*view }
     }
 
-    /// Where edges are clipped at the sides: left, right, bottom, top, in the clip space
-    /// of the part at w = 1.
-    #[must_use]
-    pub fn guard_band(&self) -> [f32; 4] {
+    /// Where edges are clipped: left, right, bottom and top, in the clip space of the tile at
+    /// w = 1.
+    pub(crate) fn guard_band(&self) -> [f32; 4] {
         let (scale, middle) = (self.scale(), self.middle());
         let side = |axis: usize, side: f32| {
             #[expect(clippy::cast_possible_truncation, reason = "as the shader has it")]
@@ -55,21 +52,20 @@ impl Tile {
         [side(0, -GUARD_BAND), side(0, GUARD_BAND), side(1, -GUARD_BAND), side(1, GUARD_BAND)]
     }
 
-    /// How much larger the part's clip space shows everything.
+    /// By how much the tile's clip space enlarges that of the whole.
     fn scale(&self) -> DVec2 {
         self.picture_px.as_dvec2() / self.size_px.as_dvec2()
     }
 
-    /// The middle of the part in the clip space of the whole, at w = 1.
+    /// The middle of the tile in the clip space of the whole, at w = 1.
     fn middle(&self) -> DVec2 {
         let picture = self.picture_px.as_dvec2();
         let middle_px = self.corner_px.as_dvec2() + self.size_px.as_dvec2() / 2.0;
         (2.0 * middle_px / picture - 1.0) * DVec2::new(1.0, -1.0)
     }
 
-    /// The middle of the part, in pixels from the middle of the picture, y up.
-    #[must_use]
-    pub fn middle_px(&self) -> Vec2 {
+    /// The middle of the tile, in pixels from the middle of the picture, y up.
+    pub(crate) fn middle_px(&self) -> Vec2 {
         let from_corner = self.corner_px + (self.size_px - self.picture_px) / 2.0;
         from_corner * Vec2::new(1.0, -1.0)
     }

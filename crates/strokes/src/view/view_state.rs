@@ -1,8 +1,8 @@
-//! What the GPU keeps for one eye: the frame uniform, and a uniform per instance.
+//! The buffers of one eye: the frame uniform, and a uniform per instance.
 //!
-//! A scene that several eyes look at (a window and a light, two halves of a comparison) has
-//! one set of [`MeshInstance`]s and a view state for each eye. It outlives changes of style
-//! and technique.
+//! A scene that several eyes look at (a window and a light, two halves of a comparison) has one
+//! set of [`MeshInstance`]s, and a view state for each eye. A view state outlives changes of
+//! style and technique.
 
 use edgemesh::edge_mesh::Bounds;
 use edgemesh::view::camera::View;
@@ -14,7 +14,10 @@ use crate::gpu::device::Gpu;
 use crate::mesh::instance::MeshInstance;
 use crate::view::frame::{FrameBinding, FrameUniform, ObjectUniform};
 
-/// What the GPU keeps for one eye.
+/// The buffers of one eye: the frame uniform, and a uniform per instance.
+///
+/// A scene that several eyes look at has one set of [`MeshInstance`]s, and a view state for
+/// each eye.
 #[derive(Debug)]
 pub struct ViewState {
     frame: FrameBinding,
@@ -31,14 +34,14 @@ pub struct ObjectState {
 }
 
 impl ViewState {
-    /// The state of an eye that has not looked yet.
+    /// A state of no instances; [`Self::set`] sets view and instances.
     #[must_use]
     pub fn new(device: &wgpu::Device) -> Self {
         let uniform: FrameUniform = bytemuck::Zeroable::zeroed();
         Self { frame: FrameBinding::new(device, &uniform), uniform, objects: Vec::new() }
     }
 
-    /// Makes room for `count` instances. The uniforms of the first ones stay the same buffers.
+    /// Makes room for `count` instances. The buffers of instances that stay are not replaced.
     pub fn resize(&mut self, device: &wgpu::Device, count: usize) {
         let empty: ObjectUniform = bytemuck::Zeroable::zeroed();
         let state = || ObjectState {
@@ -49,8 +52,8 @@ impl ViewState {
         self.objects.resize_with(count, state);
     }
 
-    /// Sets what the next submission sees: `instances`, as `view` sees the whole picture.
-    /// `frame` is the uniform of the same view.
+    /// Writes the uniforms for the next submission: `instances` as `view` sees them, and
+    /// `frame`, the uniform of the same view.
     pub fn set(
         &mut self,
         gpu: &Gpu,
@@ -66,7 +69,7 @@ impl ViewState {
             let bounds = instance.mesh().bounds();
             let mut uniform =
                 ObjectUniform::new(view, &frame.tile(), instance.world_from_object, bounds);
-            // What is cut open shows its inside, as to an eye within.
+            // An object that is cut open shows its inside, as to an eye within.
             if let Some(uniform) = uniform.as_mut().filter(|_| frame.clip_plane_count > 0) {
                 uniform.eye_is_outside = 0;
             }
@@ -80,15 +83,20 @@ impl ViewState {
         }
     }
 
-    /// The uniform of the frame that was set last.
+    /// The frame uniform that was set last.
     #[must_use]
     pub const fn uniform(&self) -> &FrameUniform {
         &self.uniform
     }
 
-    /// The frame's bindings.
+    /// The frame uniform as a bind group of the layout
+    /// [`frame_layout`](crate::frame_layout).
     #[must_use]
-    pub const fn frame(&self) -> &FrameBinding {
+    pub const fn frame_group(&self) -> &wgpu::BindGroup {
+        self.frame.bind_group()
+    }
+
+    pub(crate) const fn frame(&self) -> &FrameBinding {
         &self.frame
     }
 
@@ -100,19 +108,20 @@ impl ViewState {
 }
 
 impl ObjectState {
-    /// The buffer with the instance's [`ObjectUniform`].
+    /// The instance's uniform buffer; its fields are in `shaders/common/frame.wgsl`.
     #[must_use]
     pub const fn uniform(&self) -> &wgpu::Buffer {
         &self.uniform
     }
 
-    /// False if the transform flattens the instance to nothing.
+    /// False if the transform flattens the instance.
     #[must_use]
     pub const fn is_placed(&self) -> bool {
         self.is_placed
     }
 
-    /// Where the instance is on the screen; `None` if a part of its box is behind the eye.
+    /// The box around the instance on the screen; `None` if a corner of its box is behind the
+    /// eye.
     pub(crate) const fn screen_box(&self) -> Option<ScreenBox> {
         self.screen_box
     }

@@ -1,7 +1,7 @@
 //! Options of the light and the clip planes.
 
 use clap::Args;
-use strokes::view::frame::MAX_CLIP_PLANES;
+use strokes::MAX_CLIP_PLANES;
 
 use crate::error::Error;
 use crate::scene::lighting::{Light, Lighting, parse_clip_plane, parse_light};

@@ -5,8 +5,7 @@ use std::path::Path;
 use clap::{Args, ValueEnum};
 use edgemesh::arguments::{CameraArguments, InputArguments};
 use edgemesh_brushes::BRUSH_NAMES;
-use strokes::mesh::layout::Layout;
-use strokes::render::pipelines::DetectionStage;
+use strokes::{DetectionStage, Layout};
 
 use super::library::LibraryArguments;
 use super::lighting::LightingArguments;

@@ -3,7 +3,7 @@
 use clap::Args;
 use edgemesh::command::{Failure, print_to_stdout, to_json};
 use serde::Serialize;
-use strokes::gpu::device::{GpuError, instance, lacking};
+use strokes::{Gpu, GpuError};
 
 use crate::error::Error;
 
@@ -29,7 +29,7 @@ struct AdapterEntry {
 
 impl AdaptersCommand {
     pub(super) fn run(&self) -> Result<(), Failure> {
-        let (instance, backends) = instance();
+        let (instance, backends) = Gpu::instance();
         let adapters = pollster::block_on(instance.enumerate_adapters(backends));
         let entries: Vec<AdapterEntry> = adapters
             .iter()
@@ -40,7 +40,7 @@ impl AdaptersCommand {
                     backend: info.backend.to_string(),
                     kind: format!("{:?}", info.device_type),
                     driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
-                    lacks: lacking(adapter),
+                    lacks: Gpu::lacking(adapter),
                 }
             })
             .collect();

@@ -13,9 +13,7 @@ use edgemesh::view::camera::Camera;
 use edgemesh_brushes::BRUSH_NAMES;
 use glam::Vec2;
 use image::{Rgba, RgbaImage, imageops};
-use strokes::gpu::device::{self, Gpu};
-use strokes::graph::readback::GraphReadback;
-use strokes::style::brush::Brush;
+use strokes::{Brush, Gpu, GraphReadback};
 
 use super::render::{parse_size, show_progress};
 use crate::comparison::measure::Sums;
@@ -95,7 +93,7 @@ impl CompareStrokesCommand {
     pub(super) fn run(&self, is_quiet: bool) -> Result<(), Failure> {
         let objects: Vec<SceneObject> =
             self.models.iter().map(|path| SceneObject::plain(path)).collect();
-        let gpu = pollster::block_on(device::open(self.adapter.as_deref()));
+        let gpu = pollster::block_on(Gpu::open(self.adapter.as_deref()));
         let mut scenes = Vec::new();
         let (options, progress) = (self.input.load_options(), TerminalProgress::new(is_quiet));
         for object in &objects {

@@ -13,7 +13,7 @@ use edgemesh::view::camera::Camera;
 use edgemesh::view::feature_counts::FeatureCounts;
 use image::RgbaImage;
 use serde::Serialize;
-use strokes::gpu::device::{self, Gpu};
+use strokes::Gpu;
 
 use super::failure::DIFFERS;
 use super::warnings::warn;
@@ -199,7 +199,7 @@ impl RenderCommand {
     ) -> Result<(Gpu, Scene), Error> {
         thread::scope(|scope| {
             let opening =
-                scope.spawn(|| pollster::block_on(device::open(self.picture.adapter.as_deref())));
+                scope.spawn(|| pollster::block_on(Gpu::open(self.picture.adapter.as_deref())));
             let options = self.picture.input.load_options();
             let scene = Scene::load(objects, &options, &TerminalProgress::new(is_quiet));
             let gpu = opening.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));

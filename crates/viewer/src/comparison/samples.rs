@@ -12,8 +12,7 @@ use edgemesh::oracle::stroke_segment::{ClipEdge, StrokeShape, stroke_segment};
 use edgemesh::view::camera::View;
 use edgemesh::view::feature::LineBits;
 use glam::{Vec2, Vec3, Vec4};
-use strokes::graph::buffers::{BACKWARD, NO_NODE, Ribbon};
-use strokes::graph::readback::GraphReadback;
+use strokes::{Element, GraphReadback, Ribbon};
 
 /// A stretch of a line between two places where u is known.
 #[derive(Debug, Clone, Copy)]
@@ -91,7 +90,7 @@ impl FrameSource<'_> {
             let along = (middle - a).dot(b - a) / a.distance_squared(b);
             let t = along.clamp(0.0, 1.0);
             lines.tracks.push(Track {
-                edge: element.edge & NO_NODE,
+                edge: element.record(),
                 layer: graph.layer_of_node(element.node),
                 length_px: Vec2::from(element.s0).distance(element.s1.into()),
                 u: ribbon.u[0] * (1.0 - t) + ribbon.u[1] * t,
@@ -111,12 +110,12 @@ impl FrameSource<'_> {
         let mut lines = FrameLines::default();
         for (at, element) in graph.elements.iter().enumerate().filter(|(at, _)| is_covered[*at]) {
             let length_px = Vec2::from(element.s0).distance(element.s1.into());
-            let Some(u) = self.u_of(element.edge, parameterization) else { continue };
+            let Some(u) = self.u_of(element, parameterization) else { continue };
             let layer = graph.layer_of_node(element.node);
-            let is_last = at + 1 == (element.first + (element.count & !(1 << 31))) as usize;
+            let is_last = at + 1 == (element.first + element.chain_length()) as usize;
             let is_followed = !is_last && is_covered.get(at + 1) == Some(&true);
             lines.stretches.push(Stretch { length_px, u, layer, is_followed });
-            let edge = element.edge & NO_NODE;
+            let edge = element.record();
             lines.tracks.push(Track { edge, layer, length_px, u: 0.5 * (u[0] + u[1]) });
         }
         lines.tracks.sort_unstable_by_key(|track| track.edge);
@@ -134,8 +133,8 @@ impl FrameSource<'_> {
     }
 
     /// u at both ends of an edge, in the direction of its chain.
-    fn u_of(&self, word: u32, parameterization: Parameterization) -> Option<[f32; 2]> {
-        let record = &self.mesh.records[(word & NO_NODE) as usize];
+    fn u_of(&self, element: &Element, parameterization: Parameterization) -> Option<[f32; 2]> {
+        let record = &self.mesh.records[element.record() as usize];
         let at = |vertex: u32| Vec3::from(self.mesh.positions[vertex as usize]);
         let normal = |vertex: u32| Vec3::from(self.mesh.vertex_normals[vertex as usize]);
         let clip = |point: Vec4| self.view.clip_from_world * point;
@@ -151,9 +150,9 @@ impl FrameSource<'_> {
             distance: Vec2::ONE,
             r: edge_random(p0, p1),
         };
-        let is_backward = word & BACKWARD != 0;
+        let is_backward = element.is_backward();
         let mut bits = LineBits::empty();
-        bits.set(LineBits::CONTOUR, word & LineBits::CONTOUR.bits() != 0);
+        bits.set(LineBits::CONTOUR, element.edge & LineBits::CONTOUR.bits() != 0);
         bits.set(LineBits::A_FACES, !is_backward);
         let segment = stroke_segment(&edge, &self.shape(parameterization), bits);
         let u = segment.u.to_array();

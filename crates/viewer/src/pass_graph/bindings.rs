@@ -1,6 +1,6 @@
 //! Bind groups of passes: parameters, textures and samplers, found by reflection.
 
-use strokes::gpu::device::Gpu;
+use strokes::Gpu;
 use wgpu::util::DeviceExt as _;
 
 use super::params::{Iteration, bytes_of};

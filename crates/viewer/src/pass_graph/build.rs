@@ -5,12 +5,7 @@
 
 use std::cell::RefCell;
 
-use strokes::draw::targets::Targets;
-use strokes::gpu::device::Gpu;
-use strokes::gpu::target_formats::TargetFormats;
-use strokes::mesh::{MeshInstance, MeshOptions};
-use strokes::view::frame::frame_layout;
-use strokes::view::view_state::ViewState;
+use strokes::{Gpu, MeshInstance, MeshOptions, TargetFormats, Targets, ViewState, frame_layout};
 
 use super::bindings::{Samplers, Sources};
 use super::builder::Builder;

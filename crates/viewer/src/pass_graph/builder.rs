@@ -2,8 +2,7 @@
 
 use std::cell::RefCell;
 
-use strokes::gpu::device::Gpu;
-use strokes::gpu::target_formats::TargetFormats;
+use strokes::{Gpu, TargetFormats};
 
 use super::pipeline::{Geometry, GraphLayouts, PassPipeline, PipelineTarget, Programs};
 use super::pipeline_cache::PipelineCache;

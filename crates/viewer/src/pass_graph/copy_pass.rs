@@ -4,10 +4,7 @@
 //! A color is the average of a pixel's samples. The depth is that of the first sample,
 //! since no surface has an average of depths.
 
-use strokes::gpu::device::Gpu;
-use strokes::gpu::shader::shader_module;
-use strokes::gpu::target_formats::TargetFormats;
-use strokes::gpu::timer::TimedPasses;
+use strokes::{Gpu, TargetFormats, TimedPasses, shader_module};
 
 use super::Encoding;
 use super::bindings::Sources;

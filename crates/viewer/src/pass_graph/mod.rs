@@ -37,19 +37,10 @@ pub mod surface;
 pub(crate) mod textures;
 
 use edgemesh::view::camera::View;
-use strokes::draw::targets::Targets;
-use strokes::gpu::device::Gpu;
-use strokes::gpu::timer::TimedPasses;
-use strokes::mesh::MeshInstance;
-use strokes::mesh::layout::Layout;
-use strokes::render::drawing::DrawnObject;
-use strokes::render::frame_request::PASS_NAMES;
-use strokes::render::pipelines::DetectionStage;
-use strokes::style::drawing_style::DrawingStyle;
-use strokes::view::frame::{FrameUniform, Surroundings};
-use strokes::view::live_lists::Tally;
-use strokes::view::tile::Tile;
-use strokes::view::view_state::ViewState;
+use strokes::{
+    DetectionStage, DrawingStyle, DrawnObject, FrameUniform, Gpu, Layout, MeshInstance, PASS_NAMES,
+    Surroundings, Tally, Targets, Tile, TimedPasses, ViewState,
+};
 
 use self::bindings::Sources;
 pub use self::build::GraphChange;
@@ -233,7 +224,7 @@ impl PassGraph {
     ///
     /// # Errors
     /// If the device is lost.
-    pub fn tally(&self, gpu: &Gpu) -> Result<Option<Tally>, strokes::gpu::readback::ReadbackError> {
+    pub fn tally(&self, gpu: &Gpu) -> Result<Option<Tally>, strokes::ReadbackError> {
         let objects = self.counted_objects();
         if objects.is_empty() {
             return Ok(None);

@@ -5,7 +5,7 @@
 //!   texture --run 0--> a --run 1--> b --run 2--> a ... --last run--> target
 //! ```
 
-use strokes::gpu::timer::TimedPasses;
+use strokes::TimedPasses;
 
 use super::Encoding;
 use super::bindings::{Replacement, Sources};
@@ -119,7 +119,7 @@ impl PingPong {
                     ..Default::default()
                 });
                 pass.set_pipeline(&pipeline.pipeline);
-                pass.set_bind_group(0, encoding.view.frame().bind_group(), &[]);
+                pass.set_bind_group(0, encoding.view.frame_group(), &[]);
                 for (index, group) in &groups {
                     pass.set_bind_group(*index, group, &[]);
                 }

@@ -2,10 +2,7 @@
 
 use std::borrow::Cow;
 
-use strokes::draw::fill::push_away;
-use strokes::gpu::device::Gpu;
-use strokes::gpu::shader::shader_module;
-use strokes::gpu::target_formats::TargetFormats;
+use strokes::{Gpu, TargetFormats, push_away, shader_module};
 
 use super::bindings::{GroupPlan, PASS_GROUP, Replacement, Sources, VERTEX_GROUP};
 use super::params::Iteration;

@@ -4,8 +4,7 @@
 use std::sync::Arc;
 
 use edgemesh_shaders::ShaderSource;
-use strokes::gpu::device::Gpu;
-use strokes::gpu::recent::Recent;
+use strokes::{Gpu, Recent};
 
 use super::pipeline::{Geometry, GraphLayouts, PassPipeline, PipelineTarget, Programs};
 use crate::error::Error;

@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use strokes::gpu::device::Gpu;
-use strokes::mesh::{MeshBuffers, MeshInstance, MeshOptions};
+use strokes::{Gpu, MeshBuffers, MeshInstance, MeshOptions};
 
 use crate::error::Error;
 use crate::scene::models::Scene;

@@ -1,7 +1,6 @@
 //! `simple_render`: the surfaces of the scene with a vertex and a fragment program.
 
-use strokes::draw::targets::Targets;
-use strokes::gpu::timer::TimedPasses;
+use strokes::{Targets, TimedPasses};
 
 use super::Encoding;
 use super::bindings::Sources;
@@ -125,7 +124,7 @@ impl ScenePass {
             timestamp_writes: timer.map(|timer| timer.render(0)),
             ..Default::default()
         });
-        pass.set_bind_group(0, encoding.view.frame().bind_group(), &[]);
+        pass.set_bind_group(0, encoding.view.frame_group(), &[]);
         if let Some((pipeline, groups)) = background {
             pass.set_pipeline(&pipeline.pipeline);
             for (index, group) in &groups {

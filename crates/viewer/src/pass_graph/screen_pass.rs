@@ -1,7 +1,6 @@
 //! `process_texture`, `generate_texture`, `composite`: a program over a whole target.
 
-use strokes::gpu::device::Gpu;
-use strokes::gpu::timer::TimedPasses;
+use strokes::{Gpu, TimedPasses};
 
 use super::Encoding;
 use super::bindings::Sources;
@@ -140,7 +139,7 @@ pub(crate) fn draw(
         ..Default::default()
     });
     pass.set_pipeline(&pipeline.pipeline);
-    pass.set_bind_group(0, encoding.view.frame().bind_group(), &[]);
+    pass.set_bind_group(0, encoding.view.frame_group(), &[]);
     for (index, group) in groups {
         pass.set_bind_group(*index, group, &[]);
     }

@@ -7,14 +7,10 @@
 
 use std::sync::Arc;
 
-use strokes::gpu::device::Gpu;
-use strokes::gpu::target_formats::TargetFormats;
-use strokes::gpu::timer::TimedPasses;
-use strokes::render::drawing::Drawing;
-use strokes::render::frame_request::{Fill, FrameRequest};
-use strokes::render::pipelines::{DetectionStage, RendererOptions};
-use strokes::render::prepared_style::PreparedStyle;
-use strokes::render::renderer::Renderer;
+use strokes::{
+    DetectionStage, Drawing, Fill, FrameRequest, Gpu, PreparedStyle, Renderer, RendererOptions,
+    TargetFormats, TimedPasses,
+};
 
 use super::stroke_style::style_of_passes;
 use super::{Encoding, GraphInput, GraphOptions};

@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use edgemesh::edge_mesh::MeshFrame;
 use edgemesh::line::class::LineClass;
 use edgemesh::line::kind::LineKind;
-use strokes::style::brush::Brush;
-use strokes::style::drawing_style::{DrawingStyle, Layer, StrokeStyle, Width};
+use strokes::{Brush, DrawingStyle, Layer, StrokeStyle, Width};
 
 use crate::error::{Error, ImageError};
 use crate::technique::brush_file::brush_from_png;

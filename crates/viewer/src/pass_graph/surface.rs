@@ -10,14 +10,11 @@ use std::sync::Arc;
 use bytemuck::{Pod, Zeroable};
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::index::{NONE, to_u32};
-use strokes::gpu::device::Gpu;
-use strokes::mesh::MeshInstance;
-use strokes::mesh::surface::MaterialRange;
-use strokes::view::view_state::ViewState;
+use strokes::{Gpu, MaterialRange, MeshInstance, ViewState, upload_levels};
 use wgpu::util::DeviceExt as _;
 
 use super::material::MaterialUniform;
-use super::textures::{Images, averaged_levels, decode_image, upload};
+use super::textures::{Images, averaged_levels, decode_image};
 use crate::error::ImageError;
 use crate::scene::models::Scene;
 
@@ -175,7 +172,7 @@ impl ModelMaterials {
         let mut textures = Vec::new();
         for material in &mesh.fill.materials {
             textures.push(match material.diffuse_texture.as_ref().map(base_texture) {
-                Some(Ok(levels)) => upload(gpu, &material.name, &levels),
+                Some(Ok(levels)) => upload_levels(gpu, &material.name, &levels),
                 Some(Err(what)) => {
                     log::warn!("the texture of the material '{}' {what}", material.name);
                     images.white(gpu)
@@ -262,7 +259,7 @@ impl Surface {
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass, instance: &MeshInstance) {
-        let surface = instance.mesh().surface().zip(instance.geometry().surface());
+        let surface = instance.mesh().surface().zip(instance.surface_geometry());
         let Some((buffers, geometry)) = surface else { return };
         pass.set_vertex_buffer(0, geometry.positions.slice(..));
         pass.set_vertex_buffer(1, geometry.normals.slice(..));

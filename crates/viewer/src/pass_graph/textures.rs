@@ -5,7 +5,7 @@ use std::collections::hash_map::Entry;
 use std::time::SystemTime;
 
 use image::RgbaImage;
-use strokes::gpu::device::Gpu;
+use strokes::{Gpu, upload_levels};
 
 use crate::error::{Error, ImageError};
 use crate::technique::image_file::ImageFile;
@@ -155,7 +155,7 @@ impl Images {
                 let is_atlas = file.directory().is_some_and(|name| name == MIP_ATLASES);
                 let levels =
                     if is_atlas { atlas_levels(&picture) } else { averaged_levels(picture) };
-                new.insert((changed, upload(gpu, &file.name(), &levels))).1.clone()
+                new.insert((changed, upload_levels(gpu, &file.name(), &levels))).1.clone()
             }
         })
     }
@@ -168,7 +168,7 @@ impl Images {
     /// One white texel, for a variable without a texture.
     pub(crate) fn white(&mut self, gpu: &Gpu) -> wgpu::TextureView {
         let one = RgbaImage::from_pixel(1, 1, image::Rgba([255; 4]));
-        self.white.get_or_insert_with(|| upload(gpu, "white", &[one])).clone()
+        self.white.get_or_insert_with(|| upload_levels(gpu, "white", &[one])).clone()
     }
 }
 
@@ -230,43 +230,6 @@ pub(crate) fn averaged_levels(picture: RgbaImage) -> Vec<RgbaImage> {
     levels
 }
 
-/// Uploads the levels of an image, the largest first.
-pub(crate) fn upload(gpu: &Gpu, label: &str, levels: &[RgbaImage]) -> wgpu::TextureView {
-    let extent = |level: &RgbaImage| wgpu::Extent3d {
-        width: level.width(),
-        height: level.height(),
-        depth_or_array_layers: 1,
-    };
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some(label),
-        size: extent(&levels[0]),
-        mip_level_count: edgemesh::index::to_u32(levels.len()),
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba8Unorm,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
-    for (mip_level, level) in levels.iter().enumerate() {
-        gpu.queue.write_texture(
-            wgpu::TexelCopyTextureInfo {
-                texture: &texture,
-                mip_level: edgemesh::index::to_u32(mip_level),
-                origin: wgpu::Origin3d::ZERO,
-                aspect: wgpu::TextureAspect::All,
-            },
-            level.as_raw(),
-            wgpu::TexelCopyBufferLayout {
-                offset: 0,
-                bytes_per_row: Some(4 * level.width()),
-                rows_per_image: None,
-            },
-            extent(level),
-        );
-    }
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
-}
-
 #[cfg(test)]
 mod tests {
     use image::Rgba;
@@ -300,7 +263,7 @@ mod tests {
     fn limits_and_formats_of_pictures_are_those_of_the_renderer() {
         let limit = wgpu::Limits::default().max_color_attachment_bytes_per_sample;
         assert_eq!(MAX_OUTPUT_BYTES_PER_PIXEL, limit);
-        let picture = strokes::gpu::target_formats::TargetFormats::new(1);
+        let picture = strokes::TargetFormats::new(1);
         assert_eq!(wgpu_format(TextureFormat::PICTURE), picture.color);
         assert_eq!(wgpu_format(TextureFormat::DEPTH), picture.depth);
     }

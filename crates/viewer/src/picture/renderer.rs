@@ -6,15 +6,10 @@ use std::time::Instant;
 use edgemesh::edge_mesh::{Bounds, MeshFrame};
 use edgemesh::view::camera::{Camera, View};
 use image::RgbaImage;
-use strokes::draw::targets::Targets;
-use strokes::gpu::device::{Gpu, ResourceError};
-use strokes::gpu::readback::{PendingRead, read_picture};
-use strokes::gpu::timer::GpuTimer;
-use strokes::graph::readback::GraphReadback;
-use strokes::mesh::layout::Layout;
-use strokes::render::pipelines::DetectionStage;
-use strokes::view::live_lists::Tally;
-use strokes::view::tile::Tile;
+use strokes::{
+    DetectionStage, Gpu, GpuTimer, GraphReadback, Layout, PendingRead, ResourceError, Tally,
+    Targets, Tile, read_picture,
+};
 
 use crate::error::Error;
 use crate::pass_graph::{FrameInput, GraphInput, GraphOptions, PassGraph, TileInput};
@@ -426,6 +421,7 @@ fn resource_error(error: ResourceError, size: [u32; 2], samples: u32) -> Error {
             Error::OutOfMemory { size, samples, bytes: Targets::byte_count(size, samples) }
         }
         ResourceError::Fault(what) => Error::AdapterFault(what),
+        error => Error::AdapterFault(error.to_string()),
     }
 }
 

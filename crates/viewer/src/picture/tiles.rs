@@ -17,9 +17,7 @@
 
 use edgemesh::view::camera::Camera;
 use image::RgbaImage;
-use strokes::draw::targets::Targets;
-use strokes::gpu::device::Gpu;
-use strokes::view::tile::Tile;
+use strokes::{Gpu, Targets, Tile};
 
 use crate::error::Error;
 use crate::picture::renderer::{FrameStatistics, PictureInput, PictureOptions, PictureRenderer};

@@ -3,7 +3,7 @@
 use edgemesh::edge_mesh::{Bounds, MeshFrame};
 use edgemesh::view::camera::View;
 use glam::{DVec3, Vec3};
-use strokes::view::frame::{MAX_CLIP_PLANES, Surroundings};
+use strokes::{MAX_CLIP_PLANES, Surroundings};
 
 /// A white light source.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use strokes::style::brush::{Brush, BrushError, MAX_SIDE};
+use strokes::{Brush, BrushError};
 use thiserror::Error;
 
 /// Why an image cannot be a brush.
@@ -40,13 +40,13 @@ pub fn shipped_brush(name: &str) -> Option<Result<Brush, BrushFileError>> {
 /// image; `name` is for messages.
 ///
 /// # Errors
-/// If the image cannot be read, or a side is longer than [`MAX_SIDE`].
+/// If the image cannot be read, or a side is longer than [`Brush::MAX_SIDE`].
 pub fn brush_from_png(name: &str, png: &[u8]) -> Result<Brush, BrushFileError> {
     let wrong = |reason| BrushFileError::Picture { name: name.to_owned(), reason };
     let mut reader = image::ImageReader::with_format(Cursor::new(png), image::ImageFormat::Png);
     // Enough for the largest brush with 16 bits per channel.
     let mut limits = image::Limits::default();
-    limits.max_alloc = Some(u64::from(MAX_SIDE) * u64::from(MAX_SIDE) * 8);
+    limits.max_alloc = Some(u64::from(Brush::MAX_SIDE) * u64::from(Brush::MAX_SIDE) * 8);
     reader.limits(limits);
     let picture = reader.decode().map_err(wrong)?.to_luma_alpha8();
     let (width, height) = picture.dimensions();
@@ -101,7 +101,7 @@ mod tests {
     fn what_is_no_brush_says_why() {
         let error = brush_from_png("a.png", b"not a picture").unwrap_err().to_string();
         assert!(error.starts_with("a.png: not a readable PNG"), "{error}");
-        let long = GrayImage::new(MAX_SIDE + 1, 1);
+        let long = GrayImage::new(Brush::MAX_SIDE + 1, 1);
         let error = brush_from_png("long.png", &png(&long.into())).unwrap_err().to_string();
         assert!(error.contains("8193x1"), "{error}");
     }

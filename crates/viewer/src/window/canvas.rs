@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use edgemesh_shaders::ShaderError;
-use strokes::gpu::device::Gpu;
+use strokes::Gpu;
 
 use super::error_text::error_text;
 use super::inspection::Inspection;

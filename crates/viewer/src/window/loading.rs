@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use edgemesh::load::{LoadOptions, Stage};
-use strokes::gpu::device::Gpu;
+use strokes::Gpu;
 
 use super::background::{Background, Tell};
 use super::recipe::Recipe;

@@ -5,7 +5,7 @@ use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use strokes::gpu::device;
+use strokes::Gpu;
 
 use super::app::Window;
 use super::device_loss::{DeviceLoss, WindowHandover};
@@ -114,12 +114,12 @@ fn open(
 /// The adapter and the device, chosen as by `viewer render`.
 fn window_setup(adapter: Option<&str>) -> egui_wgpu::WgpuSetupCreateNew {
     let mut setup = egui_wgpu::WgpuSetupCreateNew::without_display_handle();
-    setup.instance_descriptor.backends = device::backends();
+    setup.instance_descriptor.backends = Gpu::backends();
     let wanted = adapter.map(str::to_owned);
     setup.native_adapter_selector = Some(Arc::new(move |adapters, surface| {
-        device::choose(adapters, wanted.as_deref(), surface).map_err(|error| error.to_string())
+        Gpu::choose_adapter(adapters, wanted.as_deref(), surface).map_err(|error| error.to_string())
     }));
-    setup.device_descriptor = Arc::new(device::device_descriptor);
+    setup.device_descriptor = Arc::new(Gpu::device_descriptor);
     setup
 }
 
@@ -128,7 +128,7 @@ fn window_error(error: eframe::Error) -> Error {
         eframe::Error::Wgpu(egui_wgpu::WgpuError::CreateSurfaceError(error)) => {
             // Without an adapter no surface can be created; the error about adapters says
             // more.
-            let none = device::choose(&[], None, None).err();
+            let none = Gpu::choose_adapter(&[], None, None).err();
             none.map_or_else(|| Error::WindowAdapter(error.to_string()), Error::Adapter)
         }
         eframe::Error::Wgpu(error) => {

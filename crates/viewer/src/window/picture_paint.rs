@@ -5,7 +5,7 @@
 
 use edgemesh_shaders::{ShaderError, ShaderSource};
 use egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState};
-use strokes::gpu::shader::shader_module;
+use strokes::shader_module;
 
 /// Paints pictures on a window.
 #[derive(Debug, Clone)]

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use edgemesh::format::whole_file::write_file;
-use strokes::gpu::device::Gpu;
+use strokes::Gpu;
 
 use super::background::Tell;
 use super::recipe::Recipe;

@@ -6,7 +6,7 @@ use std::sync::mpsc::Sender;
 use edgemesh::load::{DEMO, LoadOptions, NoProgress};
 use edgemesh::view::camera::Camera;
 use image::RgbaImage;
-use strokes::gpu::device::Gpu;
+use strokes::Gpu;
 
 use super::background::Tell;
 use crate::error::Error;

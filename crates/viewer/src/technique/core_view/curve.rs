@@ -1,6 +1,6 @@
 //! The variables `width_curve` and `opacity_curve` of `strokes`: `0.3,1,0.3`.
 
-use strokes::style::link_style::CURVE_LENGTH;
+use strokes::CURVE_LENGTH;
 
 /// Reads two to eight numbers from 0 to `largest`, and interpolates them linearly at the
 /// values of a curve.

@@ -1,7 +1,7 @@
 //! The variables of `strokes`.
 
 use edgemesh::line::placement::{Parameterization, Placement};
-use strokes::style::link_style::{BrushFit, CURVE_LENGTH, End, Join, LinkStyle};
+use strokes::{BrushFit, CURVE_LENGTH, End, Join, LinkStyle};
 
 use super::curve::parse_curve;
 use super::lines::LineSelection;

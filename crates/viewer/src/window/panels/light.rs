@@ -2,7 +2,7 @@
 
 use egui::{Color32, DragValue, Grid, Sense, Slider, Ui, Vec2};
 use glam::DVec3;
-use strokes::view::frame::MAX_CLIP_PLANES;
+use strokes::MAX_CLIP_PLANES;
 
 use crate::scene::lighting::{Light, Lighting};
 use crate::scene::models::Scene;
