@@ -18,8 +18,8 @@ pub(crate) struct Marks {
     /// Numbers of edges of the table, ascending.
     marked: Vec<u32>,
     /// Edges that are never creases, ascending.
-    hidden: Vec<u32>,
-    /// Lines that are no edge of the mesh, as welded vertices; ascending.
+    suppressed: Vec<u32>,
+    /// Lines that are not edges of the mesh, as welded vertices; ascending.
     loose: Vec<[u32; 2]>,
 }
 
@@ -54,8 +54,8 @@ impl Marks {
                 }),
             }
         }
-        let hidden = model.hidden_edges.iter().filter_map(|pair| welded(*pair));
-        marks.hidden.extend(hidden.filter_map(|[a, b]| table.find(a, b)).map(to_u32));
+        let suppressed = model.suppressed_edges.iter().filter_map(|pair| welded(*pair));
+        marks.suppressed.extend(suppressed.filter_map(|[a, b]| table.find(a, b)).map(to_u32));
         marks.sort();
         let unmarked = options.unmarked.iter().filter_map(|pair| welded(*pair));
         let unmarked: BTreeSet<[u32; 2]> = unmarked.map(|[a, b]| [a.min(b), a.max(b)]).collect();
@@ -69,7 +69,7 @@ impl Marks {
     }
 
     fn sort(&mut self) {
-        for list in [&mut self.marked, &mut self.hidden] {
+        for list in [&mut self.marked, &mut self.suppressed] {
             list.sort_unstable();
             list.dedup();
         }
@@ -83,8 +83,8 @@ impl Marks {
     }
 
     /// Whether edge number `edge` is never a crease.
-    pub(crate) fn is_hidden(&self, edge: usize) -> bool {
-        !self.hidden.is_empty() && self.hidden.binary_search(&to_u32(edge)).is_ok()
+    pub(crate) fn is_suppressed(&self, edge: usize) -> bool {
+        !self.suppressed.is_empty() && self.suppressed.binary_search(&to_u32(edge)).is_ok()
     }
 
     /// Records of the lines that are no edge of the mesh.

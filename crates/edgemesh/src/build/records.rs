@@ -182,7 +182,7 @@ impl RecordInput<'_> {
         } else {
             join(twins, a, b);
         }
-        if self.sources.is_diagonal_edge(&[a, b]) || self.marks.is_hidden(edge) {
+        if self.sources.is_diagonal_edge(&[a, b]) || self.marks.is_suppressed(edge) {
             record.flags |= EdgeFlags::DIAGONAL;
             return record;
         }

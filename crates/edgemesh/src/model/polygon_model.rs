@@ -46,12 +46,11 @@ pub struct Model {
     pub runs: Vec<PolygonRun>,
     /// Lines that the artist drew, edge by edge.
     pub segments: Vec<Segment>,
-    /// Edges that are never drawn as creases, by the indices of their ends in
-    /// `positions`, each once, the smaller index first; a segment on the same
-    /// edge wins. Empty where the file hides none.
-    pub hidden_edges: Vec<[u32; 2]>,
-    /// Whether the file holds parts that it hides itself: with nothing else in
-    /// it, it is an empty model and no mistake.
+    /// Edges that are never drawn as creases: indices into `positions`, the smaller first, each
+    /// edge once. A segment on the same edge takes precedence.
+    pub suppressed_edges: Vec<[u32; 2]>,
+    /// Whether the file declares parts invisible. A file with nothing else is an empty model and
+    /// not an error.
     pub has_invisible_parts: bool,
     /// Materials in the order of their first use.
     pub materials: Vec<Material>,

@@ -269,7 +269,7 @@ impl<'a> ModelBuilder<'a> {
         let edges = edge_marks(primitive, triangles, range.count, self.report);
         self.add_segments(&edges.marked, range);
         let suppressed = edges.suppressed.iter().map(|ends| ends.map(|end| range.first + end));
-        self.model.hidden_edges.extend(suppressed);
+        self.model.suppressed_edges.extend(suppressed);
     }
 
     fn add_segments(&mut self, segments: &[[u32; 2]], range: VertexRange) {
@@ -332,9 +332,9 @@ fn remove_repeated_edges(model: &mut Model) {
         let [a, b] = segment.ends;
         drawn.insert([a.min(b), a.max(b)])
     });
-    model.hidden_edges.sort_unstable();
-    model.hidden_edges.dedup();
-    model.hidden_edges.retain(|edge| !drawn.contains(edge));
+    model.suppressed_edges.sort_unstable();
+    model.suppressed_edges.dedup();
+    model.suppressed_edges.retain(|edge| !drawn.contains(edge));
 }
 
 /// Transforms normals by the rest pose.
