@@ -66,8 +66,8 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     Ok(())
 }
 
-/// The folder of the file `path`.
-fn folder_of(path: &Path) -> &Path {
+/// The folder of the file `path`; `.` for a bare name.
+pub(super) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
