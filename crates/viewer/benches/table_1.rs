@@ -18,7 +18,7 @@ use std::time::Instant;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::format::read::read_model;
-use edgemesh::load::Loaded;
+use edgemesh::load::LoadedMesh;
 use edgemesh::oracle::detector::Image;
 use edgemesh::oracle::detector::chiang::{ChiangOptions, chiang};
 use edgemesh::view::camera::Camera;
@@ -86,7 +86,7 @@ fn measure(gpu: &Gpu, path: &Path, side: u32, frames: usize) {
     let (model, mut report) = read_model(path).unwrap();
     let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut report);
     let triangles = mesh.triangles.len();
-    let scene = Scene::of(vec![Loaded::new(path.display().to_string(), mesh, report)]);
+    let scene = Scene::of(vec![LoadedMesh::new(path.display().to_string(), mesh, report)]);
     let options = PictureOptions { size: [side; 2], samples: 1, ..PictureOptions::default() };
     let renderer =
         |passes: &str| PictureRenderer::new(gpu, &scene, &technique(passes), &[], &options);

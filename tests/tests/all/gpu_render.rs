@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::load::Loaded;
+use edgemesh::load::LoadedMesh;
 use edgemesh::model::Model;
 use edgemesh::report::Report;
 use edgemesh::view::camera::Camera;
@@ -63,7 +63,7 @@ pub(crate) fn picture_with(
 
 pub(crate) fn scene_of(mesh: &EdgeMesh) -> Scene {
     let (name, report) = ("test".into(), Report::default());
-    Scene::of(vec![Loaded::new(name, mesh.clone(), report)])
+    Scene::of(vec![LoadedMesh::new(name, mesh.clone(), report)])
 }
 
 pub(crate) fn own_model(name: &str) -> EdgeMesh {

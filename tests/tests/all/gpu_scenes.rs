@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::load::Loaded;
+use edgemesh::load::LoadedMesh;
 use edgemesh::model::Model;
 use edgemesh::report::Report;
 use edgemesh::view::camera::Camera;
@@ -27,7 +27,7 @@ use crate::gpu_render::{look_of, own_model, picture, scene_of, technique};
 
 /// A scene of one model many times.
 fn scene(mesh: &EdgeMesh, places: &[(DMat4, usize)]) -> Scene {
-    let loaded = Loaded::new("test".into(), mesh.clone(), Report::default());
+    let loaded = LoadedMesh::new("test".into(), mesh.clone(), Report::default());
     let placed = places.iter().map(|&(world_from_object, look)| PlacedObject {
         model: 0,
         look,

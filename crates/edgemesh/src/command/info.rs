@@ -14,7 +14,7 @@ use super::output::{print_to_stdout, to_json};
 use crate::arguments::{CameraArguments, InputArguments};
 use crate::edge_mesh::{EdgeMesh, LayoutBytes};
 use crate::line::class::LineClass;
-use crate::load::Loaded;
+use crate::load::LoadedMesh;
 use crate::report::{RepairKind, Report, place_in};
 use crate::view::feature_counts::{FeatureCounts, count_features};
 
@@ -66,8 +66,8 @@ impl InfoCommand {
         print_to_stdout(text.as_bytes())
     }
 
-    fn info_of(&self, loaded: &Loaded) -> Result<Info, Failure> {
-        let Loaded { name, mesh, report, .. } = loaded;
+    fn info_of(&self, loaded: &LoadedMesh) -> Result<Info, Failure> {
+        let LoadedMesh { name, mesh, report, .. } = loaded;
         // The aspect does not matter for the eye.
         let eye = self.camera.camera(&mesh.bounds, &mesh.frame)?.view(&mesh.bounds, 1.0).eye;
         Ok(Info::of(name, mesh, report, count_features(mesh, eye)))

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::progress::TerminalProgress;
 use crate::arguments::InputArguments;
-use crate::load::{LoadError, LoadOptions, Loaded, load};
+use crate::load::{LoadError, LoadOptions, LoadedMesh, load};
 
 /// Loads one input of a verb; `with_fill` is for verbs that keep what shading needs.
 ///
@@ -15,7 +15,7 @@ pub(super) fn load_input(
     path: &Path,
     with_fill: bool,
     is_quiet: bool,
-) -> Result<Loaded, LoadError> {
+) -> Result<LoadedMesh, LoadError> {
     let options = LoadOptions { with_fill, ..input.load_options() };
     load(path, &options, &TerminalProgress::new(is_quiet))
 }

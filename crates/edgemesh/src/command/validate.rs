@@ -11,7 +11,7 @@ use super::info::{RepairInfo, WarningInfo, repairs_of, warnings_of};
 use super::loading::load_input;
 use super::output::{print_to_stdout, to_json};
 use crate::arguments::InputArguments;
-use crate::load::Loaded;
+use crate::load::LoadedMesh;
 
 /// Says what is wrong with each file: errors, warnings, repairs
 ///
@@ -86,7 +86,7 @@ impl ValidateCommand {
 }
 
 impl Verdict {
-    fn of(loaded: &Loaded) -> Self {
+    fn of(loaded: &LoadedMesh) -> Self {
         let warnings = warnings_of(&loaded.name, &loaded.report);
         Self {
             file: loaded.name.clone(),

@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 
 use super::error::LoadError;
-use super::loaded::{Loaded, ModelSource};
+use super::loaded_mesh::{LoadedMesh, ModelSource};
 use super::marks::{SideMarks, read_marks, side_file};
 use super::options::{InputFormat, LoadOptions};
-use super::progress::{Progress, Running, Stage};
+use super::progress::{Progress, Stage, StageGuard};
 use crate::build::{BuildOptions, box_of, build_with_file_vertices, reclassify};
 use crate::edge_mesh::{EdgeMesh, MeshFrame};
 use crate::format::edge_mesh_file::{HEADER_BYTES, is_edge_mesh, parse, stated_length};
@@ -43,7 +43,7 @@ pub fn load(
     path: &Path,
     options: &LoadOptions,
     progress: &dyn Progress,
-) -> Result<Loaded, LoadError> {
+) -> Result<LoadedMesh, LoadError> {
     // Marks that are wrong are reported before a long read.
     let build = options.build_options(given_marks(options)?);
     let input = read(path, options, progress)?;
@@ -60,7 +60,7 @@ pub fn load_scene(
     options: &LoadOptions,
     keeps_coordinates: bool,
     progress: &dyn Progress,
-) -> Result<Vec<Loaded>, LoadError> {
+) -> Result<Vec<LoadedMesh>, LoadError> {
     let inputs: Vec<Input> =
         paths.iter().map(|path| read(path, options, progress)).collect::<Result<_, _>>()?;
     let frame = match keeps_coordinates {
@@ -76,7 +76,7 @@ fn given_marks(options: &LoadOptions) -> Result<SideMarks, LoadError> {
 }
 
 fn read(path: &Path, options: &LoadOptions, progress: &dyn Progress) -> Result<Input, LoadError> {
-    let _running = Running::begin(progress, Stage::Reading(path))?;
+    let _running = StageGuard::begin(progress, Stage::Reading(path))?;
     if path == Path::new(STANDARD_INPUT) {
         return read_standard_input(options);
     }
@@ -127,10 +127,10 @@ fn finish(
     options: &LoadOptions,
     build: &BuildOptions,
     progress: &dyn Progress,
-) -> Result<Loaded, LoadError> {
+) -> Result<LoadedMesh, LoadError> {
     let loaded = match input {
         Input::Model(model, mut report, path) => {
-            let _running = Running::begin(progress, Stage::Building(&model.name))?;
+            let _running = StageGuard::begin(progress, Stage::Building(&model.name))?;
             let mut build = build.clone();
             let side = path.as_deref().map(side_file).filter(|side| side.is_file());
             if let Some(side) = side.filter(|_| options.marks.is_none()) {
@@ -139,7 +139,7 @@ fn finish(
             }
             let (mesh, file_vertices) = build_with_file_vertices(&model, &build, &mut report);
             let source = path.map(|path| ModelSource { path, file_vertices });
-            Loaded { source, ..Loaded::new(model.name, mesh, report) }
+            LoadedMesh { source, ..LoadedMesh::new(model.name, mesh, report) }
         }
         Input::Stored(mut mesh, name, report) => {
             if let Some(frame) = build.frame {
@@ -148,7 +148,7 @@ fn finish(
             if options.has_crease_angles() {
                 reclassify(&mut mesh, build);
             }
-            Loaded::new(name, *mesh, report)
+            LoadedMesh::new(name, *mesh, report)
         }
     };
     if options.is_strict && !loaded.report.warnings().is_empty() {

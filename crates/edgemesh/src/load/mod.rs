@@ -2,7 +2,7 @@
 //! beside it.
 //!
 //! ```text
-//!   model --read--> Model --build--> EdgeMesh + Report = Loaded
+//!   model --read--> Model --build--> EdgeMesh + Report = LoadedMesh
 //!                      marks ---^          ^
 //!   .edgemesh file ------------------------'
 //! ```
@@ -17,13 +17,13 @@
 
 mod error;
 mod input;
-mod loaded;
+mod loaded_mesh;
 pub mod marks;
 mod options;
 mod progress;
 
 pub use error::LoadError;
 pub use input::{DEMO, STANDARD_INPUT, load, load_scene};
-pub use loaded::{Loaded, ModelSource};
+pub use loaded_mesh::{LoadedMesh, ModelSource};
 pub use options::{InputFormat, LoadOptions};
 pub use progress::{NoProgress, Progress, Stage};

@@ -51,9 +51,9 @@ impl<F: Fn(Stage) -> ControlFlow<()>> Progress for F {
 }
 
 /// A stage under way; it ends when this is dropped.
-pub(super) struct Running<'a>(&'a dyn Progress);
+pub(super) struct StageGuard<'a>(&'a dyn Progress);
 
-impl<'a> Running<'a> {
+impl<'a> StageGuard<'a> {
     /// Begins a stage.
     ///
     /// # Errors
@@ -66,7 +66,7 @@ impl<'a> Running<'a> {
     }
 }
 
-impl Drop for Running<'_> {
+impl Drop for StageGuard<'_> {
     fn drop(&mut self) {
         self.0.end();
     }

@@ -21,7 +21,7 @@ use proptest::prelude::*;
 use serde_json::Value;
 
 use crate::config;
-use crate::gltf_edges::{Decoded, Edge, decode, edge};
+use crate::gltf_edges::{DecodedFile, Edge, decode, edge};
 use crate::meshes::{
     Mesh, closed_mesh, moebius_strip, one_sided_mesh, oriented_mesh, sheet, soup, torus,
 };
@@ -123,7 +123,7 @@ fn normal(mesh: &EdgeMesh, face: u32) -> DVec3 {
 }
 
 /// Asserts that a file says of each edge what the mesh does.
-fn check_gltf(mesh: &EdgeMesh, decoded: &Decoded) {
+fn check_gltf(mesh: &EdgeMesh, decoded: &DecodedFile) {
     let [hard, lines] = hard_edges(mesh);
     assert_eq!(decoded.name, NAME);
     assert_eq!(decoded.hard, hard);
@@ -140,7 +140,7 @@ fn check_gltf(mesh: &EdgeMesh, decoded: &Decoded) {
 }
 
 /// Edges of two faces that are not hard are silhouettes, unless flat.
-fn check_silhouettes(mesh: &EdgeMesh, decoded: &Decoded) {
+fn check_silhouettes(mesh: &EdgeMesh, decoded: &DecodedFile) {
     let mut seen = 0;
     for record in &mesh.records {
         if record.flags.intersects(EdgeFlags::ALWAYS_DRAWN) {
@@ -366,7 +366,7 @@ fn contours(mesh: &EdgeMesh, eye: Vec3) -> BTreeSet<Edge> {
 }
 
 /// The silhouette edges of a file that are drawn from an eye.
-fn drawn(decoded: &Decoded, eye: Vec3) -> BTreeSet<Edge> {
+fn drawn(decoded: &DecodedFile, eye: Vec3) -> BTreeSet<Edge> {
     let is_drawn = |(edge, normals): &(&Edge, &[[f32; 3]; 2])| {
         let to_eye = eye - Vec3::from(edge[0].map(f32::from_bits));
         let [a, b] = normals.map(|normal| Vec3::from(normal).dot(to_eye) > 0.0);

@@ -9,7 +9,7 @@ use edgemesh::command::{Failure, TerminalProgress, print_warnings};
 use edgemesh::format::whole_file::write_file;
 use edgemesh::line::class::LineClass;
 use edgemesh::line::placement::Parameterization;
-use edgemesh::load::Loaded;
+use edgemesh::load::LoadedMesh;
 use edgemesh::view::camera::Camera;
 use edgemesh_brushes::BRUSH_NAMES;
 use glam::Vec2;
@@ -85,7 +85,7 @@ fn parse_width(text: &str) -> Result<f32, String> {
 /// One brush on one model, in all three ways.
 struct Comparison<'a> {
     command: &'a CompareStrokesCommand,
-    model: &'a Loaded,
+    model: &'a LoadedMesh,
     brush: String,
     brush_aspect: f32,
     /// In the order of [`Way::ALL`].

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use edgemesh::build::BuildOptions;
 use edgemesh::edge_mesh::{Bounds, MeshFrame};
-use edgemesh::load::{LoadOptions, Loaded, Progress, load_scene};
+use edgemesh::load::{LoadOptions, LoadedMesh, Progress, load_scene};
 use glam::DMat4;
 
 use crate::error::Error;
@@ -14,7 +14,7 @@ use crate::scene::scene_file::SceneObject;
 #[derive(Debug, Clone)]
 pub struct Scene {
     /// Each model with its name and what was repaired in it.
-    pub models: Vec<Loaded>,
+    pub models: Vec<LoadedMesh>,
     /// Where they stand, and how they look.
     pub objects: Vec<PlacedObject>,
     /// The box around all of them.
@@ -69,7 +69,7 @@ impl Scene {
 
     /// A scene of models that are in one frame, each once where it is.
     #[must_use]
-    pub fn of(models: Vec<Loaded>) -> Self {
+    pub fn of(models: Vec<LoadedMesh>) -> Self {
         let in_place = |model| PlacedObject { model, look: 0, world_from_object: DMat4::IDENTITY };
         let objects = (0..models.len()).map(in_place).collect();
         Self::placed(models, objects)
@@ -77,7 +77,7 @@ impl Scene {
 
     /// A scene of models that are in one frame, in their places.
     #[must_use]
-    pub fn placed(models: Vec<Loaded>, objects: Vec<PlacedObject>) -> Self {
+    pub fn placed(models: Vec<LoadedMesh>, objects: Vec<PlacedObject>) -> Self {
         let boxes = objects.iter().filter_map(|object| {
             let mesh = &models[object.model].mesh;
             let has_vertices = !mesh.positions.is_empty();

@@ -7,7 +7,7 @@ use crate::report::Report;
 
 /// An edge mesh with its name and its report.
 #[derive(Debug, Clone)]
-pub struct Loaded {
+pub struct LoadedMesh {
     /// The name of the file in messages.
     pub name: String,
     /// The edge mesh.
@@ -27,7 +27,7 @@ pub struct ModelSource {
     pub file_vertices: Vec<u32>,
 }
 
-impl Loaded {
+impl LoadedMesh {
     /// An edge mesh that comes from no file.
     #[must_use]
     pub const fn new(name: String, mesh: EdgeMesh, report: Report) -> Self {
