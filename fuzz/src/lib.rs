@@ -4,11 +4,10 @@
 //! the format. An input that ends a run becomes a test of its reader.
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::view::camera::Camera;
-use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::view::feature_counts::count_features;
+use edgemesh::edge_mesh::{EdgeMesh, replicate, replicate_16};
 use edgemesh::format::read::{Format, ReadErrorKind, read_model_bytes};
-use edgemesh::edge_mesh::replicate::{replicate, replicate_16};
+use edgemesh::line::LineClass;
+use edgemesh::view::{Camera, count_features};
 
 /// Reads a model and, where that succeeds, builds and uses its edge mesh.
 ///
@@ -27,6 +26,6 @@ pub fn read_and_build(bytes: &[u8], format: Format) {
 pub fn use_mesh(mesh: &EdgeMesh) {
     let eye = Camera::default_view(&mesh.bounds).view(&mesh.bounds, 1.0).eye;
     let counts = count_features(mesh, eye);
-    assert!(counts.contour as usize <= mesh.records.len());
+    assert!(counts[LineClass::Contour] as usize <= mesh.records.len());
     assert_eq!(replicate(mesh).len(), replicate_16(mesh).len());
 }

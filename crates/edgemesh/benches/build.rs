@@ -21,12 +21,11 @@ use std::path::{Path, PathBuf};
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::edge_mesh::topology::EdgeTable;
+use edgemesh::edge_mesh::EdgeTable;
 use edgemesh::format::edge_mesh_file;
 use edgemesh::format::read::read_model;
 use edgemesh::report::Report;
-use edgemesh::view::camera::Camera;
-use edgemesh::view::feature_counts::count_features;
+use edgemesh::view::{Camera, count_features};
 
 /// Rings of spheres of about 1e3, 1e4, 1e5 and 1e6 triangles.
 const SIZES: [u32; 4] = [16, 50, 158, 500];

@@ -21,18 +21,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_mesh::edge_words::edge_words;
-use edgemesh::edge_mesh::record::EdgeRecord;
+use edgemesh::edge_mesh::{EdgeMesh, EdgeRecord, edge_words};
 use edgemesh::format::read::read_model;
-use edgemesh::line::class::{ClassTable, LineClass};
-use edgemesh::line::kind::LineKind;
-use edgemesh::line::placement::{Parameterization, Placement};
+use edgemesh::line::{ClassTable, LineClass, LineKind, Parameterization, Placement};
 use edgemesh::oracle::stroke_segment::{ClipEdge, Segment, StrokeShape, stroke_segment};
 use edgemesh::oracle::stroke_vertex::segment_vertex;
-use edgemesh::view::camera::{Camera, View};
-use edgemesh::view::feature::{Line, LineBits, eye_is_outside};
-use edgemesh::view::feature_counts::classify_lines;
+use edgemesh::view::{Camera, Line, LineBits, View, classify_lines, eye_is_outside};
 use glam::{DVec3, Vec2, Vec3};
 
 const SIZE_PX: f32 = 1024.0;
@@ -56,7 +50,7 @@ const SHAPE: StrokeShape = StrokeShape {
     placement: Placement::Automatic,
     parameterization: Parameterization::ObjectSpace,
     is_world_width: false,
-    guard_band: edgemesh::view::projection::WHOLE_BAND,
+    guard_band: edgemesh::view::WHOLE_BAND,
 };
 
 /// What was counted of one class and curvature.

@@ -8,9 +8,7 @@
 
 use std::error::Error;
 
-use edgemesh::view::feature::LineBits;
-use edgemesh::view::feature_counts::{classify_edges, count_features};
-use edgemesh::view::projection::to_pixels;
+use edgemesh::view::{LineBits, classify_edges, count_features, to_pixels};
 use edgemesh::{BuildOptions, Camera, LineClass, build_edge_mesh, read_model};
 use glam::{Vec2, Vec3};
 

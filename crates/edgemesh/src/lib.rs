@@ -33,9 +33,11 @@
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 #[cfg(feature = "command")]
+#[doc(hidden)]
 pub mod arguments;
 pub mod build;
 #[cfg(feature = "command")]
+#[doc(hidden)]
 pub mod command;
 pub mod edge_mesh;
 pub mod format;
@@ -52,8 +54,7 @@ pub use glam;
 pub use self::build::{BuildOptions, build_edge_mesh};
 pub use self::edge_mesh::{Bounds, EdgeMesh};
 pub use self::format::read::{ReadError, read_model};
-pub use self::line::class::LineClass;
+pub use self::line::LineClass;
 pub use self::model::Model;
 pub use self::report::Report;
-pub use self::view::camera::{Camera, View};
-pub use self::view::feature_counts::{FeatureCounts, count_features};
+pub use self::view::{Camera, FeatureCounts, View, count_features};

@@ -9,6 +9,7 @@ use std::fmt;
 
 /// Where in a file something stands.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Place {
     /// A line of text, counted from 1.
     Line(u32),
@@ -26,7 +27,7 @@ impl Place {
     /// The place as it stands behind a file's name: `model.obj:12`,
     /// `model.stl: face 7`.
     #[must_use]
-    pub fn behind(&self, file: &str) -> String {
+    pub(crate) fn behind(&self, file: &str) -> String {
         match self {
             Self::Line(line) => format!("{file}:{line}"),
             Self::Byte(offset) => format!("{file}: byte {offset}"),
@@ -40,12 +41,13 @@ impl Place {
 /// Writes `place` behind the name of its file; the name alone where there is
 /// none.
 #[must_use]
-pub fn place_in(file: &str, place: Option<&Place>) -> String {
+pub(crate) fn place_in(file: &str, place: Option<&Place>) -> String {
     place.map_or_else(|| file.to_owned(), |place| place.behind(file))
 }
 
 /// The kind of a [`Warning`]; its text form is the `code` of `--json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum WarningCode {
     /// A vertex is NaN or infinite; faces that use it were dropped.
     NonFinite,
@@ -94,7 +96,7 @@ impl WarningCode {
 
     /// The code whose [`Self::as_str`] is `word`.
     #[must_use]
-    pub fn from_word(word: &str) -> Option<Self> {
+    pub(crate) fn from_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|code| code.as_str() == word)
     }
 
@@ -126,6 +128,7 @@ impl fmt::Display for WarningCode {
 
 /// One kind of trouble, with how often it came and where it came first.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Warning {
     /// The kind.
     pub code: WarningCode,
@@ -139,6 +142,7 @@ pub struct Warning {
 
 /// What the builder mends without loss; its text form is the key of `--json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum RepairKind {
     /// Faces turned around so that their component winds one way.
     FlippedFaces,
@@ -172,7 +176,7 @@ impl RepairKind {
 
     /// The kind whose [`Self::as_str`] is `word`.
     #[must_use]
-    pub fn from_word(word: &str) -> Option<Self> {
+    pub(crate) fn from_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.as_str() == word)
     }
 
@@ -193,6 +197,7 @@ impl RepairKind {
 
 /// One kind of repair, with how often it was made and where first.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Repair {
     /// The kind.
     pub kind: RepairKind,
@@ -228,8 +233,8 @@ impl Report {
         report
     }
 
-    /// Counts one more `code`; the first call of a code gives place and message.
-    pub fn warn(
+    /// Counts one `code`; the first call for a code sets place and message.
+    pub(crate) fn warn(
         &mut self,
         code: WarningCode,
         place: Option<Place>,
@@ -238,9 +243,8 @@ impl Report {
         self.warn_many(code, 1, place, message);
     }
 
-    /// Counts `count` more of `code`; the first call of a code gives place and
-    /// message.
-    pub fn warn_many(
+    /// Counts `count` of `code`; the first call for a code sets place and message.
+    pub(crate) fn warn_many(
         &mut self,
         code: WarningCode,
         count: usize,
@@ -261,9 +265,8 @@ impl Report {
         }
     }
 
-    /// Counts `count` repairs of `kind`; the first call of a kind gives the
-    /// place.
-    pub fn repair(&mut self, kind: RepairKind, count: usize, place: Option<Place>) {
+    /// Counts `count` repairs of `kind`; the first call for a kind sets the place.
+    pub(crate) fn repair(&mut self, kind: RepairKind, count: usize, place: Option<Place>) {
         if count == 0 {
             return;
         }

@@ -21,7 +21,7 @@ use edgemesh::format::read::read_model;
 use edgemesh::load::LoadedMesh;
 use edgemesh::oracle::detector::Image;
 use edgemesh::oracle::detector::chiang::{ChiangOptions, chiang};
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use glam::Vec2;
 use strokes::gpu::device;
 use strokes::gpu::device::Gpu;

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::format::read::read_model;
 use edgemesh::load::LoadedMesh;
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use strokes::gpu::device;
 use strokes::gpu::device::Gpu;
 use viewer::picture::renderer::{PictureOptions, PictureRenderer};

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use edgemesh::format::whole_file::WriteError;
 use edgemesh::load::LoadError;
-use edgemesh::view::camera::CameraError;
+use edgemesh::view::CameraError;
 use edgemesh_shaders::ShaderError;
 use strokes::gpu::device::GpuError;
 use strokes::gpu::readback::ReadbackError;

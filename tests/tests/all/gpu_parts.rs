@@ -1,7 +1,7 @@
 //! Pictures in parts are those that are drawn at once.
 
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use viewer::picture::png::compare;
 use viewer::picture::renderer::PictureOptions;
 use viewer::picture::tiles::AnySizeRenderer;

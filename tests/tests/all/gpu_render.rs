@@ -7,7 +7,7 @@ use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::load::LoadedMesh;
 use edgemesh::model::Model;
 use edgemesh::report::Report;
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use glam::DVec3;
 use image::{GrayImage, Luma, RgbaImage};
 use strokes::style::drawing_style::DrawingStyle;
@@ -318,7 +318,7 @@ fn marked_around(picture: &GrayImage, [x, y]: [u32; 2], reach: u32) -> usize {
 }
 
 fn without_creases(mesh: &EdgeMesh) -> EdgeMesh {
-    use edgemesh::edge_mesh::edge_flags::EdgeFlags;
+    use edgemesh::edge_mesh::EdgeFlags;
     let mut mesh = mesh.clone();
     for record in &mut mesh.records {
         record.flags -= EdgeFlags::RIDGE | EdgeFlags::VALLEY | EdgeFlags::MATERIAL;

@@ -8,7 +8,7 @@ use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::load::LoadedMesh;
 use edgemesh::model::Model;
 use edgemesh::report::Report;
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use glam::{DMat4, DQuat, DVec3};
 use image::RgbaImage;
 use strokes::draw::targets::Targets;

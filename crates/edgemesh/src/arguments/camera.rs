@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::degrees::parse_degrees;
 use crate::edge_mesh::{Bounds, MeshFrame};
-use crate::view::camera::{Camera, CameraError};
+use crate::view::{Camera, CameraError};
 
 /// Where the eye is. Without any of these it looks at the middle of the model
 /// from the direction (1, 0.6, 1.2), at three bounding radii.

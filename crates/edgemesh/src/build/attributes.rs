@@ -1,7 +1,7 @@
 //! What the file says of each face: its material, and where it is smooth.
 
 use super::faces::FaceSources;
-use crate::edge_mesh::edge_flags::EdgeFlags;
+use crate::edge_mesh::EdgeFlags;
 use crate::model::{Attributes, Model, Smoothing};
 
 /// Attributes by face.

@@ -21,9 +21,9 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::edge_mesh::edge_flags::{CHAIN_CLASSES, EdgeFlags, chain_class_of};
-use crate::edge_mesh::record::EdgeRecord;
-use crate::edge_mesh::{Chain, ChainLink, Chains};
+use crate::edge_mesh::{
+    CHAIN_CLASSES, Chain, ChainLink, Chains, EdgeFlags, EdgeRecord, chain_class_of,
+};
 use crate::index::{NONE, to_u32};
 
 /// The turn at a vertex, between the directions of the line before and behind

@@ -13,10 +13,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::face_normal::corners_of;
-use crate::edge_mesh::record::EdgeRecord;
-use crate::edge_mesh::topology::EdgeTable;
+use crate::edge_mesh::{EdgeFlags, EdgeRecord, EdgeTable, corners_of};
 use crate::index::{NONE, to_u32};
 
 /// Faces whose volumes one thread sums up in a row.

@@ -20,10 +20,7 @@ use super::faces::FaceSources;
 use super::fans::angle;
 use super::planes::has_area;
 use super::runs::fill_runs;
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::face_normal::corners_of;
-use crate::edge_mesh::record::EdgeRecord;
-use crate::edge_mesh::{FacePlane, FillMesh, FillVertex};
+use crate::edge_mesh::{EdgeFlags, EdgeRecord, FacePlane, FillMesh, FillVertex, corners_of};
 use crate::index::{NONE, to_u32};
 use crate::model::{Model, Smoothing};
 

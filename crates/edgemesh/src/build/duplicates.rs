@@ -7,7 +7,7 @@
 //!
 //! Rejected: a hash set of all triangles, which takes longer than the edges.
 
-use crate::edge_mesh::topology::{EdgeTable, triangle_side};
+use crate::edge_mesh::{EdgeTable, triangle_side};
 
 /// Which faces to keep; `None` where none repeats another.
 pub(crate) fn keep_first_of_each(triangles: &[[u32; 3]], table: &EdgeTable) -> Option<Vec<bool>> {

@@ -29,8 +29,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::planes::has_area;
-use crate::edge_mesh::FacePlane;
-use crate::edge_mesh::record::EdgeRecord;
+use crate::edge_mesh::{EdgeRecord, FacePlane};
 use crate::index::{NONE, to_u32};
 
 /// The mesh whose vertices are walked around.

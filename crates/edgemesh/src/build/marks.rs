@@ -5,9 +5,7 @@
 use std::collections::BTreeSet;
 
 use super::BuildOptions;
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::record::EdgeRecord;
-use crate::edge_mesh::topology::EdgeTable;
+use crate::edge_mesh::{EdgeFlags, EdgeRecord, EdgeTable};
 use crate::index::{NONE, to_u32};
 use crate::model::Model;
 use crate::report::{Place, Report, WarningCode};

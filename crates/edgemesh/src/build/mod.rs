@@ -44,10 +44,10 @@ use self::marks::Marks;
 use self::records::{RecordInput, Surface, build_records};
 pub use self::weld::Welding;
 use self::weld::{Weld, weld};
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::mesh_frame::MeshFrame;
-use crate::edge_mesh::topology::{EdgeCounts, EdgePart, EdgeTable, triangle_side};
-use crate::edge_mesh::{Bounds, EdgeMesh, MeshCounts, SourceCounts};
+use crate::edge_mesh::{
+    Bounds, EdgeCounts, EdgeFlags, EdgeMesh, EdgePart, EdgeTable, MeshCounts, MeshFrame,
+    SourceCounts, triangle_side,
+};
 use crate::index::{NONE, to_u32};
 use crate::model::Model;
 use crate::report::{Place, RepairKind, Report, WarningCode};
@@ -119,7 +119,7 @@ pub fn build_edge_mesh(model: &Model, options: &BuildOptions, report: &mut Repor
 /// As [`build_edge_mesh`], with a vertex of the file, counted from 0, for each vertex of
 /// the mesh: the first one at its place.
 #[must_use]
-pub fn build_with_file_vertices(
+pub(crate) fn build_with_file_vertices(
     model: &Model,
     options: &BuildOptions,
     report: &mut Report,
@@ -175,9 +175,9 @@ pub fn set_marks(mesh: &mut EdgeMesh, pairs: &[[u32; 2]], is_marked: bool, optio
     mesh.chains = chains::chain(&mesh.positions, &mesh.records, options.chain_turn_rad);
 }
 
-/// Finds the creases of a finished mesh by other thresholds, and chains anew.
-pub fn reclassify(mesh: &mut EdgeMesh, options: &BuildOptions) {
-    // The planes that were lent must not make creases.
+/// Finds the creases of a mesh with the thresholds of `options`, and chains its edges again.
+pub(crate) fn reclassify(mesh: &mut EdgeMesh, options: &BuildOptions) {
+    // Without the planes of neighbors, which would make creases.
     let planes = planes::face_planes(&mesh.positions, &mesh.triangles);
     let surface =
         Surface { positions: &mesh.positions, triangles: &mesh.triangles, planes: &planes };
@@ -223,7 +223,7 @@ fn used_vertices(model: &Model) -> Vec<bool> {
 /// The corners of the box around the vertices that a model uses, in its own
 /// units; infinite and turned around where it uses none.
 #[must_use]
-pub fn box_of(model: &Model) -> (DVec3, DVec3) {
+pub(crate) fn box_of(model: &Model) -> (DVec3, DVec3) {
     used_box(model, &used_vertices(model))
 }
 

@@ -10,7 +10,7 @@
 //! Rejected: turning components outwards by their signed volume. An open
 //! surface has none, and a file that is consistent is left as it is.
 
-use crate::edge_mesh::topology::{EdgeTable, triangle_side};
+use crate::edge_mesh::{EdgeTable, triangle_side};
 use crate::index::{NONE, to_u32};
 
 /// What was found and done.

@@ -7,9 +7,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::edge_mesh::FacePlane;
-use crate::edge_mesh::face_normal::{corners_of, face_normal};
-use crate::edge_mesh::topology::EdgeTable;
+use crate::edge_mesh::{EdgeTable, FacePlane, corners_of, face_normal};
 
 /// The planes of all faces; a face without area has a normal of zero.
 pub(crate) fn face_planes(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<FacePlane> {

@@ -29,11 +29,9 @@ use super::faces::FaceSources;
 use super::marks::Marks;
 use super::planes::has_area;
 use super::{BuildOptions, FaceAttributes};
-use crate::edge_mesh::FacePlane;
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::face_normal::{corners_of, face_normal};
-use crate::edge_mesh::record::EdgeRecord;
-use crate::edge_mesh::topology::{EdgePart, EdgeTable, triangle_side};
+use crate::edge_mesh::{
+    EdgeFlags, EdgePart, EdgeRecord, EdgeTable, FacePlane, corners_of, face_normal, triangle_side,
+};
 use crate::index::{NONE, to_u32};
 
 /// The cosine of two normals that were rounded to 32 bits errs by less.

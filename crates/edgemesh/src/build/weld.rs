@@ -29,6 +29,7 @@ use crate::index::{NONE, to_u32};
 
 /// Which vertices become one.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub enum Welding {
     /// Those at exactly the same position.
     #[default]

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use crate::format::read::{ReadError, ReadErrorKind};
 use crate::format::whole_file::WriteError;
 use crate::load::LoadError;
-use crate::view::camera::CameraError;
+use crate::view::CameraError;
 
 /// An exit status of a command; scripts rely on the numbers. A program may have statuses
 /// beside the ones that are named here.
@@ -63,8 +63,8 @@ impl From<LoadError> for Failure {
                 Self::usage("standard input (-) needs --format, as --format obj")
             }
             LoadError::ModelsOnly { file } => Self::usage(format!(
-                "{file}: --weld, --no-weld and --marks are for models; an edge mesh is welded \
-                 already"
+                "{file}: --weld, --no-weld and --marks apply to models only; an edge mesh is \
+                 already welded"
             )),
             // Each line is an error; the first one gets its word where it is printed.
             LoadError::Warnings { file, report } => {

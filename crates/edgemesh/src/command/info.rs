@@ -12,11 +12,11 @@ use super::loading::load_input;
 use super::messages::print_warnings;
 use super::output::{print_to_stdout, to_json};
 use crate::arguments::{CameraArguments, InputArguments};
-use crate::edge_mesh::{EdgeMesh, LayoutBytes};
-use crate::line::class::LineClass;
+use crate::edge_mesh::{EdgeMesh, EdgeVertex, EdgeVertex16};
+use crate::line::LineClass;
 use crate::load::LoadedMesh;
 use crate::report::{RepairKind, Report, place_in};
-use crate::view::feature_counts::{FeatureCounts, count_features};
+use crate::view::{FeatureCounts, count_features};
 
 /// Prints counts of a model: vertices, edges, what is broken, feature edges
 #[derive(Debug, Clone, Args)]
@@ -76,7 +76,7 @@ impl InfoCommand {
 
 /// What `info --json` prints; scripts rely on the keys.
 #[derive(Debug, Clone, Serialize)]
-pub struct Info {
+struct Info {
     file: String,
     vertices: usize,
     welded_vertices: usize,
@@ -138,6 +138,21 @@ struct BytesInfo {
     replicated_i16: usize,
 }
 
+impl BytesInfo {
+    fn of(mesh: &EdgeMesh) -> Self {
+        let edges = mesh.records.len();
+        Self {
+            input: mesh.positions.len() * 24 + size_of_val(&*mesh.triangles),
+            indexed: size_of_val(&*mesh.positions)
+                + size_of_val(&*mesh.vertex_normals)
+                + size_of_val(&*mesh.triangles)
+                + size_of_val(&*mesh.records),
+            replicated_f32: edges * 4 * size_of::<EdgeVertex>(),
+            replicated_i16: edges * 4 * size_of::<EdgeVertex16>(),
+        }
+    }
+}
+
 /// Chains of edges that no view changes.
 #[derive(Debug, Clone, Serialize)]
 struct ChainsInfo {
@@ -172,34 +187,29 @@ struct RepairsInfo {
 
 /// A repair as `--json` prints it.
 #[derive(Debug, Clone, Serialize)]
-pub struct RepairInfo {
-    /// The kind.
-    pub kind: &'static str,
-    /// How many elements it concerns.
-    pub count: usize,
-    /// The first one.
-    pub place: String,
+pub(super) struct RepairInfo {
+    pub(super) kind: &'static str,
+    /// Repaired elements.
+    pub(super) count: usize,
+    /// The first repaired element, behind the name of its file.
+    pub(super) place: String,
 }
 
 /// A warning as `--json` prints it.
 #[derive(Debug, Clone, Serialize)]
-pub struct WarningInfo {
-    /// The kind.
-    pub code: &'static str,
-    /// How many elements it concerns.
-    pub count: usize,
-    /// The first one.
-    pub place: String,
-    /// What was found there, and what was done.
-    pub message: String,
+pub(super) struct WarningInfo {
+    pub(super) code: &'static str,
+    /// Affected elements.
+    pub(super) count: usize,
+    /// The first affected element, behind the name of its file.
+    pub(super) place: String,
+    /// The defect at `place`, and how it was handled.
+    pub(super) message: String,
 }
 
 impl Info {
-    /// Gathers what there is to say of `mesh`.
-    #[must_use]
-    pub fn of(file: &str, mesh: &EdgeMesh, report: &Report, features: FeatureCounts) -> Self {
+    fn of(file: &str, mesh: &EdgeMesh, report: &Report, features: FeatureCounts) -> Self {
         let counts = &mesh.counts;
-        let LayoutBytes { input, indexed, replicated_f32, replicated_i16 } = mesh.layout_bytes();
         Self {
             file: file.into(),
             vertices: counts.vertices,
@@ -215,7 +225,7 @@ impl Info {
             components: counts.components,
             bounds: BoundsInfo::of(mesh),
             frame: FrameInfo { origin: mesh.frame.origin.into(), scale: mesh.frame.scale },
-            bytes: BytesInfo { input, indexed, replicated_f32, replicated_i16 },
+            bytes: BytesInfo::of(mesh),
             records: mesh.records.len(),
             chains: ChainsInfo::of(mesh),
             source: SourceInfo::of(mesh),
@@ -328,9 +338,8 @@ impl RepairsInfo {
     }
 }
 
-/// The warnings of `report` for JSON, each with its first place, `file:line`.
-#[must_use]
-pub fn warnings_of(file: &str, report: &Report) -> Vec<WarningInfo> {
+/// The warnings of `report` for JSON, with places such as `file:line`.
+pub(super) fn warnings_of(file: &str, report: &Report) -> Vec<WarningInfo> {
     report
         .warnings()
         .iter()
@@ -343,9 +352,8 @@ pub fn warnings_of(file: &str, report: &Report) -> Vec<WarningInfo> {
         .collect()
 }
 
-/// The repairs of `report` for JSON, each with its first place.
-#[must_use]
-pub fn repairs_of(file: &str, report: &Report) -> Vec<RepairInfo> {
+/// The repairs of `report` for JSON.
+pub(super) fn repairs_of(file: &str, report: &Report) -> Vec<RepairInfo> {
     report
         .repairs()
         .iter()

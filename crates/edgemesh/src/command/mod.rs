@@ -5,21 +5,26 @@
 //! where, and what to do. The library's errors become messages and exit statuses in
 //! `failure`, and name options only there.
 
-pub mod build;
-pub mod export;
+mod build;
+mod export;
 mod failure;
-pub mod info;
+mod info;
 mod loading;
-pub mod manual;
+mod manual;
 mod messages;
 mod output;
 mod progress;
 mod run;
 mod target;
-pub mod validate;
+mod validate;
 
+pub use build::BuildCommand;
+pub use export::ExportCommand;
 pub use failure::{ExitStatus, Failure};
+pub use info::InfoCommand;
+pub use manual::{CompletionsCommand, ManCommand};
 pub use messages::{MessageOptions, print_warnings};
 pub use output::{print_to_stdout, to_json};
 pub use progress::TerminalProgress;
 pub use run::run;
+pub use validate::ValidateCommand;

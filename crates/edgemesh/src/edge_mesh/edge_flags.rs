@@ -92,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_class_has_its_word() {
+    fn every_class_has_its_name() {
         let words: Vec<&str> = class_names(EdgeFlags::all()).collect();
         let names = EdgeFlags::all().iter_names();
         assert!(names.map(|(name, _)| name.to_lowercase()).eq(words), "in order");

@@ -19,8 +19,8 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::edge_mesh::edge_flags::EdgeFlags;
 
-/// Steps a degree of the crease angle.
-pub const STEPS_PER_DEGREE: u32 = 45;
+/// Steps of the crease angle in a degree.
+pub(crate) const STEPS_PER_DEGREE: u32 = 45;
 
 /// The lowest bit of the crease angle. WGSL twin: `CREASE_SHIFT`.
 pub const CREASE_SHIFT: u32 = 10;

@@ -5,7 +5,7 @@ use glam::{DMat4, DVec3, Vec3};
 
 use crate::edge_mesh::edge_flags::EdgeFlags;
 use crate::edge_mesh::mesh_frame::MeshFrame;
-use crate::edge_mesh::record::{EdgeRecord, EdgeVertex, EdgeVertex16};
+use crate::edge_mesh::record::EdgeRecord;
 use crate::edge_mesh::topology::EdgeCounts;
 use crate::index::NONE;
 use crate::model::Material;
@@ -221,6 +221,7 @@ impl Bounds {
 
 /// What a mesh consists of, counted before anything is repaired.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct MeshCounts {
     /// Vertices listed in the file.
     pub vertices: usize,
@@ -244,6 +245,7 @@ pub struct MeshCounts {
 
 /// Counts over the polygons as the file lists them.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct SourceCounts {
     /// Vertices listed.
     pub vertices: usize,
@@ -255,25 +257,11 @@ pub struct SourceCounts {
     pub edges: EdgeCounts,
 }
 
-/// Bytes that the edge mesh takes in each layout.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct LayoutBytes {
-    /// The mesh that it is made from: a position and a normal of 12 bytes each a
-    /// vertex, three indices of 4 bytes a triangle.
-    pub input: usize,
-    /// Positions, normals, triangles and 20 bytes an edge record.
-    pub indexed: usize,
-    /// Four edge vertices of 80 bytes an edge.
-    pub replicated_f32: usize,
-    /// Four edge vertices of 37 bytes, padded to 40, an edge.
-    pub replicated_i16: usize,
-}
-
 impl EdgeMesh {
     /// The vertex of `face` that is not on `record`'s edge; the edge's start
     /// where there is no face.
     #[must_use]
-    pub fn apex(&self, face: u32, record: &EdgeRecord) -> u32 {
+    pub(crate) fn apex(&self, face: u32, record: &EdgeRecord) -> u32 {
         if face == NONE {
             return record.v0;
         }
@@ -295,7 +283,7 @@ impl EdgeMesh {
     /// The corners of the box around the mesh, in the units of its file; infinite
     /// and turned around where there are no vertices.
     #[must_use]
-    pub fn box_in_file(&self) -> (DVec3, DVec3) {
+    pub(crate) fn box_in_file(&self) -> (DVec3, DVec3) {
         if self.positions.is_empty() {
             return (DVec3::INFINITY, DVec3::NEG_INFINITY);
         }
@@ -303,9 +291,8 @@ impl EdgeMesh {
         (corner(self.bounds.min), corner(self.bounds.max))
     }
 
-    /// Moves the mesh to another frame, so that it lies at the same place of the
-    /// file; lengths are scaled, directions stay.
-    pub fn set_frame(&mut self, frame: MeshFrame) {
+    /// Moves the mesh to another frame, at the same place in the file.
+    pub(crate) fn set_frame(&mut self, frame: MeshFrame) {
         if frame == self.frame {
             return;
         }
@@ -333,21 +320,6 @@ impl EdgeMesh {
         }
         for link in &mut self.chains.links {
             link.arc_start = scaled(link.arc_start);
-        }
-    }
-
-    /// Sizes of the layouts.
-    #[must_use]
-    pub fn layout_bytes(&self) -> LayoutBytes {
-        let edges = self.records.len();
-        LayoutBytes {
-            input: self.positions.len() * 24 + size_of_val(&*self.triangles),
-            indexed: size_of_val(&*self.positions)
-                + size_of_val(&*self.vertex_normals)
-                + size_of_val(&*self.triangles)
-                + size_of_val(&*self.records),
-            replicated_f32: edges * 4 * size_of::<EdgeVertex>(),
-            replicated_i16: edges * 4 * size_of::<EdgeVertex16>(),
         }
     }
 }

@@ -43,7 +43,7 @@ impl MeshFrame {
     /// The frame for vertices between `low` and `high`: the one that changes
     /// nothing, unless 32 bits would lose detail.
     #[must_use]
-    pub fn of_box(low: DVec3, high: DVec3) -> Self {
+    pub(crate) fn of_box(low: DVec3, high: DVec3) -> Self {
         let size = (high - low).max_element();
         let reach = low.abs().max(high.abs()).max_element();
         if !(size > 0.0 && size.is_finite()) {

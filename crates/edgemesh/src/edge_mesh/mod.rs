@@ -9,21 +9,34 @@
 //! - [`normal_cone`]: faces that all look one way.
 //! - [`mesh_frame`]: where the mesh lies in its file.
 
-pub mod edge_flags;
-pub mod edge_word;
-pub mod edge_words;
-pub mod face_edges;
-pub mod face_normal;
-pub mod mesh;
-pub mod mesh_frame;
-pub mod normal_cone;
-pub mod record;
-pub mod replicate;
-pub mod static_links;
-pub mod topology;
+mod edge_flags;
+mod edge_word;
+mod edge_words;
+mod face_edges;
+mod face_normal;
+mod mesh;
+mod mesh_frame;
+mod normal_cone;
+mod record;
+mod replicate;
+mod static_links;
+mod topology;
 
+pub use self::edge_flags::{CHAIN_CLASSES, EdgeFlags, chain_class_of, class_names};
+pub(crate) use self::edge_word::STEPS_PER_DEGREE;
+pub use self::edge_word::{CONCAVE, CREASE_SHIFT, CREASE_STEPS, EdgeWord, threshold_steps};
+pub use self::edge_words::edge_words;
+pub use self::face_edges::FaceEdges;
+pub(crate) use self::face_edges::side_on;
+pub(crate) use self::face_normal::{corners_of, face_normal};
 pub use self::mesh::{
     Bounds, Chain, ChainLink, Chains, EdgeMesh, FacePlane, FillMesh, FillRun, FillVertex,
-    LayoutBytes, MeshCounts, SourceCounts,
+    MeshCounts, SourceCounts,
 };
 pub use self::mesh_frame::MeshFrame;
+pub use self::normal_cone::{CONE_MARGIN, ConeFacing, NormalCone, cone_facing};
+pub use self::record::{EdgeRecord, EdgeVertex, EdgeVertex16, FinVertex, edge_random};
+pub use self::replicate::{Quantization, fins, replicate, replicate_16};
+pub use self::static_links::StaticLinks;
+pub use self::topology::{EdgeCounts, EdgeTable};
+pub(crate) use self::topology::{EdgePart, triangle_side};

@@ -108,7 +108,7 @@ pub fn cone_facing(cone: &NormalCone, eye: Vec4) -> ConeFacing {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::facing::faces_eye;
+    use crate::view::faces_eye;
 
     fn plane(normal: Vec3, point: Vec3) -> FacePlane {
         FacePlane {

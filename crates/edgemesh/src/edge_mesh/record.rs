@@ -120,8 +120,8 @@ pub struct EdgeVertex {
 }
 
 impl EdgeVertex {
-    /// Where the class bits begin in [`Self::corner_and_flags`].
-    pub const FLAGS_SHIFT: u32 = 8;
+    /// The lowest bit of the edge word in [`Self::corner_and_flags`].
+    pub(crate) const FLAGS_SHIFT: u32 = 8;
 
     /// The corner index i.
     #[must_use]

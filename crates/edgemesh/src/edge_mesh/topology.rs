@@ -63,7 +63,7 @@ impl EdgeTable {
     ///
     /// All vertices must be below `vertex_count`.
     #[must_use]
-    pub fn from_sides(vertex_count: usize, sides: &[[u32; 2]]) -> Self {
+    pub(crate) fn from_sides(vertex_count: usize, sides: &[[u32; 2]]) -> Self {
         Self::build(vertex_count, &sides)
     }
 
@@ -267,7 +267,7 @@ pub struct EdgeCounts {
 impl EdgeCounts {
     /// Counts the edges of `table`, whose sides are `sides`.
     #[must_use]
-    pub fn of(table: &EdgeTable, sides: impl Fn(u32) -> [u32; 2] + Sync) -> Self {
+    pub(crate) fn of(table: &EdgeTable, sides: impl Fn(u32) -> [u32; 2] + Sync) -> Self {
         let of_part = |(_, part): (usize, &EdgePart)| {
             let mut counts = Self { edges: part.edge_count(), ..Self::default() };
             for (_, users) in part.iter() {
@@ -299,7 +299,7 @@ impl std::ops::Add for EdgeCounts {
 /// The directed side `side` of a triangle list, as [`EdgeTable::from_triangles`]
 /// numbers them.
 #[must_use]
-pub fn triangle_side(triangles: &[[u32; 3]], side: u32) -> [u32; 2] {
+pub(crate) fn triangle_side(triangles: &[[u32; 3]], side: u32) -> [u32; 2] {
     let triangle = triangles[side as usize / 3];
     let corner = side as usize % 3;
     [triangle[corner], triangle[(corner + 1) % 3]]

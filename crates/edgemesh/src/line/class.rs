@@ -9,7 +9,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::edge_mesh::edge_flags::EdgeFlags;
+use crate::edge_mesh::EdgeFlags;
 
 /// A class of lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -96,7 +96,7 @@ impl LineClass {
 
     /// Edges with this flag count as of the class; empty for classes that depend on the view.
     #[must_use]
-    pub const fn counted_by(self) -> EdgeFlags {
+    pub(crate) const fn counted_by(self) -> EdgeFlags {
         self.row().counted_by
     }
 

@@ -4,6 +4,10 @@
 //! - [`kind`]: thin lines, quads with their ends, fins.
 //! - [`placement`]: inside, outside or centred, and how a brush lies along a stroke.
 
-pub mod class;
-pub mod kind;
-pub mod placement;
+mod class;
+mod kind;
+mod placement;
+
+pub use self::class::{ClassTable, LineClass, MAX_LINE_CLASSES, NO_LAYER};
+pub use self::kind::{CAP_VERTICES, DISK_STEPS, DISK_VERTICES, LineKind};
+pub use self::placement::{Parameterization, Placement};

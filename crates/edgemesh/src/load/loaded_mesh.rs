@@ -7,6 +7,7 @@ use crate::report::Report;
 
 /// An edge mesh with its name and its report.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct LoadedMesh {
     /// The name of the file in messages.
     pub name: String,
@@ -20,6 +21,7 @@ pub struct LoadedMesh {
 
 /// The model file of an edge mesh.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct ModelSource {
     /// The file.
     pub path: PathBuf,

@@ -91,7 +91,10 @@ fn parse_marks(text: &str) -> Result<SideMarks, (usize, String)> {
             [] => {}
             [a, b] => pairs.push([vertex(line, a)?, vertex(line, b)?]),
             _ => {
-                let what = format!("a mark needs two vertices, as '3 8'; this has {}", words.len());
+                let what = format!(
+                    "a mark needs two vertices, such as '3 8'; this line has {}",
+                    words.len()
+                );
                 return Err((line + 1, what));
             }
         }
@@ -102,7 +105,9 @@ fn parse_marks(text: &str) -> Result<SideMarks, (usize, String)> {
 fn vertex(line: usize, word: &str) -> Result<u32, (usize, String)> {
     match word.parse::<u32>() {
         Ok(vertex) if vertex > 0 => Ok(vertex - 1),
-        _ => Err((line + 1, format!("'{word}' is no vertex: vertices are counted from 1"))),
+        _ => {
+            Err((line + 1, format!("'{word}' is not a vertex number; vertices are counted from 1")))
+        }
     }
 }
 

@@ -18,12 +18,13 @@
 mod error;
 mod input;
 mod loaded_mesh;
-pub mod marks;
+mod marks;
 mod options;
 mod progress;
 
 pub use error::LoadError;
 pub use input::{DEMO, STANDARD_INPUT, load, load_scene};
 pub use loaded_mesh::{LoadedMesh, ModelSource};
+pub use marks::{MarksError, SideMarks, marks_text, read_marks, side_file};
 pub use options::{InputFormat, LoadOptions};
 pub use progress::{NoProgress, Progress, Stage};

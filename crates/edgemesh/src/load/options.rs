@@ -47,6 +47,7 @@ impl Default for LoadOptions {
 
 /// A format of inputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum InputFormat {
     /// A model format.
     Model(Format),

@@ -14,7 +14,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// The largest picture that is read: 256 MiB.
-pub const MAX_PICTURE_BYTES: u64 = 256 << 20;
+pub(crate) const MAX_PICTURE_BYTES: u64 = 256 << 20;
 
 /// A material by name, with the looks that the file or its library gives it.
 /// Colours are display values, coded as sRGB.
@@ -50,6 +50,7 @@ pub struct Texture {
 
 /// Where an encoded picture is: a PNG or JPEG file, told by its first bytes.
 #[derive(Clone, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum TextureSource {
     /// In a file, which was found in the model's folder or below.
     File(PathBuf),

@@ -4,9 +4,11 @@
 //! - [`material`]: materials and their textures.
 //! - [`rig`]: skins and morph targets.
 
-pub mod material;
-pub mod polygon_model;
-pub mod rig;
+mod material;
+mod polygon_model;
+mod rig;
 
-pub use self::material::{MAX_PICTURE_BYTES, Material, Texture, TextureSource};
+pub(crate) use self::material::MAX_PICTURE_BYTES;
+pub use self::material::{Material, Texture, TextureSource};
 pub use self::polygon_model::{Attributes, Corner, Model, PolygonRun, Segment, Smoothing};
+pub use self::rig::{Displacement, Influence, NodeTransform, Pose, Rig, RigNode, RigPart, Skin};

@@ -108,6 +108,7 @@ impl Default for Attributes {
 
 /// Which edges of a polygon the file shades smoothly.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub enum Smoothing {
     /// The file does not say.
     #[default]
@@ -141,7 +142,7 @@ impl Model {
 
     /// Whether every polygon is a triangle.
     #[must_use]
-    pub const fn is_triangles(&self) -> bool {
+    pub(crate) const fn is_triangles(&self) -> bool {
         self.polygon_ends.is_empty()
     }
 
@@ -159,7 +160,7 @@ impl Model {
 
     /// The polygon that a corner is of.
     #[must_use]
-    pub fn polygon_of(&self, corner: usize) -> usize {
+    pub(crate) fn polygon_of(&self, corner: usize) -> usize {
         if self.polygon_ends.is_empty() {
             corner / 3
         } else {
@@ -179,7 +180,7 @@ impl Model {
 
     /// Where in the file a polygon stands.
     #[must_use]
-    pub fn polygon_place(&self, polygon: usize) -> Place {
+    pub(crate) fn polygon_place(&self, polygon: usize) -> Place {
         match self.polygon_lines.get(polygon) {
             Some(&line) if line > 0 => Place::Line(line),
             _ => Place::Face(polygon as u64 + 1),
@@ -234,7 +235,7 @@ impl Model {
 
     /// One value for each polygon, made from its attributes.
     #[must_use]
-    pub fn per_polygon<T: Clone>(&self, value: impl Fn(Attributes) -> T) -> Vec<T> {
+    pub(crate) fn per_polygon<T: Clone>(&self, value: impl Fn(Attributes) -> T) -> Vec<T> {
         let mut values = Vec::with_capacity(self.polygon_count());
         let first =
             self.runs.first().map_or(self.polygon_count(), |run| run.first_polygon as usize);

@@ -54,6 +54,7 @@ pub struct RigNode {
 
 /// Where a node stands in its parent.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum NodeTransform {
     /// As a matrix, which cannot be animated.
     Matrix(DAffine3),
@@ -71,7 +72,7 @@ pub enum NodeTransform {
 impl NodeTransform {
     /// The transform that takes the node's own coordinates to its parent's.
     #[must_use]
-    pub fn parent_from_node(&self) -> DAffine3 {
+    pub(crate) fn parent_from_node(&self) -> DAffine3 {
         match *self {
             Self::Matrix(matrix) => matrix,
             Self::Parts { translation, rotation, scale } => {
@@ -137,7 +138,7 @@ pub struct Pose {
 impl Rig {
     /// Whether anything but rigid nodes moves the vertices.
     #[must_use]
-    pub fn bends(&self) -> bool {
+    pub(crate) fn bends(&self) -> bool {
         self.parts.iter().any(|part| part.skin != NONE || !part.targets.is_empty())
     }
 
@@ -190,7 +191,7 @@ impl Rig {
 
     /// What takes a vertex of `part` to world coordinates.
     #[must_use]
-    pub fn vertex_transform(&self, pose: &Pose, part: &RigPart, vertex: u32) -> DAffine3 {
+    pub(crate) fn vertex_transform(&self, pose: &Pose, part: &RigPart, vertex: u32) -> DAffine3 {
         let influences = self.influences_of(vertex);
         if part.skin == NONE || influences.is_empty() {
             return pose.world_from_node[part.node as usize];
@@ -208,7 +209,7 @@ impl Rig {
 
     /// The influences of a vertex.
     #[must_use]
-    pub fn influences_of(&self, vertex: u32) -> &[Influence] {
+    fn influences_of(&self, vertex: u32) -> &[Influence] {
         let vertex = vertex as usize;
         let Some(&end) = self.influence_ends.get(vertex) else { return &[] };
         let start = vertex.checked_sub(1).map_or(0, |before| self.influence_ends[before]);

@@ -23,11 +23,9 @@
 //! faces. Rejected: joining the edges that meet at a vertex where they are just two;
 //! on rough meshes four and more meet at many vertices.
 
-use crate::edge_mesh::EdgeMesh;
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::face_edges::FaceEdges;
+use crate::edge_mesh::{EdgeFlags, EdgeMesh, FaceEdges};
 use crate::index::NONE;
-use crate::view::feature::{Line, LineBits};
+use crate::view::{Line, LineBits};
 
 /// What follows a contour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -6,8 +6,7 @@
 
 use glam::{Vec3, Vec4};
 
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::record::EdgeVertex;
+use crate::edge_mesh::{EdgeFlags, EdgeVertex};
 
 /// Equation 1 as the paper evaluates it, from one edge vertex alone.
 ///

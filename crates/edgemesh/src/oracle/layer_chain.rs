@@ -16,11 +16,9 @@
 //! same view always cuts it at the same place.
 
 use super::contour_chain::{Successor, successor};
-use crate::edge_mesh::EdgeMesh;
-use crate::edge_mesh::face_edges::FaceEdges;
-use crate::edge_mesh::static_links::StaticLinks;
+use crate::edge_mesh::{EdgeMesh, FaceEdges, StaticLinks};
 use crate::index::{NONE, to_u32};
-use crate::view::feature::{Line, LineBits};
+use crate::view::{Line, LineBits};
 
 /// An edge in the direction of its chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -140,12 +138,11 @@ mod tests {
 
     use super::*;
     use crate::build::{BuildOptions, build_edge_mesh};
-    use crate::edge_mesh::edge_flags::EdgeFlags;
-    use crate::edge_mesh::edge_words::edge_words;
-    use crate::line::class::{ClassTable, LineClass};
+    use crate::edge_mesh::{EdgeFlags, edge_words};
+    use crate::line::{ClassTable, LineClass};
     use crate::model::Model;
     use crate::report::Report;
-    use crate::view::feature_counts::classify_lines;
+    use crate::view::classify_lines;
 
     /// The chains of each class in a layer of its own.
     fn chains_of(

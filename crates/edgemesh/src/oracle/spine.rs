@@ -20,7 +20,7 @@
 
 use glam::{Vec2, Vec4};
 
-use crate::view::projection::to_pixels;
+use crate::view::to_pixels;
 
 /// An edge shorter than this on the screen, in pixels, has no direction; it is
 /// seen along its length and not drawn.
@@ -51,7 +51,7 @@ pub struct Spine {
 ///
 /// Returns the parameters of what is left, `t0 <= t1`, or `t0 > t1` if nothing is.
 #[must_use]
-pub fn clip_segment(c0: Vec4, c1: Vec4, band: Vec4) -> Vec2 {
+fn clip_segment(c0: Vec4, c1: Vec4, band: Vec4) -> Vec2 {
     let mut range = Vec2::new(0.0, 1.0);
     range = clip_by_plane(range, c0.w - c0.z, c1.w - c1.z);
     range = clip_by_plane(range, band.y * c0.w - c0.x, band.y * c1.w - c1.x);
@@ -129,7 +129,7 @@ pub fn screen_normal(clip: Vec4, normal_clip: Vec4, viewport_px: Vec2) -> Vec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::projection::{GUARD_BAND, WHOLE_BAND};
+    use crate::view::{GUARD_BAND, WHOLE_BAND};
 
     const VIEWPORT: Vec2 = Vec2::new(200.0, 100.0);
 

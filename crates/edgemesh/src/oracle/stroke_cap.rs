@@ -27,12 +27,12 @@ use std::cmp::Ordering;
 use glam::Vec2;
 
 use super::stroke_quad::stroke_sign;
-use crate::line::kind::DISK_STEPS;
+use crate::line::DISK_STEPS;
 
 /// The paper's corner number j for corner `i` (0 to 2): the triangle is walked
 /// backward where `outside` is -1, so that it always winds the same way.
 #[must_use]
-pub fn cap_corner(outside: f32, i: u32) -> u32 {
+pub(super) fn cap_corner(outside: f32, i: u32) -> u32 {
     if outside > 0.0 { i } else { 2 - i }
 }
 
@@ -42,7 +42,7 @@ pub fn cap_corner(outside: f32, i: u32) -> u32 {
 /// `reach_px` far: the width of a half quad, or half the width of a full one.
 /// Equation 4 with s0 and m0, Equation 5 with s1 and m1.
 #[must_use]
-pub fn stroke_cap(s: Vec2, p: Vec2, m: Vec2, outside: f32, reach_px: f32, j: u32) -> Vec2 {
+pub(super) fn stroke_cap(s: Vec2, p: Vec2, m: Vec2, outside: f32, reach_px: f32, j: u32) -> Vec2 {
     match j {
         0 => s,
         1 => s + p * (outside * reach_px),
@@ -53,7 +53,7 @@ pub fn stroke_cap(s: Vec2, p: Vec2, m: Vec2, outside: f32, reach_px: f32, j: u32
 /// Whether a cap fills a gap: whether `m`, turned to the side `outside`, leans out
 /// beyond the end of the quad. `forward` is +1 at the finish and -1 at the start.
 #[must_use]
-pub fn cap_fills_gap(p: Vec2, m: Vec2, outside: f32, forward: f32) -> bool {
+pub(super) fn cap_fills_gap(p: Vec2, m: Vec2, outside: f32, forward: f32) -> bool {
     let beyond = Vec2::new(p.y, -p.x) * forward;
     m.dot(beyond) * stroke_sign(m.dot(p)) * outside > 0.0
 }
@@ -65,7 +65,7 @@ pub fn cap_fills_gap(p: Vec2, m: Vec2, outside: f32, forward: f32) -> bool {
 /// are how far the quad reaches to each side; one of them is 0 for a half quad,
 /// which then has a quarter disk, enough for turns of up to 90 degrees.
 #[must_use]
-pub fn half_disk(p: Vec2, forward: f32, left_px: f32, right_px: f32, k: u32) -> Vec2 {
+pub(super) fn half_disk(p: Vec2, forward: f32, left_px: f32, right_px: f32, k: u32) -> Vec2 {
     #[expect(clippy::cast_precision_loss, reason = "at most DISK_STEPS")]
     let angle = std::f32::consts::PI * k as f32 / DISK_STEPS as f32;
     let beyond = Vec2::new(p.y, -p.x) * forward;

@@ -16,13 +16,13 @@
 
 use glam::Vec2;
 
-use crate::line::placement::Placement;
+use crate::line::Placement;
 
 /// How far the near side (the paper's corners 0 and 1) and the far side (2 and
 /// 3) of a stroke `width_px` wide lie from the spine along p, on the side
 /// `outside` (+1 is the side of p, -1 the other).
 #[must_use]
-pub fn quad_offsets(placement: Placement, outside: f32, width_px: f32) -> Vec2 {
+pub(super) fn quad_offsets(placement: Placement, outside: f32, width_px: f32) -> Vec2 {
     match placement {
         Placement::Centred | Placement::Automatic => Vec2::new(-0.5, 0.5) * width_px,
         Placement::Outside => Vec2::new(0.0, outside * width_px),
@@ -32,7 +32,7 @@ pub fn quad_offsets(placement: Placement, outside: f32, width_px: f32) -> Vec2 {
 
 /// The paper's sign: -1 for a negative argument and +1 for any other.
 #[must_use]
-pub fn stroke_sign(value: f32) -> f32 {
+pub(super) fn stroke_sign(value: f32) -> f32 {
     if value < 0.0 { -1.0 } else { 1.0 }
 }
 

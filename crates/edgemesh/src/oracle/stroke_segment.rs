@@ -36,10 +36,8 @@ use glam::{Vec2, Vec4};
 use super::spine::{MIN_LENGTH_PX, Spine, lerp, project_spine, screen_normal};
 use super::stroke_cap::{cap_fills_gap, stroke_cap};
 use super::stroke_quad::{quad_offsets, stroke_sign};
-use crate::line::kind::LineKind;
-use crate::line::placement::{Parameterization, Placement};
-use crate::view::feature::LineBits;
-use crate::view::projection::to_pixels;
+use crate::line::{LineKind, Parameterization, Placement};
+use crate::view::{LineBits, to_pixels};
 
 /// A narrow face that looks at the eye by no more than this cosine, 87 degrees
 /// off, is seen edge on and lifts no stroke.
@@ -304,7 +302,7 @@ fn in_front(middle: Vec4, apex: Vec4) -> Vec4 {
 /// it was there. Zero where the face falls away or lies on the other side, less
 /// where it is a narrow wall seen edge on (`facing`, see [`ClipEdge::facing`]).
 #[must_use]
-pub fn rise_toward_eye(
+fn rise_toward_eye(
     spine: &Spine,
     apex: Vec4,
     facing: f32,

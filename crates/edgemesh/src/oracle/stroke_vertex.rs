@@ -28,12 +28,11 @@ use super::stroke_quad::stroke_sign;
 use super::stroke_segment::{
     ClipEdge, Segment, StrokeShape, opacity_at, stroke_segment, stroke_u, width_at,
 };
-use crate::line::kind::{CAP_VERTICES, DISK_STEPS, DISK_VERTICES, LineKind};
-use crate::view::feature::LineBits;
+use crate::line::{CAP_VERTICES, DISK_STEPS, DISK_VERTICES, LineKind};
+use crate::view::LineBits;
 
-/// Where vertices go that must not be seen: behind the near plane, as in the
-/// paper's section 3.2.
-pub const BEHIND: Vec3 = Vec3::new(0.0, 0.0, -1.0);
+/// The position of culled vertices, behind the near plane (paper, section 3.2).
+const BEHIND: Vec3 = Vec3::new(0.0, 0.0, -1.0);
 
 /// So far outside of a contour nothing of its own surface is left, whatever sample
 /// of the pixel is asked; and one pixel more, by which the fill is pushed back, so
@@ -214,7 +213,7 @@ fn fin_height(clip: Vec4, shape: &StrokeShape) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::line::placement::{Parameterization, Placement};
+    use crate::line::{Parameterization, Placement};
 
     const SHAPE: StrokeShape = StrokeShape {
         viewport_px: Vec2::new(200.0, 100.0),
@@ -228,7 +227,7 @@ mod tests {
         placement: Placement::Automatic,
         parameterization: Parameterization::ObjectSpace,
         is_world_width: false,
-        guard_band: crate::view::projection::WHOLE_BAND,
+        guard_band: crate::view::WHOLE_BAND,
     };
 
     fn edge() -> ClipEdge {
@@ -263,12 +262,12 @@ mod tests {
         assert_eq!(rim(&mirrored, LineBits::CONTOUR), [40.0, -4.0]);
         let inside = StrokeShape { placement: Placement::Inside, ..SHAPE };
         assert_eq!(rim(&inside, LineBits::CONTOUR), [40.0, -4.0]);
-        let centred = StrokeShape { placement: Placement::Centred, ..SHAPE };
-        assert_eq!(rim(&centred, LineBits::CONTOUR), [40.0, 2.0]);
+        let centered = StrokeShape { placement: Placement::Centred, ..SHAPE };
+        assert_eq!(rim(&centered, LineBits::CONTOUR), [40.0, 2.0]);
     }
 
     #[test]
-    fn a_crease_is_centred_and_its_brush_starts_at_r() {
+    fn a_crease_is_centered_and_its_brush_starts_at_r() {
         let corners = [0, 1, 2, 3].map(|corner| vertex(&SHAPE, LineBits::empty(), corner));
         assert_eq!(corners.map(pixels), [[0., -2.], [40., -2.], [40., 2.], [0., 2.]]);
         // The normal points up: the upper rim is the outside, v = 0.

@@ -10,9 +10,8 @@
 
 use glam::{Vec3, Vec4};
 
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::edge_word::{EdgeWord, STEPS_PER_DEGREE};
-use crate::line::class::{ClassTable, LineClass, NO_LAYER};
+use crate::edge_mesh::{EdgeFlags, EdgeWord, STEPS_PER_DEGREE};
+use crate::line::{ClassTable, LineClass, NO_LAYER};
 
 bitflags::bitflags! {
     /// What a view says of an edge. The first three bits sit where the live list
@@ -61,7 +60,7 @@ pub struct Line {
 
 /// The bits of the classes that an edge is of in every view.
 #[must_use]
-pub fn static_classes(word: EdgeWord, table: &ClassTable) -> u32 {
+pub(crate) fn static_classes(word: EdgeWord, table: &ClassTable) -> u32 {
     let flags = word.flags();
     let is_crease = |steps: u32, is_concave: bool| {
         word.is_concave() == is_concave && word.crease_steps() >= steps

@@ -5,13 +5,9 @@ use std::ops::{Index, IndexMut};
 use glam::Vec4;
 use serde::{Serialize, Serializer};
 
-use crate::edge_mesh::EdgeMesh;
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::edge_word::EdgeWord;
-use crate::edge_mesh::edge_words::edge_words;
-use crate::edge_mesh::record::EdgeRecord;
+use crate::edge_mesh::{EdgeFlags, EdgeMesh, EdgeRecord, EdgeWord, edge_words};
 use crate::index::NONE;
-use crate::line::class::{ClassTable, LineClass};
+use crate::line::{ClassTable, LineClass};
 use crate::view::facing::faces_eye;
 use crate::view::feature::{EdgeFaces, Line, LineBits, classify_edge, eye_is_outside};
 
@@ -21,8 +17,8 @@ use crate::view::feature::{EdgeFaces, Line, LineBits, classify_edge, eye_is_outs
 pub struct FeatureCounts(pub [u32; LineClass::COUNT]);
 
 impl FeatureCounts {
-    /// The classes in the order of reports.
-    pub const IN_REPORTS: [LineClass; LineClass::COUNT] = [
+    /// The classes in the order of JSON.
+    pub(crate) const IN_REPORTS: [LineClass; LineClass::COUNT] = [
         LineClass::Contour,
         LineClass::Ridge,
         LineClass::Valley,

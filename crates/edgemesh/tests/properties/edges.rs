@@ -3,14 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use edgemesh::build::BuildOptions;
-use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_mesh::edge_flags::EdgeFlags;
-use edgemesh::edge_mesh::record::EdgeRecord;
-use edgemesh::edge_mesh::replicate::replicate;
-use edgemesh::edge_mesh::topology::EdgeCounts;
+use edgemesh::edge_mesh::{EdgeCounts, EdgeFlags, EdgeMesh, EdgeRecord, replicate};
 use edgemesh::index::NONE;
 use edgemesh::report::{RepairKind, WarningCode};
-use edgemesh::view::{feature, feature_counts};
+use edgemesh::view::{LineBits, classify_edges};
 use proptest::prelude::*;
 
 use crate::config;
@@ -229,7 +225,7 @@ proptest! {
             ])), "{:?}", vertex);
             prop_assert!((0.0..1.0).contains(&vertex.r), "{:?}", vertex);
         }
-        let bits = feature_counts::classify_edges(&built, eye.into());
+        let bits = classify_edges(&built, eye.into());
         prop_assert_eq!(bits.len(), built.records.len());
     }
 
@@ -267,8 +263,8 @@ fn reordered(mesh: &Mesh, seed: u64) -> Mesh {
 
 /// The flags of each edge and whether it is a contour, by its ends.
 fn classes(mesh: &EdgeMesh, eye: [f32; 4]) -> BTreeMap<(Place, Place), (EdgeFlags, bool)> {
-    let bits = feature_counts::classify_edges(mesh, eye.into());
-    let is_contour = |bits: feature::LineBits| bits.contains(feature::LineBits::CONTOUR);
+    let bits = classify_edges(mesh, eye.into());
+    let is_contour = |bits: LineBits| bits.contains(LineBits::CONTOUR);
     mesh.records
         .iter()
         .zip(bits)

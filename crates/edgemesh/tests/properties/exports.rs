@@ -7,15 +7,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_mesh::edge_flags::{EdgeFlags, class_names};
+use edgemesh::edge_mesh::{EdgeFlags, EdgeMesh, class_names};
 use edgemesh::format::export::{ExportFormat, to_bytes};
 use edgemesh::format::read::{Format, read_model_bytes};
 use edgemesh::index::NONE;
 use edgemesh::model::{Attributes, Model, Segment};
 use edgemesh::report::Report;
-use edgemesh::view::feature::LineBits;
-use edgemesh::view::feature_counts::classify_edges;
+use edgemesh::view::{LineBits, classify_edges};
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 use serde_json::Value;
@@ -351,6 +349,7 @@ fn positions_in(bytes: &[u8], format: ExportFormat) -> Vec<[f64; 3]> {
             let json: Value = serde_json::from_slice(bytes).unwrap();
             serde_json::from_value(json["positions"].clone()).unwrap()
         }
+        other => panic!("{other:?} has no reader here"),
     }
 }
 

@@ -4,15 +4,10 @@
 use std::collections::BTreeMap;
 
 use edgemesh::build::BuildOptions;
-use edgemesh::edge_mesh::edge_flags::EdgeFlags;
-use edgemesh::edge_mesh::record::EdgeRecord;
-use edgemesh::edge_mesh::replicate::replicate;
-use edgemesh::edge_mesh::{Bounds, EdgeMesh};
+use edgemesh::edge_mesh::{Bounds, EdgeFlags, EdgeMesh, EdgeRecord, replicate};
 use edgemesh::index::NONE;
 use edgemesh::oracle::equation_1::equation_1;
-use edgemesh::view::camera::Camera;
-use edgemesh::view::feature::LineBits;
-use edgemesh::view::feature_counts::classify_edges;
+use edgemesh::view::{Camera, LineBits, classify_edges};
 use glam::{DVec3, Vec3, Vec4};
 use proptest::prelude::*;
 
@@ -128,7 +123,7 @@ proptest! {
     }
 
     #[test]
-    fn solid_edges_are_those_of_closed_components_that_look_outwards(
+    fn solid_edges_are_those_of_closed_components_that_look_outward(
         (solid, hollow) in (closed_mesh(), closed_mesh()),
         sheet in oriented_mesh().prop_map(|mesh| mesh.triangulated().without_face(0)),
     ) {

@@ -25,8 +25,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh::index::to_u32;
-use edgemesh::line::class::ClassTable;
-use edgemesh::line::kind::LineKind;
+use edgemesh::line::{ClassTable, LineKind};
 use edgemesh_shaders::ShaderError;
 use wgpu::{CompareFunction, StencilFaceState, StencilOperation};
 

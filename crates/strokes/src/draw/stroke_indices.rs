@@ -1,6 +1,6 @@
 //! Index buffers of strokes, which all meshes share.
 
-use edgemesh::line::kind::LineKind;
+use edgemesh::line::LineKind;
 use wgpu::util::DeviceExt as _;
 
 /// Index buffers that all meshes share.

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use edgemesh::view::camera::View;
+use edgemesh::view::View;
 use edgemesh_shaders::ShaderError;
 
 use crate::draw::targets::Targets;

@@ -12,7 +12,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh::index::to_u32;
-use edgemesh::line::class::ClassTable;
+use edgemesh::line::ClassTable;
 use edgemesh_shaders::ShaderError;
 use wgpu::ShaderStages;
 

@@ -1,12 +1,9 @@
 //! What one view needs, the same for every pass, and what it makes of one object.
 
 use bytemuck::{Pod, Zeroable};
-use edgemesh::edge_mesh::Bounds;
-use edgemesh::edge_mesh::replicate::Quantization;
+use edgemesh::edge_mesh::{Bounds, Quantization};
 use edgemesh::index::to_u32;
-use edgemesh::view::camera::View;
-use edgemesh::view::feature::eye_is_outside;
-use edgemesh::view::projection::to_pixels;
+use edgemesh::view::{View, eye_is_outside, to_pixels};
 use glam::{DMat3, DMat4, Mat4, Vec4};
 
 use crate::gpu::bind::{bind_buffers, uniform_buffer, uniform_entry};
@@ -268,7 +265,7 @@ impl FrameBinding {
 
 #[cfg(test)]
 mod tests {
-    use edgemesh::view::camera::Camera;
+    use edgemesh::view::Camera;
     use glam::DVec3;
     use glam::dcamera::rh::proj::directx;
     use glam::dcamera::rh::view::look_to_mat4;

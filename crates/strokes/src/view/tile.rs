@@ -6,8 +6,7 @@
 //! clipped where the whole picture would clip them, so that strokes begin, end and count
 //! their length alike in all parts.
 
-use edgemesh::view::camera::View;
-use edgemesh::view::projection::GUARD_BAND;
+use edgemesh::view::{GUARD_BAND, View};
 use glam::{DMat4, DVec2, Vec2};
 
 /// A part of a picture, or the whole.
@@ -78,8 +77,7 @@ impl Tile {
 #[cfg(test)]
 mod tests {
     use edgemesh::edge_mesh::Bounds;
-    use edgemesh::view::camera::Camera;
-    use edgemesh::view::projection::to_pixels;
+    use edgemesh::view::{Camera, to_pixels};
     use glam::Vec4;
 
     use super::*;

@@ -36,7 +36,7 @@ mod stroke_style;
 pub mod surface;
 pub(crate) mod textures;
 
-use edgemesh::view::camera::View;
+use edgemesh::view::View;
 use strokes::draw::targets::Targets;
 use strokes::gpu::device::Gpu;
 use strokes::gpu::timer::TimedPasses;

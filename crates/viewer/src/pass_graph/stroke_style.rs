@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 
 use edgemesh::edge_mesh::MeshFrame;
-use edgemesh::line::class::LineClass;
-use edgemesh::line::kind::LineKind;
+use edgemesh::line::{LineClass, LineKind};
 use strokes::style::brush::Brush;
 use strokes::style::drawing_style::{DrawingStyle, Layer, StrokeStyle, Width};
 use strokes::style::link_style::{End, LinkStyle};

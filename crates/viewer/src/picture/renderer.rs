@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use edgemesh::edge_mesh::{Bounds, MeshFrame};
-use edgemesh::view::camera::{Camera, View};
+use edgemesh::view::{Camera, View};
 use image::RgbaImage;
 use strokes::draw::targets::Targets;
 use strokes::gpu::device::{Gpu, ResourceError};

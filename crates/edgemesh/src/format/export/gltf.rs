@@ -30,8 +30,7 @@ use serde_json::{Value, json};
 
 use super::edge_visibility::{ClassRun, EdgeVisibility, LineStrings};
 use super::lines::LineFormatter;
-use crate::edge_mesh::edge_flags::class_names;
-use crate::edge_mesh::{Bounds, EdgeMesh, MeshFrame};
+use crate::edge_mesh::{Bounds, EdgeMesh, MeshFrame, class_names};
 use crate::index::NONE;
 
 const EXTENSION: &str = "EXT_mesh_primitive_edge_visibility";

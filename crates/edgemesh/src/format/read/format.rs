@@ -5,6 +5,7 @@ use std::path::Path;
 
 /// A model format that is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Format {
     /// Wavefront OBJ, with materials from MTL files beside it.
     Obj,

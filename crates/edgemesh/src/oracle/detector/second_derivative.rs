@@ -10,7 +10,7 @@ use super::{CROSS, INTENSITY, Image, Texel};
 /// Equation 3.6 at so many texels from the middle; `sigma` is the standard deviation of
 /// the Gaussian in texels.
 #[must_use]
-pub fn weight(x: f32, y: f32, sigma: f32) -> f32 {
+fn weight(x: f32, y: f32, sigma: f32) -> f32 {
     let sigma_2 = sigma * sigma;
     let part = (x * x + y * y) / (2.0 * sigma_2);
     -(1.0 - part) * (-part).exp() / (PI * sigma_2 * sigma_2)

@@ -1,6 +1,6 @@
 //! The variables of `strokes`.
 
-use edgemesh::line::placement::{Parameterization, Placement};
+use edgemesh::line::{Parameterization, Placement};
 use strokes::style::link_style::{BrushFit, CURVE_LENGTH, Join};
 
 use super::curve::parse_curve;

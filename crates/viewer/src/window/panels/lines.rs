@@ -1,6 +1,6 @@
 //! The classes of lines: on and off, with their counts, and what they look like.
 
-use edgemesh::line::class::LineClass;
+use edgemesh::line::LineClass;
 use egui::{Grid, Ui};
 
 use super::bar::grouped;

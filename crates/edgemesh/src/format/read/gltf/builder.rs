@@ -31,8 +31,7 @@ use super::texture::PictureCache;
 use super::topology::{Shapes, shapes};
 use super::vertices::{VertexAttributes, positions};
 use crate::index::{NONE, to_u32};
-use crate::model::rig::{Pose, Rig, RigPart};
-use crate::model::{Attributes, Corner, Model, Segment, Smoothing};
+use crate::model::{Attributes, Corner, Model, Pose, Rig, RigPart, Segment, Smoothing};
 use crate::report::{Place, Report, WarningCode};
 
 /// A model and its rig, to which nodes are added.
