@@ -1,4 +1,4 @@
-//! What the fuzz targets share: `cargo +nightly fuzz run obj FOUND SEEDS`.
+//! Shared parts of the fuzz targets: `cargo +nightly fuzz run obj FOUND SEEDS`.
 //!
 //! `FOUND` is a folder for inputs that reach new code, `SEEDS` one with files of
 //! the format. An input that ends a run becomes a test of its reader.
@@ -12,7 +12,7 @@ use edgemesh::view::{Camera, count_features};
 /// Reads a model and, where that succeeds, builds and uses its edge mesh.
 ///
 /// # Panics
-/// Where the reader has panicked, which it turns into an error.
+/// Panics if the reader panicked, which `read_model_bytes` reports as an error.
 pub fn read_and_build(bytes: &[u8], format: Format) {
     match read_model_bytes("fuzz", bytes, format) {
         Ok((model, mut report)) => {
@@ -22,7 +22,7 @@ pub fn read_and_build(bytes: &[u8], format: Format) {
     }
 }
 
-/// Asks an edge mesh for all that others ask it for.
+/// Counts the features of an edge mesh and writes its replicated layouts.
 pub fn use_mesh(mesh: &EdgeMesh) {
     let eye = Camera::default_view(&mesh.bounds).view(&mesh.bounds, 1.0).eye;
     let counts = count_features(mesh, eye);

@@ -1,16 +1,16 @@
-//! What the preprocessor costs: `cargo bench -p edgemesh`.
+//! Benches of the preprocessor: `cargo bench -p edgemesh`.
 //!
-//! - `read`: an OBJ file on disk to a model, in bytes a second.
+//! - `read`: an OBJ file on disk to a model, in bytes per second.
 //! - `topology`: triangles to a table of edges.
 //! - `build`: a model to its complete edge mesh, without the fill.
 //! - `whole`: an OBJ file on disk to its complete edge mesh.
-//! - `fill`: the same with the fill, as shading needs it.
+//! - `fill`: as `build`, with the fill that shading needs.
 //! - `features`: the feature edges of a view on the CPU.
 //! - `write` and `load`: an edge mesh to the bytes of its file and back.
 //!
-//! The group is the stage, the parameter the number of triangles. The meshes
-//! are bumpy spheres made here; `EDGEMESH_BENCH_MODELS` names other OBJ files,
-//! with colons between them, as `cargo xtask mesh` makes them.
+//! The group is the stage, the parameter the number of triangles. The meshes are generated bumpy
+//! spheres; `EDGEMESH_BENCH_MODELS` lists further OBJ files, separated by colons, such as those of
+//! `cargo xtask mesh`.
 
 #![expect(clippy::unwrap_used, reason = "a bench fails by panicking")]
 

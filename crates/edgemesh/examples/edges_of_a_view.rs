@@ -1,6 +1,6 @@
-//! Prints the feature edges of a view, without a GPU: the class of each and both ends in
-//! pixels from the middle of the picture, y up. Hidden edges are among them, except those that
-//! their own solid hides.
+//! Prints the feature edges of a view without a GPU: the class and both ends of each edge, in
+//! pixels from the middle of the picture, y up. Hidden edges are included, except those that their
+//! own solid hides.
 //!
 //! ```sh
 //! cargo run -p edgemesh --example edges_of_a_view -- part.obj

@@ -1,6 +1,5 @@
-//! Edges that the artist chose: lines in the file, and pairs of vertices from a
-//! side file. A line that runs along no edge of the mesh is kept as a record of
-//! its own, without faces.
+//! Marked edges: lines of the model, and pairs of vertices from a side file. A line that is not an
+//! edge of the mesh becomes a record without faces.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +9,7 @@ use crate::index::{NONE, to_u32};
 use crate::model::Model;
 use crate::report::{Place, Report, WarningCode};
 
-/// The marked edges of a mesh.
+/// The marked and suppressed edges of a mesh.
 #[derive(Debug, Default)]
 pub(crate) struct Marks {
     /// Numbers of edges of the table, ascending.
@@ -22,8 +21,8 @@ pub(crate) struct Marks {
 }
 
 impl Marks {
-    /// Finds the edges of the model's lines, and of the pairs of its vertices that a side
-    /// file marks, without those that it does not want marked.
+    /// Finds the edges of the lines of the model and of the marks in `options`, without those that
+    /// `options` unmarks.
     pub(crate) fn find(
         model: &Model,
         options: &BuildOptions,
@@ -48,7 +47,7 @@ impl Marks {
                 Some(edge) => marks.marked.push(to_u32(edge)),
                 None => report.warn(WarningCode::Mark, Some(Place::Vertex(u64::from(pair[0]) + 1)), || {
                     let [a, b] = pair.map(|vertex| u64::from(vertex) + 1);
-                    format!("vertices {a} and {b} are marked but share no edge; the mark is left out")
+                    format!("vertices {a} and {b} are marked but share no edge; the mark was left out")
                 }),
             }
         }
@@ -85,7 +84,7 @@ impl Marks {
         !self.suppressed.is_empty() && self.suppressed.binary_search(&to_u32(edge)).is_ok()
     }
 
-    /// Records of the lines that are no edge of the mesh.
+    /// Records of the lines that are not edges of the mesh.
     pub(crate) fn loose_records(&self) -> impl Iterator<Item = EdgeRecord> {
         self.loose.iter().map(|&[v0, v1]| EdgeRecord {
             v0,

@@ -18,7 +18,7 @@ use crate::load::LoadedMesh;
 use crate::report::{RepairKind, Report, place_in};
 use crate::view::{FeatureCounts, count_features};
 
-/// Prints counts of a model: vertices, edges, what is broken, feature edges
+/// Prints counts of a model: vertices, edges, defects, feature edges
 #[derive(Debug, Clone, Args)]
 #[command(after_help = "Examples:\n  \
     edgemesh info bunny.obj\n  \
@@ -29,13 +29,13 @@ pub struct InfoCommand {
     /// Models (OBJ, PLY, STL, glTF, VRML) or edge meshes; - is standard input
     #[arg(value_name = "MODEL", required = true)]
     pub models: Vec<PathBuf>,
-    /// Print JSON: an object, or an array of them where there are several models
+    /// Print JSON: an object, or an array of objects for several models
     #[arg(long)]
     pub json: bool,
-    /// How the input is read
+    /// Arguments for reading the input
     #[command(flatten)]
     pub input: InputArguments,
-    /// The view that contours are counted in
+    /// View in which contours are counted
     #[command(flatten)]
     pub camera: CameraArguments,
 }
@@ -44,8 +44,8 @@ impl InfoCommand {
     /// Reads, builds, counts and prints.
     ///
     /// # Errors
-    /// Where a model cannot be read, the camera is wrong, or standard output
-    /// cannot be written; nothing is printed then.
+    /// Fails without output if a model cannot be read, the camera is wrong, or standard output
+    /// cannot be written.
     pub fn run(&self, is_quiet: bool) -> Result<(), Failure> {
         let infos: Vec<Info> = self
             .models
@@ -68,13 +68,13 @@ impl InfoCommand {
 
     fn info_of(&self, loaded: &LoadedMesh) -> Result<Info, Failure> {
         let LoadedMesh { name, mesh, report, .. } = loaded;
-        // The aspect does not matter for the eye.
+        // The eye does not depend on the aspect ratio.
         let eye = self.camera.camera(&mesh.bounds, &mesh.frame)?.view(&mesh.bounds, 1.0).eye;
         Ok(Info::of(name, mesh, report, count_features(mesh, eye)))
     }
 }
 
-/// What `info --json` prints; scripts rely on the keys.
+/// The output of `info --json`; scripts rely on the keys.
 #[derive(Debug, Clone, Serialize)]
 struct Info {
     file: String,
@@ -101,7 +101,7 @@ struct Info {
     features: FeatureCounts,
 }
 
-/// The box in the units of the file.
+/// The bounds in the units of the file.
 #[derive(Debug, Clone, Serialize)]
 struct BoundsInfo {
     min: [f64; 3],
@@ -112,7 +112,7 @@ impl BoundsInfo {
     fn of(mesh: &EdgeMesh) -> Self {
         let [min, max] = [mesh.bounds.min, mesh.bounds.max].map(|corner| {
             if mesh.frame.is_identity() {
-                // The decimal digits of 32 bits, not those of 64.
+                // Prints the shortest digits of the 32-bit number, not those of its 64-bit value.
                 corner.map(|x| x.to_string().parse().unwrap_or(f64::from(x)))
             } else {
                 mesh.frame.to_file(Vec3::from(corner).as_dvec3()).to_array()
@@ -122,19 +122,23 @@ impl BoundsInfo {
     }
 }
 
-/// Where the mesh lies in its file: `in_mesh = (in_file - origin) * scale`.
+/// The frame of the mesh: `in_mesh = (in_file - origin) * scale`.
 #[derive(Debug, Clone, Serialize)]
 struct FrameInfo {
     origin: [f64; 3],
     scale: f64,
 }
 
-/// Bytes of the mesh that goes in, and of the edge mesh in each layout.
+/// Bytes of the input mesh, and of the edge mesh in each layout.
 #[derive(Debug, Clone, Serialize)]
 struct BytesInfo {
+    /// 24 bytes a vertex (position and normal), 12 a triangle.
     input: usize,
+    /// Positions, normals, triangles, and 20 bytes an edge record.
     indexed: usize,
+    /// Four edge vertices of 80 bytes an edge.
     replicated_f32: usize,
+    /// Four edge vertices of 40 bytes an edge: 37 bytes, padded.
     replicated_i16: usize,
 }
 
@@ -159,7 +163,7 @@ struct ChainsInfo {
     count: usize,
     loops: usize,
     edges: usize,
-    /// Edges of the longest one.
+    /// Edges of the longest chain.
     longest: u32,
 }
 
@@ -185,7 +189,7 @@ struct RepairsInfo {
     recentred: usize,
 }
 
-/// A repair as `--json` prints it.
+/// A repair in the output of `--json`.
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct RepairInfo {
     pub(super) kind: &'static str,
@@ -195,7 +199,7 @@ pub(super) struct RepairInfo {
     pub(super) place: String,
 }
 
-/// A warning as `--json` prints it.
+/// A warning in the output of `--json`.
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct WarningInfo {
     pub(super) code: &'static str,
@@ -279,7 +283,7 @@ impl Info {
         text
     }
 
-    /// The layouts with their sizes over that of the mesh that goes in.
+    /// Writes the size of each layout, and its ratio to that of the input.
     fn write_bytes(&self, text: &mut String) {
         #[expect(clippy::cast_precision_loss, reason = "two digits are shown")]
         let ratio = |bytes: usize| bytes as f64 / self.bytes.input.max(1) as f64;

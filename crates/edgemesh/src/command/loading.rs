@@ -1,4 +1,4 @@
-//! Loading, with the stages on the terminal.
+//! Loads inputs and shows the stages on the terminal.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use super::progress::TerminalProgress;
 use crate::arguments::InputArguments;
 use crate::load::{LoadError, LoadOptions, LoadedMesh, load};
 
-/// Loads one input of a verb; `with_fill` is for verbs that keep what shading needs.
+/// Loads one input of a verb; `with_fill` builds the fill, for verbs that write it.
 ///
 /// # Errors
 /// As [`load`].

@@ -1,5 +1,6 @@
-//! The verbs of `edgemesh`, and what they share with `viewer`: exit statuses, messages,
-//! output.
+//! The verbs of `edgemesh`, and the exit statuses, messages and output that `viewer` shares.
+//!
+//! Part of the two programs and hidden from the documentation; not meant for others.
 //!
 //! Results go to standard output, messages to standard error. A message says what is wrong,
 //! where, and what to do. The library's errors become messages and exit statuses in

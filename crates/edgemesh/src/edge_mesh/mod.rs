@@ -1,13 +1,13 @@
-//! The edge mesh: what the preprocessor makes and the GPU draws.
+//! The edge mesh: built from a model, drawn by the GPU.
 //!
-//! - [`mesh`]: the mesh with all of its records, chains and triangles.
-//! - [`record`], [`replicate`]: an edge in each of the layouts.
-//! - [`edge_flags`]: the classes of an edge.
-//! - [`edge_word`], [`edge_words`]: the classes and the angle of the crease, in 24 bits, of an
-//!   edge and of all edges.
-//! - [`topology`], [`face_edges`], [`static_links`]: which face, edge or line follows which.
-//! - [`normal_cone`]: faces that all look one way.
-//! - [`mesh_frame`]: where the mesh lies in its file.
+//! - [`EdgeMesh`]: the mesh with its records, chains and triangles.
+//! - [`EdgeRecord`], [`EdgeVertex`], [`EdgeVertex16`], [`FinVertex`]: an edge in each layout;
+//!   [`replicate`], [`replicate_16`] and [`fins`] write the layouts that repeat vertices.
+//! - [`EdgeFlags`]: the classes of an edge. [`EdgeWord`]: these and the crease angle in 24 bits.
+//! - [`EdgeTable`], [`FaceEdges`], [`StaticLinks`]: which sides share an edge, which edges bound a
+//!   face, which edge follows which in a chain.
+//! - [`NormalCone`]: bounds of faces that all look one way.
+//! - [`MeshFrame`]: origin and scale of the mesh in its file.
 
 mod edge_flags;
 mod edge_word;

@@ -1,8 +1,4 @@
-//! Lines: their classes, what is drawn along them, and where it lies.
-//!
-//! - [`class`]: contours, creases and the others, and which of them a drawing has.
-//! - [`kind`]: thin lines, quads with their ends, fins.
-//! - [`placement`]: inside, outside or centred, and how a brush lies along a stroke.
+//! Lines: their classes, the shapes drawn along them, and where these lie.
 
 mod class;
 mod kind;

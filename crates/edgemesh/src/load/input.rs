@@ -1,4 +1,4 @@
-//! From files, or standard input, to edge meshes.
+//! Loads files, or standard input, as edge meshes.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -18,17 +18,17 @@ use crate::format::read::{Format, read_model_as, read_model_stream};
 use crate::model::Model;
 use crate::report::Report;
 
-/// The path that stands for the embedded model, a torus knot.
+/// The path of the embedded model, a torus knot.
 pub const DEMO: &str = "demo:";
 
-/// The path that stands for standard input.
+/// The path of standard input.
 pub const STANDARD_INPUT: &str = "-";
 
 const DEMO_MODEL: &[u8] = include_bytes!("../../../../models/torus_knot.obj");
 
 /// An input before it is built.
 enum Input {
-    /// With its file, if it comes from one.
+    /// With its path, if it comes from a file.
     Model(Box<Model>, Report, Option<PathBuf>),
     Stored(Box<EdgeMesh>, String, Report),
 }
@@ -37,24 +37,24 @@ enum Input {
 /// [`STANDARD_INPUT`].
 ///
 /// # Errors
-/// [`LoadError`], if the input or its marks cannot be read, an option does not apply to it,
-/// there is a warning and the options are strict, or `progress` cancels.
+/// Fails if the input or its marks cannot be read, if an option does not apply to it, if strict
+/// options meet a warning, or if `progress` cancels.
 pub fn load(
     path: &Path,
     options: &LoadOptions,
     progress: &dyn Progress,
 ) -> Result<LoadedMesh, LoadError> {
-    // Marks that are wrong are reported before a long read.
+    // Malformed marks are reported before a long read.
     let build = options.build_options(given_marks(options)?);
     let input = read(path, options, progress)?;
     finish(input, options, &build, progress)
 }
 
-/// Reads several inputs that lie in one scene, in one frame: that of all of them, unless
-/// `keeps_coordinates` asks for the numbers of the files.
+/// Loads the inputs of one scene with a common frame. It fits all of them, or is the identity if
+/// `keeps_coordinates`, so that the meshes have the numbers of their files.
 ///
 /// # Errors
-/// As [`load`], for the first one that fails.
+/// As [`load`], for the first input that fails.
 pub fn load_scene(
     paths: &[PathBuf],
     options: &LoadOptions,
@@ -161,10 +161,10 @@ fn unreadable(path: &Path, reason: io::Error) -> LoadError {
     LoadError::Io { path: path.to_owned(), reason }
 }
 
-/// The bytes of an edge mesh: those of its stated length and one more, by which one that
-/// goes on is known; of anything else only the header.
+/// Reads an edge mesh up to its stated length and one byte more, which reveals excess bytes; reads
+/// only the header of anything else.
 ///
-/// The memory grows with what is read, not with what is stated.
+/// Memory grows with the bytes read, not with the stated length.
 fn read_edge_mesh(mut stream: impl Read) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     stream.by_ref().take(HEADER_BYTES).read_to_end(&mut bytes)?;
@@ -175,7 +175,7 @@ fn read_edge_mesh(mut stream: impl Read) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The frame that all inputs share.
+/// The common frame of all inputs.
 fn frame_of(inputs: &[Input]) -> MeshFrame {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for input in inputs {
@@ -188,8 +188,8 @@ fn frame_of(inputs: &[Input]) -> MeshFrame {
     MeshFrame::of_box(low, high)
 }
 
-/// Whether the file at `path` begins as an edge mesh does. Pipes are not read, since what is
-/// read from them is gone.
+/// Whether the file at `path` begins like an edge mesh. Pipes are not read, because their bytes
+/// could not be read again.
 fn is_edge_mesh_file(path: &Path) -> bool {
     let is_file = path.metadata().is_ok_and(|metadata| metadata.is_file());
     let mut head = [0; 8];

@@ -1,5 +1,5 @@
-//! Loads models and edge meshes: reads a file, builds its edge mesh, takes the marks
-//! beside it.
+//! Loads models and edge meshes: reads a file, builds its edge mesh, and applies the marks beside
+//! it.
 //!
 //! ```text
 //!   model --read--> Model --build--> EdgeMesh + Report = LoadedMesh

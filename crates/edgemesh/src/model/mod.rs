@@ -1,8 +1,5 @@
-//! What a file says, before anything is made of it.
-//!
-//! - [`polygon_model`]: polygons, lines and their attributes.
-//! - [`material`]: materials and their textures.
-//! - [`rig`]: skins and morph targets.
+//! The content of a model file, before it is built: polygons and lines with their attributes,
+//! materials with their textures, and the rig (skins and morph targets).
 
 mod material;
 mod polygon_model;

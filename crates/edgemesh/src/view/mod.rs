@@ -1,10 +1,5 @@
-//! What one view makes of an edge mesh, on the CPU.
-//!
-//! - [`camera`]: the eye and the clip-space matrix, the same for every command.
-//! - [`projection`]: from clip space to pixels.
-//! - [`facing`]: which side of a face the eye is on.
-//! - [`feature`]: which edges are features of the view.
-//! - [`feature_counts`]: how many of each class there are.
+//! One view of an edge mesh, on the CPU: the camera, which faces look at the eye, and which edges
+//! are features.
 
 mod camera;
 mod facing;

@@ -1,4 +1,4 @@
-//! Edges counted again by plain maps, and what must not depend on order.
+//! Edges, counted again with plain maps, and independence of order.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -26,11 +26,11 @@ fn place(position: [f32; 3]) -> Place {
     position.map(key)
 }
 
-/// What a mesh of triangles is, worked out in the plainest way.
+/// A mesh of triangles, computed in the plainest way.
 struct Naive {
     /// Triangles with three different places.
     proper: Vec<[Place; 3]>,
-    /// Those without the ones that repeat another.
+    /// `proper` without triangles that repeat another.
     unique: Vec<[Place; 3]>,
     degenerate: usize,
     places: usize,
@@ -56,7 +56,7 @@ impl Naive {
     }
 }
 
-/// The same triangle, smallest corner first.
+/// The triangle with its smallest corner first.
 fn cyclic([a, b, c]: [Place; 3]) -> [Place; 3] {
     [[a, b, c], [b, c, a], [c, a, b]].into_iter().min().unwrap()
 }

@@ -1,6 +1,5 @@
-//! What is written reads back as the edge mesh that it is from: by the small
-//! reader of [`gltf_edges`](crate::gltf_edges), by the readers of this crate, and
-//! by a reader of JSON.
+//! Exported files give back their edge mesh: with the small reader of
+//! [`gltf_edges`](crate::gltf_edges), with the readers of this crate, and with a reader of JSON.
 
 #![expect(clippy::missing_assert_message, reason = "each compares a part of a file with the mesh")]
 
@@ -34,7 +33,7 @@ fn export(mesh: &EdgeMesh, format: ExportFormat) -> Vec<u8> {
     to_bytes(mesh, NAME, format).unwrap()
 }
 
-/// Meshes that differ in what their edges are.
+/// Meshes with edges of different kinds.
 fn samples() -> Vec<(&'static str, Model)> {
     let cube: Vec<[f32; 3]> =
         (0..8_u8).map(|k| [k & 1, k >> 1 & 1, k >> 2].map(f32::from)).collect();
@@ -113,14 +112,14 @@ fn hard_edges(mesh: &EdgeMesh) -> [BTreeMap<Edge, Vec<String>>; 2] {
     flags.map(|flags| flags.into_iter().map(|(edge, flags)| (edge, words(flags))).collect())
 }
 
-/// The unit normal of a face, worked out again.
+/// The unit normal of a face, computed again.
 fn normal(mesh: &EdgeMesh, face: u32) -> DVec3 {
     let [a, b, c] = mesh.triangles[face as usize]
         .map(|vertex| Vec3::from(mesh.positions[vertex as usize]).as_dvec3());
     (b - a).cross(c - a).normalize_or_zero()
 }
 
-/// Asserts that a file says of each edge what the mesh does.
+/// Asserts that a file describes each edge as the mesh does.
 fn check_gltf(mesh: &EdgeMesh, decoded: &DecodedFile) {
     let [hard, lines] = hard_edges(mesh);
     assert_eq!(decoded.name, NAME);
@@ -150,7 +149,7 @@ fn check_silhouettes(mesh: &EdgeMesh, decoded: &DecodedFile) {
         let sign = if record.flags.contains(EdgeFlags::CLASH) { -1.0 } else { 1.0 };
         let [a, b] = [normal(mesh, record.face_a), normal(mesh, record.face_b) * sign];
         if a == DVec3::ZERO || b == DVec3::ZERO {
-            continue; // The plane of a neighbour, or none.
+            continue; // The plane of a neighbor, or none.
         }
         match found {
             None => assert!(a.distance(b) < 2e-6, "{a} and {b} are not flat"),

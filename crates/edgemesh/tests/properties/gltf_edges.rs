@@ -1,8 +1,7 @@
-//! A small reader of glTF with `EXT_mesh_primitive_edge_visibility`, written
-//! from the two specifications and from nothing in the writer.
+//! A small reader of glTF with `EXT_mesh_primitive_edge_visibility`, written from the two
+//! specifications alone, not from the writer.
 //!
-//! It takes nothing for granted: each rule of the extension is asserted, so that
-//! a file which breaks one fails wherever it is read.
+//! It asserts each rule of the extension, so that a file that breaks one fails in every test.
 
 #![expect(clippy::missing_assert_message, reason = "each is a rule of the specifications")]
 
@@ -22,7 +21,7 @@ pub(crate) fn edge(ends: [[f32; 3]; 2]) -> Edge {
     [a.min(b), a.max(b)]
 }
 
-/// What a file says of its one mesh.
+/// The mesh of a file.
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct DecodedFile {
     pub(crate) name: String,
@@ -30,11 +29,11 @@ pub(crate) struct DecodedFile {
     pub(crate) positions: Vec<[f32; 3]>,
     pub(crate) normals: Vec<[f32; 3]>,
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// Lines that are no edge of a triangle.
+    /// Lines that are not edges of a triangle.
     pub(crate) lines: BTreeSet<Edge>,
     /// Hard edges with the words that `extras` have for them.
     pub(crate) hard: BTreeMap<Edge, Vec<String>>,
-    /// Those of them that are in line strings.
+    /// Hard edges in line strings.
     pub(crate) in_strings: BTreeSet<Edge>,
     /// Silhouette edges with two normals: of the triangle that lists the edge,
     /// and of the one across.

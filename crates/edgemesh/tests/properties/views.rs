@@ -1,5 +1,5 @@
-//! Contours and creases: what they must do under flips, scales and other eyes,
-//! and the paper's Equation 1 against the facing bits.
+//! Contours and creases under flips, scales and other eyes; Equation 1 of the paper against the
+//! facing bits.
 
 use std::collections::BTreeMap;
 
@@ -45,7 +45,7 @@ fn contours(mesh: &EdgeMesh, eye: Vec4) -> BTreeMap<Ends, bool> {
 struct Plane {
     normal: DVec3,
     point: DVec3,
-    /// How far 32 bits may turn the normal.
+    /// The largest angle by which 32 bits turn the normal, in radians.
     rounding: f64,
 }
 

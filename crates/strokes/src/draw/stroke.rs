@@ -55,9 +55,9 @@ pub struct StrokeUniform {
     pub brush_aspect: f32,
     /// A [`LineKind`].
     pub kind: u32,
-    /// A [`edgemesh::line::placement::Placement`].
+    /// A [`edgemesh::line::Placement`].
     pub placement: u32,
-    /// A [`edgemesh::line::placement::Parameterization`].
+    /// A [`edgemesh::line::Parameterization`].
     pub parameterization: u32,
     /// 1 where the width is in units of the world.
     pub is_world_width: u32,

@@ -54,10 +54,10 @@ pub struct StoredMesh<'a> {
     pub bounds: Bounds,
     /// As [`EdgeMesh::counts`].
     pub counts: MeshCounts,
-    /// The result of [`replicate`](crate::edge_mesh::replicate::replicate), if it is in
+    /// The result of [`replicate`](crate::edge_mesh::replicate), if it is in
     /// the file.
     pub replicated_f32: Option<Cow<'a, [EdgeVertex]>>,
-    /// The result of [`replicate_16`](crate::edge_mesh::replicate::replicate_16), if it is
+    /// The result of [`replicate_16`](crate::edge_mesh::replicate_16), if it is
     /// in the file.
     pub replicated_i16: Option<Cow<'a, [EdgeVertex16]>>,
     pub(super) report: Cow<'a, Report>,

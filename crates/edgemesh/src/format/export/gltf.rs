@@ -14,7 +14,7 @@
 //! ```
 //!
 //! The classes of hard edges, which the extension does not have, are in `extras`: runs of
-//! a count and the words of [`class_names`](crate::edge_mesh::edge_flags::class_names), in the
+//! a count and the words of [`class_names`](crate::edge_mesh::class_names), in the
 //! order of the edges. The extension is used but not required: a program without it shows
 //! the mesh without its edges.
 //!

@@ -38,7 +38,7 @@ impl Format {
         }
     }
 
-    /// The format's name in messages, such as `binary glTF`.
+    /// The name in messages, such as `binary glTF`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
