@@ -21,6 +21,8 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 use crate::index::NONE;
 
 /// The nodes of a file, and the vertices that follow them.
+///
+/// Methods panic if an index is out of range; rigs from a reader have none.
 #[derive(Debug, Clone, Default)]
 pub struct Rig {
     /// All nodes, in the order of the file.
