@@ -1,16 +1,16 @@
-//! What the preprocessor costs: `cargo bench -p edgemesh`.
+//! Benches of the preprocessor: `cargo bench -p edgemesh`.
 //!
-//! - `read`: an OBJ file on disk to a model, in bytes a second.
+//! - `read`: an OBJ file on disk to a model, in bytes per second.
 //! - `topology`: triangles to a table of edges.
 //! - `build`: a model to its complete edge mesh, without the fill.
 //! - `whole`: an OBJ file on disk to its complete edge mesh.
-//! - `fill`: the same with the fill, as shading needs it.
+//! - `fill`: as `build`, with the fill that shading needs.
 //! - `features`: the feature edges of a view on the CPU.
 //! - `write` and `load`: an edge mesh to the bytes of its file and back.
 //!
-//! The group is the stage, the parameter the number of triangles. The meshes
-//! are bumpy spheres made here; `EDGEMESH_BENCH_MODELS` names other OBJ files,
-//! with colons between them, as `cargo xtask mesh` makes them.
+//! The group is the stage, the parameter the number of triangles. The meshes are generated bumpy
+//! spheres; `EDGEMESH_BENCH_MODELS` lists further OBJ files, separated by colons, such as those of
+//! `cargo xtask mesh`.
 
 #![expect(clippy::unwrap_used, reason = "a bench fails by panicking")]
 
@@ -21,12 +21,11 @@ use std::path::{Path, PathBuf};
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::edge_mesh::topology::EdgeTable;
+use edgemesh::edge_mesh::EdgeTable;
 use edgemesh::format::edge_mesh_file;
 use edgemesh::format::read::read_model;
 use edgemesh::report::Report;
-use edgemesh::view::camera::Camera;
-use edgemesh::view::feature_counts::count_features;
+use edgemesh::view::{Camera, count_features};
 
 /// Rings of spheres of about 1e3, 1e4, 1e5 and 1e6 triangles.
 const SIZES: [u32; 4] = [16, 50, 158, 500];

@@ -1,18 +1,17 @@
-//! How often the paper's caps leave a gap (its Figure 5 and Appendix B).
+//! Counts how often the caps of the paper leave a gap (Figure 5 and Appendix B).
 //!
 //! ```sh
 //! cargo run --release -p edgemesh --example cap_gaps -- bunny.obj teapot.obj
 //! ```
 //!
-//! From 26 views around a model, every vertex where just two strokes of one class
-//! meet is a joint. On the outside of its bend lies the triangle between the two
-//! quads that caps are there to fill; points of it that neither the quads nor
-//! the caps of the two edges cover are a gap. A gap counts from a quarter of a
-//! pixel on, at four pixels of width on a picture of 1024. Strokes that the
-//! surface hides count as well: what a cap does depends on no depth.
+//! A joint is a vertex where exactly two strokes of a class meet, in any of 26 views around a
+//! model. Caps should fill the triangle between the two quads on the outside of the bend; the part
+//! of it that neither the quads nor the caps of the two edges cover is a gap. Gaps count from a
+//! quarter of a square pixel on, with strokes of four pixels in a picture of 1024. Hidden strokes
+//! count, too, because caps do not depend on depth.
 //!
-//! The curvature is that of the line in space: the angle by which it turns at the
-//! joint. One table a model, one line a class and curvature.
+//! The curvature is the angle by which the line turns in space at the joint. Each model has a
+//! table, with a row for each class and curvature.
 
 #![expect(clippy::unwrap_used, reason = "a tool for developers fails by panicking")]
 #![expect(clippy::print_stdout, reason = "the tables are its result")]
@@ -21,24 +20,18 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_mesh::edge_words::edge_words;
-use edgemesh::edge_mesh::record::EdgeRecord;
+use edgemesh::edge_mesh::{EdgeMesh, EdgeRecord, edge_words};
 use edgemesh::format::read::read_model;
-use edgemesh::line::class::{ClassTable, LineClass};
-use edgemesh::line::kind::LineKind;
-use edgemesh::line::placement::{Parameterization, Placement};
+use edgemesh::line::{ClassTable, LineClass, LineKind, Parameterization, Placement};
 use edgemesh::oracle::stroke_segment::{ClipEdge, Segment, StrokeShape, stroke_segment};
 use edgemesh::oracle::stroke_vertex::segment_vertex;
-use edgemesh::view::camera::{Camera, View};
-use edgemesh::view::feature::{Line, LineBits, eye_is_outside};
-use edgemesh::view::feature_counts::classify_lines;
+use edgemesh::view::{Camera, Line, LineBits, View, classify_lines, eye_is_outside};
 use glam::{DVec3, Vec2, Vec3};
 
 const SIZE_PX: f32 = 1024.0;
 const WIDTH_PX: f32 = 4.0;
 
-/// The smallest gap that counts, in square pixels.
+/// The area from which a gap counts, in square pixels.
 const GAP_PX: f32 = 0.25;
 
 /// Upper bounds of the turns, in degrees.
@@ -56,10 +49,10 @@ const SHAPE: StrokeShape = StrokeShape {
     placement: Placement::Automatic,
     parameterization: Parameterization::ObjectSpace,
     is_world_width: false,
-    guard_band: edgemesh::view::projection::WHOLE_BAND,
+    guard_band: edgemesh::view::WHOLE_BAND,
 };
 
-/// What was counted of one class and curvature.
+/// The counts of a class and curvature.
 #[derive(Debug, Clone, Copy, Default)]
 struct Count {
     joints: u32,
@@ -68,7 +61,7 @@ struct Count {
     area_px: f32,
 }
 
-/// A stroke as it is drawn.
+/// A drawn stroke.
 struct Stroke {
     segment: Segment,
     corners: [Vec2; 10],
@@ -110,7 +103,7 @@ impl Stroke {
             let side =
                 |from: Vec2, to: Vec2| (to - from).normalize_or_zero().perp_dot(point - from);
             let sides = [side(a, b), side(b, c), side(c, a)];
-            // A cap that is left out is three times the same corner.
+            // A cap that is left out repeats one corner.
             let has_area = (b - a).perp_dot(c - a) != 0.0;
             let is_within =
                 sides.iter().all(|side| *side >= -0.01) || sides.iter().all(|side| *side <= 0.01);
@@ -118,7 +111,7 @@ impl Stroke {
         })
     }
 
-    /// The joint's place, the direction away from it, and the two corners there.
+    /// The position of the joint, the direction away from it, and the two corners there.
     fn end(&self, at_start: bool) -> (Vec2, Vec2, [Vec2; 2]) {
         let spine = &self.segment.spine;
         if at_start {
@@ -134,7 +127,7 @@ fn gap_px(first: (&Stroke, bool), second: (&Stroke, bool)) -> f32 {
     let (joint, first_away, first_rims) = first.0.end(first.1);
     let (_, second_away, second_rims) = second.0.end(second.1);
     let bend = first_away.normalize_or_zero() + second_away.normalize_or_zero();
-    // The rims on the outside of the bend, those that point away from both.
+    // The rims on the outside of the bend point away from both strokes.
     let outer = |rims: [Vec2; 2]| {
         let off = |rim: &Vec2| (*rim - joint).dot(bend);
         rims.into_iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(joint)
@@ -158,7 +151,7 @@ fn gap_px(first: (&Stroke, bool), second: (&Stroke, bool)) -> f32 {
     area * open / all
 }
 
-/// Directions to the faces, edges and corners of a cube, turned a little.
+/// Directions to the faces, edges and corners of a slightly turned cube.
 fn directions() -> Vec<DVec3> {
     let step = |at: i32| f64::from(at % 3 - 1);
     let all = (0..27).map(|at| DVec3::new(step(at), step(at / 3), step(at / 9)));

@@ -1,6 +1,6 @@
-//! Prints the feature edges of a view, without a GPU: the class of each and both ends in
-//! pixels from the middle of the picture, y up. Hidden edges are among them, except those that
-//! their own solid hides.
+//! Prints the feature edges of a view without a GPU: the class and both ends of each edge, in
+//! pixels from the middle of the picture, y up. Hidden edges are included, except those that their
+//! own solid hides.
 //!
 //! ```sh
 //! cargo run -p edgemesh --example edges_of_a_view -- part.obj
@@ -8,9 +8,7 @@
 
 use std::error::Error;
 
-use edgemesh::view::feature::LineBits;
-use edgemesh::view::feature_counts::{classify_edges, count_features};
-use edgemesh::view::projection::to_pixels;
+use edgemesh::view::{LineBits, classify_edges, count_features, to_pixels};
 use edgemesh::{BuildOptions, Camera, LineClass, build_edge_mesh, read_model};
 use glam::{Vec2, Vec3};
 

@@ -1,17 +1,20 @@
-//! Indices are `u32` everywhere, because that is what the GPU reads.
+//! Indices are `u32` everywhere, because the GPU reads them so.
 //!
-//! A model with more corners than [`MAX_INDEX`] is refused when it is read, so
-//! every later count fits and the one narrowing cast of the crate is here.
+//! Readers refuse models with more corners than [`MAX_INDEX`], so every later count fits, and
+//! [`to_u32`] is the only narrowing cast of indices.
 
-/// Marks "no such element" in an index field.
+/// The value of an index field without an element.
 pub const NONE: u32 = u32::MAX;
 
-/// The largest index of a vertex, face, corner or edge: two bits stay free, and
-/// sums of two indices fit. (The live list of the GPU packs three bits beside an
-/// edge's index in its chunk, which has half as many edges at most.)
+/// The largest index of a vertex, face, corner or edge. Two bits stay free, and sums of two indices
+/// fit. (The live list of the GPU packs three bits beside the index of an edge within its chunk,
+/// which holds at most half as many edges.)
 pub const MAX_INDEX: usize = (1 << 30) - 1;
 
-/// Narrows an index or count that [`MAX_INDEX`] bounds.
+/// Narrows an index or count, at most [`MAX_INDEX`].
+///
+/// # Panics
+/// Panics in debug builds if `index` does not fit; other builds truncate it.
 #[must_use]
 #[expect(clippy::cast_possible_truncation, reason = "bounded by MAX_INDEX when the model is read")]
 pub const fn to_u32(index: usize) -> u32 {

@@ -1,22 +1,22 @@
-//! Turns a triangle mesh into an **edge mesh**: every undirected edge a record of its two
-//! vertices, its two faces and its classes, ready for the GPU to find the feature edges of any
-//! view.
+//! Turns a triangle mesh into an **edge mesh**: a record for every undirected edge, with its two
+//! vertices, its two faces and its classes. From these records a GPU finds the feature edges of
+//! any view.
 //!
 //! Based on M. McGuire and J. F. Hughes, *Hardware-Determined Feature Edges* (NPAR 2004),
 //! sections 1 to 3.
 //!
-//! The rooms, in the order in which an edge goes through them:
-//!
-//! | room | what is done there |
+//! | module | content |
 //! |---|---|
-//! | [`model`] | what a file says: polygons, materials, rigs |
-//! | [`format`](mod@format) | files in and out |
-//! | [`build`] | a model becomes an edge mesh, one stage per file |
+//! | [`load`] | reads a file and builds its edge mesh, in one call |
+//! | [`model`] | polygons, materials and rigs, as files have them |
+//! | [`format`](mod@format) | reads models, writes edge mesh files, exports |
+//! | [`build`] | builds the edge mesh of a model |
 //! | [`edge_mesh`] | the edge mesh, its records and layouts |
-//! | [`load`] | a file becomes an edge mesh in one call, with the marks beside it |
-//! | [`line`](mod@line) | line classes, kinds of lines, where they lie |
-//! | [`view`] | what one view makes of it: cameras, facing, features |
-//! | [`oracle`] | CPU twins of the shaders, which tests hold them to |
+//! | [`line`](mod@line) | line classes, kinds of lines, their placement |
+//! | [`view`] | cameras, facing and feature edges of one view |
+//! | [`report`] | warnings and repairs |
+//! | [`index`] | limits of indices |
+//! | [`oracle`] | CPU twins of the shaders |
 //!
 //! ```
 //! use edgemesh::{BuildOptions, Camera, LineClass, Model, Report, build_edge_mesh, count_features};
@@ -33,9 +33,11 @@
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 #[cfg(feature = "command")]
+#[doc(hidden)]
 pub mod arguments;
 pub mod build;
 #[cfg(feature = "command")]
+#[doc(hidden)]
 pub mod command;
 pub mod edge_mesh;
 pub mod format;
@@ -52,8 +54,7 @@ pub use glam;
 pub use self::build::{BuildOptions, build_edge_mesh};
 pub use self::edge_mesh::{Bounds, EdgeMesh};
 pub use self::format::read::{ReadError, read_model};
-pub use self::line::class::LineClass;
+pub use self::line::LineClass;
 pub use self::model::Model;
 pub use self::report::Report;
-pub use self::view::camera::{Camera, View};
-pub use self::view::feature_counts::{FeatureCounts, count_features};
+pub use self::view::{Camera, FeatureCounts, View, count_features};

@@ -3,12 +3,10 @@
 use std::process::ExitCode;
 
 use clap::{CommandFactory as _, Parser, Subcommand};
-use edgemesh::command::build::BuildCommand;
-use edgemesh::command::export::ExportCommand;
-use edgemesh::command::info::InfoCommand;
-use edgemesh::command::manual::{CompletionsCommand, ManCommand};
-use edgemesh::command::validate::ValidateCommand;
-use edgemesh::command::{MessageOptions, run};
+use edgemesh::command::{
+    BuildCommand, CompletionsCommand, ExportCommand, InfoCommand, ManCommand, MessageOptions,
+    ValidateCommand, run,
+};
 
 /// Turns triangle meshes into edge meshes and says what is in them
 #[derive(Debug, Parser)]

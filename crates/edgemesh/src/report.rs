@@ -1,14 +1,14 @@
-//! What was repaired, dropped or not understood, as data beside the result.
+//! Warnings and repairs, as data beside the result.
 //!
-//! Input that can be repaired is neither an error nor a log line: the readers
-//! and the builder count it here, with the first place in the file, and the
-//! commands print each kind once. A *warning* is something lost or doubtful; a
-//! *repair* loses nothing and is only counted.
+//! Defects that can be repaired are neither errors nor log lines: readers and builder count them
+//! here, with the first place in the file, and the commands print each kind once. A *warning* says
+//! that something was lost or is doubtful; a *repair* loses nothing.
 
 use std::fmt;
 
-/// Where in a file something stands.
+/// A place in a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Place {
     /// A line of text, counted from 1.
     Line(u32),
@@ -18,15 +18,14 @@ pub enum Place {
     Face(u64),
     /// A vertex, counted from 1.
     Vertex(u64),
-    /// A part by its path in the file's own structure: `meshes[0].primitives[2]`.
+    /// A path in the structure of the file: `meshes[0].primitives[2]`.
     Part(String),
 }
 
 impl Place {
-    /// The place as it stands behind a file's name: `model.obj:12`,
-    /// `model.stl: face 7`.
+    /// The place behind the name of its file: `model.obj:12`, `model.stl: face 7`.
     #[must_use]
-    pub fn behind(&self, file: &str) -> String {
+    pub(crate) fn behind(&self, file: &str) -> String {
         match self {
             Self::Line(line) => format!("{file}:{line}"),
             Self::Byte(offset) => format!("{file}: byte {offset}"),
@@ -37,41 +36,41 @@ impl Place {
     }
 }
 
-/// Writes `place` behind the name of its file; the name alone where there is
-/// none.
+/// Writes `place` behind the name of its file; without a place, the name alone.
 #[must_use]
-pub fn place_in(file: &str, place: Option<&Place>) -> String {
+pub(crate) fn place_in(file: &str, place: Option<&Place>) -> String {
     place.map_or_else(|| file.to_owned(), |place| place.behind(file))
 }
 
-/// The kind of a [`Warning`]; its text form is the `code` of `--json`.
+/// The kind of a [`Warning`], displayed as the `code` of `--json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum WarningCode {
     /// A vertex is NaN or infinite; faces that use it were dropped.
     NonFinite,
-    /// A texture coordinate or normal index is wrong; it was left out.
+    /// The index of a texture coordinate or normal is out of range; it was left out.
     Index,
     /// A face has fewer than three different corners; it was dropped.
     Degenerate,
-    /// A face repeats another, same vertices in the same order; it was dropped.
+    /// A face repeats another, with the same vertices in the same order; it was dropped.
     Duplicate,
     /// More than two faces share an edge.
     NonManifold,
-    /// A surface cannot be oriented, as a Möbius strip; it was cut.
+    /// A surface cannot be oriented, such as a Möbius strip; it was cut.
     Orientation,
-    /// A material library or a texture is missing, unreadable, outside the
-    /// folder, or no PNG or JPEG picture.
+    /// A material library or a texture is missing, unreadable, outside of the
+    /// folder, or not PNG or JPEG.
     Material,
-    /// Another file that the model names is missing, unreadable, or outside the
+    /// Another file that the model names is missing, unreadable, or outside of the
     /// folder.
     Uri,
-    /// A statement, node or extension of the file is not read.
+    /// A statement, node or extension of the file is not supported.
     Unsupported,
-    /// The file ends too early or goes on too long; what was whole is kept.
+    /// The file is too short or too long; its complete elements are kept.
     Truncated,
-    /// The file breaks a rule of its format, harmlessly.
+    /// The file breaks a rule of its format, without harm.
     Syntax,
-    /// A marked edge is no edge of the mesh.
+    /// A marked pair of vertices is not an edge of the mesh.
     Mark,
 }
 
@@ -94,11 +93,11 @@ impl WarningCode {
 
     /// The code whose [`Self::as_str`] is `word`.
     #[must_use]
-    pub fn from_word(word: &str) -> Option<Self> {
+    pub(crate) fn from_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|code| code.as_str() == word)
     }
 
-    /// The word that scripts see.
+    /// The word in JSON; scripts rely on it.
     #[must_use]
     pub const fn as_str(self) -> &'static str {
         match self {
@@ -124,37 +123,38 @@ impl fmt::Display for WarningCode {
     }
 }
 
-/// One kind of trouble, with how often it came and where it came first.
+/// All warnings of one kind, with the first place.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Warning {
     /// The kind.
     pub code: WarningCode,
-    /// How many elements it concerns.
+    /// Affected elements.
     pub count: usize,
-    /// The first one; `None` where the file as a whole is meant.
+    /// The first affected element; `None` for the whole file.
     pub place: Option<Place>,
-    /// What was found at the first place, and what was done.
+    /// The defect at `place`, and how it was handled.
     pub message: String,
 }
 
-/// What the builder mends without loss; its text form is the key of `--json`.
+/// The kind of a [`Repair`], written as a key of `--json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum RepairKind {
-    /// Faces turned around so that their component winds one way.
+    /// Faces flipped so that their component winds one way.
     FlippedFaces,
     /// Polygons cut by ear clipping, because a fan would overlap itself.
     EarClippedPolygons,
-    /// Triangles without area that were kept; they take their facing from the
-    /// face across their longest edge.
+    /// Triangles without area that were kept; they take the facing of the face across
+    /// their longest edge.
     ZeroAreaTriangles,
     /// Edges of more than two faces that were split into pairs.
     SplitEdges,
-    /// Vertices added because fans of faces met in one point only.
+    /// Vertices added because fans of faces met in a single point.
     SplitVertices,
-    /// Vertices moved onto others by a weld with a tolerance.
+    /// Vertices moved onto others by welding with a tolerance.
     SnappedVertices,
-    /// Models moved and scaled, because 32 bits would lose their detail; at
-    /// most 1.
+    /// Models moved and scaled, because 32 bits would lose their detail; at most 1.
     Recentred,
 }
 
@@ -172,11 +172,11 @@ impl RepairKind {
 
     /// The kind whose [`Self::as_str`] is `word`.
     #[must_use]
-    pub fn from_word(word: &str) -> Option<Self> {
+    pub(crate) fn from_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.as_str() == word)
     }
 
-    /// The word that scripts see.
+    /// The word in JSON; scripts rely on it.
     #[must_use]
     pub const fn as_str(self) -> &'static str {
         match self {
@@ -191,29 +191,30 @@ impl RepairKind {
     }
 }
 
-/// One kind of repair, with how often it was made and where first.
+/// All repairs of one kind, with the first place.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Repair {
     /// The kind.
     pub kind: RepairKind,
-    /// How many elements it concerns.
+    /// Repaired elements.
     pub count: usize,
-    /// The first one; `None` where the file as a whole is meant.
+    /// The first repaired element; `None` for the whole file.
     pub place: Option<Place>,
 }
 
-/// Everything that was repaired or dropped on the way to an edge mesh.
+/// The warnings and repairs of reading a file and building its edge mesh.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Report {
-    /// One entry a code, ordered by code.
+    /// One entry for each code, ordered by code.
     warnings: Vec<Warning>,
-    /// One entry a kind, ordered by kind.
+    /// One entry for each kind, ordered by kind.
     repairs: Vec<Repair>,
 }
 
 impl Report {
-    /// The report of warnings and repairs that were stored; those of the same
-    /// code or kind become one.
+    /// The report of stored warnings and repairs; entries of the same code or kind become
+    /// one.
     pub(crate) fn from_parts(
         warnings: impl IntoIterator<Item = Warning>,
         repairs: impl IntoIterator<Item = Repair>,
@@ -228,8 +229,8 @@ impl Report {
         report
     }
 
-    /// Counts one more `code`; the first call of a code gives place and message.
-    pub fn warn(
+    /// Counts one `code`; the first call for a code sets place and message.
+    pub(crate) fn warn(
         &mut self,
         code: WarningCode,
         place: Option<Place>,
@@ -238,9 +239,8 @@ impl Report {
         self.warn_many(code, 1, place, message);
     }
 
-    /// Counts `count` more of `code`; the first call of a code gives place and
-    /// message.
-    pub fn warn_many(
+    /// Counts `count` of `code`; the first call for a code sets place and message.
+    pub(crate) fn warn_many(
         &mut self,
         code: WarningCode,
         count: usize,
@@ -261,9 +261,8 @@ impl Report {
         }
     }
 
-    /// Counts `count` repairs of `kind`; the first call of a kind gives the
-    /// place.
-    pub fn repair(&mut self, kind: RepairKind, count: usize, place: Option<Place>) {
+    /// Counts `count` repairs of `kind`; the first call for a kind sets the place.
+    pub(crate) fn repair(&mut self, kind: RepairKind, count: usize, place: Option<Place>) {
         if count == 0 {
             return;
         }
@@ -276,8 +275,7 @@ impl Report {
         }
     }
 
-    /// Adds what was found in a later part of the file, whose lines begin
-    /// behind `lines_before`.
+    /// Adds the warnings of a later part of the file, which begins after `lines_before` lines.
     pub(crate) fn append(&mut self, later: Self, lines_before: u32) {
         for Warning { code, count, place, message } in later.warnings {
             let place = place.map(|place| match place {
@@ -288,14 +286,14 @@ impl Report {
         }
     }
 
-    /// The warnings, one a code, ordered by code.
+    /// The warnings, one for each code, ordered by code.
     #[must_use]
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
 
     /// A line for each warning: the first place in `file`, `level` (such as `warning: `), the
-    /// message, how many more there are, and the code.
+    /// message, the number of further elements, and the code.
     #[must_use]
     pub fn warning_lines(&self, file: &str, level: &str) -> Vec<String> {
         let line = |Warning { code, count, place, message }: &Warning| {
@@ -308,19 +306,19 @@ impl Report {
         self.warnings.iter().map(line).collect()
     }
 
-    /// The repairs, one a kind, ordered by kind.
+    /// The repairs, one for each kind, ordered by kind.
     #[must_use]
     pub fn repairs(&self) -> &[Repair] {
         &self.repairs
     }
 
-    /// How many elements `code` concerns.
+    /// The number of elements that warnings with `code` affect.
     #[must_use]
     pub fn count(&self, code: WarningCode) -> usize {
         self.warnings.iter().find(|warning| warning.code == code).map_or(0, |warning| warning.count)
     }
 
-    /// How many repairs of `kind` were made.
+    /// The number of repairs of `kind`.
     #[must_use]
     pub fn repair_count(&self, kind: RepairKind) -> usize {
         self.repairs.iter().find(|repair| repair.kind == kind).map_or(0, |repair| repair.count)

@@ -17,12 +17,10 @@ use std::sync::Arc;
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::format::read::read_model;
-use edgemesh::line::class::LineClass;
-use edgemesh::line::kind::LineKind;
-use edgemesh::line::placement::Placement;
+use edgemesh::line::{LineClass, LineKind, Placement};
 use edgemesh::model::Model;
 use edgemesh::report::Report;
-use edgemesh::view::camera::{Camera, View};
+use edgemesh::view::{Camera, View};
 use glam::DMat4;
 use strokes::{
     Brush, DetectionStage, DrawingStyle, Gpu, GpuTimer, GpuTimes, Layer, Layout, LinkStyle,

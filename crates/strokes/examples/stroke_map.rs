@@ -17,8 +17,8 @@ use std::sync::Arc;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::format::read::read_model;
-use edgemesh::line::class::LineClass;
-use edgemesh::view::camera::Camera;
+use edgemesh::line::LineClass;
+use edgemesh::view::Camera;
 use glam::{DMat4, Vec2};
 use image::{Rgb, RgbImage};
 use strokes::{

@@ -18,10 +18,10 @@ use std::time::Instant;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::format::read::read_model;
-use edgemesh::load::Loaded;
+use edgemesh::load::LoadedMesh;
 use edgemesh::oracle::detector::Image;
 use edgemesh::oracle::detector::chiang::{ChiangOptions, chiang};
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use glam::Vec2;
 use strokes::{FrameUniform, Gpu, Surroundings, Tile, read_texels};
 use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
@@ -82,7 +82,7 @@ fn measure(gpu: &Gpu, path: &Path, side: u32, frames: usize) {
     let (model, mut report) = read_model(path).unwrap();
     let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut report);
     let triangles = mesh.triangles.len();
-    let scene = Scene::of(vec![Loaded::new(path.display().to_string(), mesh, report)]);
+    let scene = Scene::of(vec![LoadedMesh::new(path.display().to_string(), mesh, report)]);
     let options = PictureOptions { size: [side; 2], samples: 1, ..PictureOptions::default() };
     let renderer = |passes: &str| {
         PictureRenderer::new(gpu, PictureInput::new(&scene, &technique(passes)), &options)

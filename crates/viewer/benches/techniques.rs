@@ -13,8 +13,8 @@ use std::path::{Path, PathBuf};
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::format::read::read_model;
-use edgemesh::load::Loaded;
-use edgemesh::view::camera::Camera;
+use edgemesh::load::LoadedMesh;
+use edgemesh::view::Camera;
 use strokes::Gpu;
 use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use viewer::scene::models::Scene;
@@ -44,7 +44,7 @@ impl Runner {
 fn scene(path: &Path) -> Scene {
     let (model, mut report) = read_model(path).unwrap();
     let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut report);
-    Scene::of(vec![Loaded::new(path.display().to_string(), mesh, report)])
+    Scene::of(vec![LoadedMesh::new(path.display().to_string(), mesh, report)])
 }
 
 fn table(gpu: &Gpu, path: &Path, size: [u32; 2], frames: usize) {

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use edgemesh::format::whole_file::WriteError;
 use edgemesh::load::LoadError;
-use edgemesh::view::camera::CameraError;
+use edgemesh::view::CameraError;
 use edgemesh_shaders::ShaderError;
 use strokes::{GpuError, MAX_CLIP_PLANES, MeshTooLarge, ReadbackError, RenderError};
 use thiserror::Error;

@@ -2,7 +2,7 @@
 //! needed serve the next.
 
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use image::RgbaImage;
 use strokes::Gpu;
 use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};

@@ -12,7 +12,7 @@ use edgemesh::oracle::detector::normals::{self, dot_products, normal_of_rgb};
 use edgemesh::oracle::detector::planes::{ImageView, plane_distance_px};
 use edgemesh::oracle::detector::second_derivative::{laplacian_of_gaussian, zero_crossing};
 use edgemesh::oracle::detector::{Image, Texel, regions};
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use strokes::{FrameUniform, Tile, read_texels};
 use testkit::locate::{left_out, shared};

@@ -8,7 +8,7 @@ use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::format::read::read_model;
 use edgemesh::oracle::detector::depth::distance_of;
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use glam::DVec3;
 use strokes::{FrameUniform, Surroundings, Tile, read_texels};
 use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};

@@ -4,16 +4,13 @@
 use std::sync::Arc;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_mesh::face_edges::FaceEdges;
-use edgemesh::edge_mesh::static_links::StaticLinks;
+use edgemesh::edge_mesh::{EdgeMesh, FaceEdges, StaticLinks};
 use edgemesh::format::read::read_model;
-use edgemesh::line::class::{LineClass, NO_LAYER};
+use edgemesh::line::{LineClass, NO_LAYER};
 use edgemesh::model::Model;
 use edgemesh::oracle::layer_chain::{LayerChain, LayerLinks};
 use edgemesh::report::Report;
-use edgemesh::view::camera::Camera;
-use edgemesh::view::feature::{Line, LineBits};
+use edgemesh::view::{Camera, Line, LineBits};
 use glam::{DMat4, DVec3};
 use strokes::layouts::{BACKWARD, CUT_END, CUT_START, CUT_WHOLE, NO_NODE, ON_LOOP};
 use strokes::{

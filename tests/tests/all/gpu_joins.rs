@@ -5,11 +5,10 @@ use std::sync::Arc;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::line::class::LineClass;
-use edgemesh::line::placement::Placement;
+use edgemesh::line::{LineClass, Placement};
 use edgemesh::model::{Model, Segment};
 use edgemesh::report::Report;
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use edgemesh_brushes::BRUSH_NAMES;
 use glam::{DMat4, DVec3, Vec2};
 use strokes::{

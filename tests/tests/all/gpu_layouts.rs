@@ -2,12 +2,11 @@
 //! and from a mesh in chunks.
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::edge_mesh::replicate::{Quantization, replicate_16};
-use edgemesh::edge_mesh::{EdgeMesh, FacePlane};
+use edgemesh::edge_mesh::{EdgeMesh, FacePlane, Quantization, replicate_16};
 use edgemesh::format::read::read_model;
 use edgemesh::model::Model;
 use edgemesh::report::Report;
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use glam::{DVec3, Vec3};
 use image::RgbaImage;
 use strokes::{DetectionStage, Gpu, Layout, MeshBuffers};

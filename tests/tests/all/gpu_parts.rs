@@ -1,7 +1,7 @@
 //! Pictures drawn in tiles equal those drawn at once.
 
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use viewer::picture::png::compare;
 use viewer::picture::renderer::{PictureInput, PictureOptions};
 use viewer::picture::tiles::AnySizeRenderer;

@@ -4,10 +4,10 @@ use std::sync::LazyLock;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::load::Loaded;
+use edgemesh::load::LoadedMesh;
 use edgemesh::model::Model;
 use edgemesh::report::Report;
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use glam::DVec3;
 use image::{GrayImage, Luma, RgbaImage};
 use strokes::DrawingStyle;
@@ -64,7 +64,7 @@ pub(crate) fn picture_with(
 
 pub(crate) fn scene_of(mesh: &EdgeMesh) -> Scene {
     let (name, report) = ("test".into(), Report::default());
-    Scene::of(vec![Loaded::new(name, mesh.clone(), report)])
+    Scene::of(vec![LoadedMesh::new(name, mesh.clone(), report)])
 }
 
 pub(crate) fn own_model(name: &str) -> EdgeMesh {
@@ -319,7 +319,7 @@ fn marked_around(picture: &GrayImage, [x, y]: [u32; 2], reach: u32) -> usize {
 }
 
 fn without_creases(mesh: &EdgeMesh) -> EdgeMesh {
-    use edgemesh::edge_mesh::edge_flags::EdgeFlags;
+    use edgemesh::edge_mesh::EdgeFlags;
     let mut mesh = mesh.clone();
     for record in &mut mesh.records {
         record.flags -= EdgeFlags::RIDGE | EdgeFlags::VALLEY | EdgeFlags::MATERIAL;

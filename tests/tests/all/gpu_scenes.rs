@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::load::Loaded;
+use edgemesh::load::LoadedMesh;
 use edgemesh::model::Model;
 use edgemesh::report::Report;
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use glam::{DMat4, DQuat, DVec3};
 use image::RgbaImage;
 use strokes::{
@@ -23,7 +23,7 @@ use crate::gpu_render::{look_of, own_model, picture, scene_of, technique};
 
 /// A scene of one model many times.
 fn scene(mesh: &EdgeMesh, places: &[(DMat4, usize)]) -> Scene {
-    let loaded = Loaded::new("test".into(), mesh.clone(), Report::default());
+    let loaded = LoadedMesh::new("test".into(), mesh.clone(), Report::default());
     let placed = places.iter().map(|&(world_from_object, override_index)| PlacedObject {
         model: 0,
         override_index,

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use glam::DVec3;
 use image::RgbaImage;
 use strokes::read_texels;

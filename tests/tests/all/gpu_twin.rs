@@ -4,24 +4,19 @@ use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::edge_mesh::edge_flags::EdgeFlags;
-use edgemesh::edge_mesh::edge_word::EdgeWord;
-use edgemesh::edge_mesh::edge_words::edge_words;
-use edgemesh::edge_mesh::normal_cone::{NormalCone, cone_facing};
-use edgemesh::edge_mesh::record::edge_random;
-use edgemesh::edge_mesh::{EdgeMesh, FacePlane};
+use edgemesh::edge_mesh::{
+    EdgeFlags, EdgeMesh, EdgeWord, FacePlane, NormalCone, cone_facing, edge_random, edge_words,
+};
 use edgemesh::index::NONE;
-use edgemesh::line::class::{ClassTable, LineClass};
-use edgemesh::line::kind::LineKind;
-use edgemesh::line::placement::{Parameterization, Placement};
+use edgemesh::line::{ClassTable, LineClass, LineKind, Parameterization, Placement};
 use edgemesh::oracle::spine::{Spine, lerp, project_spine, screen_normal};
 use edgemesh::oracle::stroke_segment::{ClipEdge, StrokeShape};
 use edgemesh::oracle::stroke_vertex::stroke_vertex;
 use edgemesh::report::Report;
-use edgemesh::view::camera::{Camera, View};
-use edgemesh::view::facing::faces_eye;
-use edgemesh::view::feature::{EdgeFaces, Line, LineBits, classify_edge, eye_is_outside};
-use edgemesh::view::feature_counts::{classify_lines, count_features, facing_bits};
+use edgemesh::view::{
+    Camera, EdgeFaces, Line, LineBits, View, classify_edge, classify_lines, count_features,
+    eye_is_outside, faces_eye, facing_bits,
+};
 use glam::{DMat4, DVec3, Vec2, Vec3, Vec4};
 use strokes::{
     Layout, MeshBuffers, MeshInstance, Renderer, RendererOptions, SceneView, Tally, TargetFormats,
@@ -287,7 +282,7 @@ impl StrokeInput {
             placement: PLACEMENTS[self.placement as usize],
             parameterization: parameterizations[self.parameterization as usize],
             is_world_width: self.is_world_width != 0,
-            guard_band: edgemesh::view::projection::WHOLE_BAND,
+            guard_band: edgemesh::view::WHOLE_BAND,
         }
     }
 }

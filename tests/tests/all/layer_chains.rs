@@ -2,20 +2,14 @@
 //! twice; chains of contours are open only where the surface is.
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_mesh::edge_flags::EdgeFlags;
-use edgemesh::edge_mesh::edge_words::edge_words;
-use edgemesh::edge_mesh::face_edges::FaceEdges;
-use edgemesh::edge_mesh::static_links::StaticLinks;
+use edgemesh::edge_mesh::{EdgeFlags, EdgeMesh, FaceEdges, StaticLinks, edge_words};
 use edgemesh::format::read::read_model;
 use edgemesh::index::NONE;
-use edgemesh::line::class::{ClassTable, LineClass};
+use edgemesh::line::{ClassTable, LineClass};
 use edgemesh::oracle::contour_chain::{Successor, successor};
 use edgemesh::oracle::layer_chain::{Element, LayerChain, LayerLinks};
 use edgemesh::report::Report;
-use edgemesh::view::camera::Camera;
-use edgemesh::view::feature::LineBits;
-use edgemesh::view::feature_counts::classify_lines;
+use edgemesh::view::{Camera, LineBits, classify_lines};
 use glam::DVec3;
 use testkit::locate::{left_out, shared};
 

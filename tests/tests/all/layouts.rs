@@ -3,18 +3,18 @@
 use std::collections::BTreeMap;
 use std::mem::offset_of;
 
-use edgemesh::edge_mesh::FacePlane;
-use edgemesh::edge_mesh::edge_flags::EdgeFlags;
-use edgemesh::edge_mesh::edge_word::{CONCAVE, CREASE_SHIFT, CREASE_STEPS};
-use edgemesh::edge_mesh::normal_cone::{CONE_MARGIN, ConeFacing, NormalCone};
-use edgemesh::edge_mesh::record::{EdgeVertex, EdgeVertex16};
-use edgemesh::line::class::{LineClass, MAX_LINE_CLASSES, NO_LAYER};
-use edgemesh::line::kind::{CAP_VERTICES, DISK_STEPS, DISK_VERTICES, LineKind};
-use edgemesh::line::placement::{Parameterization, Placement};
+use edgemesh::edge_mesh::{
+    CONCAVE, CONE_MARGIN, CREASE_SHIFT, CREASE_STEPS, ConeFacing, EdgeFlags, EdgeVertex,
+    EdgeVertex16, FacePlane, NormalCone,
+};
+use edgemesh::line::{
+    CAP_VERTICES, DISK_STEPS, DISK_VERTICES, LineClass, LineKind, MAX_LINE_CLASSES, NO_LAYER,
+    Parameterization, Placement,
+};
 use edgemesh::oracle::spine::MIN_LENGTH_PX;
 use edgemesh::oracle::stroke_segment::{EDGE_ON_FACING, LIFTED_FACING};
 use edgemesh::oracle::stroke_vertex::FOOT_PX;
-use edgemesh::view::feature::{LEAST_GROOVE_STEPS, LineBits, MOST_GROOVE_STEPS};
+use edgemesh::view::{LEAST_GROOVE_STEPS, LineBits, MOST_GROOVE_STEPS};
 use edgemesh_shaders::ShaderSource;
 use strokes::layouts::{
     ARC_PER_PX, BACKWARD, CUT_END, CUT_START, CUT_WHOLE, Chain, ChainState, ChunkUniform,

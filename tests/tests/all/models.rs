@@ -8,9 +8,8 @@ use std::path::Path;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::line::class::LineClass;
-use edgemesh::view::camera::Camera;
-use edgemesh::view::feature_counts::count_features;
+use edgemesh::line::LineClass;
+use edgemesh::view::{Camera, count_features};
 use glam::{DVec3, Vec3};
 use serde_json::{Map, Value};
 use testkit::locate::{left_out, shared};

@@ -2,7 +2,7 @@
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::load::Loaded;
+use edgemesh::load::LoadedMesh;
 use edgemesh::model::Model;
 use edgemesh::report::Report;
 use strokes::{DetectionStage, Gpu, Layout, MeshBuffers};
@@ -16,7 +16,7 @@ use viewer::technique::value::VariableType;
 /// A scene of one mesh.
 fn scene_of(mesh: &EdgeMesh) -> Scene {
     let (name, report) = ("test".into(), Report::default());
-    Scene::of(vec![Loaded::new(name, mesh.clone(), report)])
+    Scene::of(vec![LoadedMesh::new(name, mesh.clone(), report)])
 }
 
 /// All ways in which edges lie in memory and are detected.

@@ -1,41 +1,41 @@
-//! The camera, as both commands name it.
+//! Arguments of the camera, for both commands.
 
 use clap::Args;
 use glam::DVec3;
 
 use super::degrees::parse_degrees;
 use crate::edge_mesh::{Bounds, MeshFrame};
-use crate::view::camera::{Camera, CameraError};
+use crate::view::{Camera, CameraError};
 
-/// Where the eye is. Without any of these it looks at the middle of the model
-/// from the direction (1, 0.6, 1.2), at three bounding radii.
+/// The camera. The default eye looks at the middle of the bounding box from the direction
+/// (1, 0.6, 1.2), at three bounding radii.
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Camera")]
 pub struct CameraArguments {
-    /// The eye, in the units of the model
+    /// Position of the eye, in the units of the model
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
     pub eye: Option<DVec3>,
-    /// The point to look at [default: the middle of the bounding box]
+    /// Point to look at [default: the middle of the bounding box]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
     pub target: Option<DVec3>,
-    /// The direction that points up in the picture [default: 0,1,0]
+    /// Direction that points up in the picture [default: 0,1,0]
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
     pub up: Option<DVec3>,
     /// Vertical field of view in degrees [default: 40]
     #[arg(long, value_name = "DEG", value_parser = parse_fov)]
     pub fov: Option<f64>,
-    /// Parallel lines of sight; the field of view then gives the picture's height
+    /// Use an orthographic projection; the field of view then sets the height of the picture
     #[arg(long)]
     pub ortho: bool,
 }
 
 impl CameraArguments {
-    /// The camera for a mesh within `bounds`, in the mesh's own units; points of
-    /// the command line are in those of its file.
+    /// The camera for a mesh within `bounds`, in the units of the mesh. The arguments are in the
+    /// units of its file, which `frame` converts.
     ///
     /// # Errors
-    /// [`CameraError`], if the eye lies on the target, or the given direction up lies along the
-    /// line of sight.
+    /// Fails if the eye lies on the target, or the given direction up lies along the line of
+    /// sight.
     pub fn camera(&self, bounds: &Bounds, frame: &MeshFrame) -> Result<Camera, CameraError> {
         let mut camera = Camera::default_view(bounds);
         if let Some(target) = self.target.map(|target| frame.to_mesh(target)) {

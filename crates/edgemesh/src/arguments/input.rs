@@ -1,4 +1,4 @@
-//! How inputs are read, as both commands name it.
+//! Arguments for reading and building inputs, for both commands.
 
 use std::path::PathBuf;
 use std::sync::LazyLock;
@@ -11,26 +11,26 @@ use crate::build::Welding;
 use crate::format::read::Format;
 use crate::load::{InputFormat, LoadOptions};
 
-/// How the input is read and built.
+/// Arguments for reading and building an input.
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Input")]
 pub struct InputArguments {
-    /// The format of the input [default: detected from its first bytes]; needed for
-    /// standard input (-)
+    /// Format of the input; required for standard input (-) [default: detected from the
+    /// first bytes]
     #[arg(long, value_name = "FORMAT")]
     pub format: Option<InputFormat>,
-    /// Weld vertices that are at most this far apart, in units of the model
-    /// [default: only those in exactly the same place]
+    /// Weld vertices at most this far apart, in units of the model [default: 0, only
+    /// vertices at the same position]
     #[arg(long, value_name = "TOLERANCE", value_parser = parse_tolerance)]
     pub weld: Option<f64>,
-    /// Weld no vertices
+    /// Do not weld vertices
     #[arg(long, conflicts_with = "weld")]
     pub no_weld: bool,
-    /// A file with pairs of vertices, one a line, counted from 1, whose edges
-    /// are marked [default: MODEL.marks, if it exists]
+    /// File of marked edges: a pair of vertices on each line, counted from 1 [default:
+    /// MODEL.marks, if it exists]
     #[arg(long, value_name = "FILE")]
     pub marks: Option<PathBuf>,
-    /// Warnings are errors
+    /// Treat warnings as errors
     #[arg(long)]
     pub strict: bool,
     /// Crease thresholds
@@ -38,23 +38,23 @@ pub struct InputArguments {
     pub creases: CreaseArguments,
 }
 
-/// From which angle on an edge is a crease.
+/// The angles above which edges are creases.
 #[derive(Debug, Clone, Copy, Default, Args)]
 #[command(next_help_heading = "Creases")]
 pub struct CreaseArguments {
-    /// Edges whose faces turn by more than this are creases [default: 30]
+    /// Angle between faces above which an edge is a crease, in degrees [default: 30]
     #[arg(long, value_name = "DEG", value_parser = parse_crease, conflicts_with_all = ["ridge", "valley"])]
     pub crease: Option<f64>,
-    /// The same for convex edges only
+    /// As --crease, for convex edges only
     #[arg(long, value_name = "DEG", value_parser = parse_crease)]
     pub ridge: Option<f64>,
-    /// The same for concave edges only
+    /// As --crease, for concave edges only
     #[arg(long, value_name = "DEG", value_parser = parse_crease)]
     pub valley: Option<f64>,
 }
 
 impl InputArguments {
-    /// The same as plain options.
+    /// These arguments as options of the library.
     #[must_use]
     pub fn load_options(&self) -> LoadOptions {
         let CreaseArguments { crease, ridge, valley } = self.creases;
@@ -74,7 +74,7 @@ impl InputArguments {
     }
 }
 
-/// Those of all models, then the edge mesh's.
+/// The formats of models, then the edge mesh file.
 static INPUT_FORMATS: LazyLock<Vec<InputFormat>> = LazyLock::new(|| {
     let models = Format::ALL.map(InputFormat::Model);
     models.into_iter().chain([InputFormat::EdgeMesh]).collect()

@@ -1,5 +1,8 @@
-//! Arguments that both commands take, as clap reads them. They become plain options, and
-//! know no exit status.
+//! Arguments of both commands, as clap reads them; they become plain options and know no exit
+//! status.
+//!
+//! Shared by the programs `edgemesh` and `viewer` and hidden from the documentation: other
+//! programs use [`LoadOptions`](crate::load::LoadOptions) and [`Camera`](crate::view::Camera).
 
 mod camera;
 mod degrees;

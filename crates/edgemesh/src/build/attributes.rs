@@ -1,7 +1,7 @@
-//! What the file says of each face: its material, and where it is smooth.
+//! Material and smoothing of each face.
 
 use super::faces::FaceSources;
-use crate::edge_mesh::edge_flags::EdgeFlags;
+use crate::edge_mesh::EdgeFlags;
 use crate::model::{Attributes, Model, Smoothing};
 
 /// Attributes by face.
@@ -14,7 +14,7 @@ pub(crate) struct FaceAttributes {
 /// A value for each face.
 #[derive(Debug)]
 enum ByFace<T> {
-    /// All faces have the same.
+    /// All faces have the same value.
     Same(T),
     Each(Vec<T>),
 }
@@ -48,15 +48,14 @@ impl FaceAttributes {
         }
     }
 
-    /// Where the file shades a face smoothly.
+    /// The edges across which shading of a face is smooth.
     pub(crate) fn smoothing(&self, face: u32) -> Smoothing {
         self.smoothing.get(face)
     }
 
-    /// The classes of an edge that runs between faces of different attributes.
+    /// The classes of an edge whose faces have different attributes.
     ///
-    /// Two faces without a smoothing group are both flat, so that the file says
-    /// nothing of the edge between them.
+    /// Two faces without a smoothing group are both flat, and the edge between them has no class.
     pub(crate) fn borders(&self, face_a: u32, face_b: u32) -> EdgeFlags {
         let mut flags = EdgeFlags::empty();
         flags.set(EdgeFlags::MATERIAL, self.materials.get(face_a) != self.materials.get(face_b));

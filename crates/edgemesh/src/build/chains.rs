@@ -1,13 +1,12 @@
-//! Chains the edges that no view changes into polylines.
+//! Chains the edges that every view draws into polylines.
 //!
-//! Idea: edges of one class meet at a vertex; where just two meet there and
-//! turn by less than a limit, the line goes on. So each edge has at most one
-//! successor at each end, and a walk from an open end (or, on a loop, from the
-//! first record) lists a chain. Chains come in the order of their first
+//! Idea: at a vertex, a line goes on if exactly two edges of its class meet there and turn by less
+//! than a limit. So each edge has at most one successor at each end, and a walk from an open end
+//! (on a loop, from the first record) lists a chain. Chains are in the order of their first
 //! records, links in the order of the line.
 //!
-//! An edge that has several classes is chained by the first of [`CHAIN_CLASSES`], so
-//! that it lies in one chain only.
+//! An edge of several classes is chained by the first of [`CHAIN_CLASSES`], so that it lies in one
+//! chain only.
 //!
 //! ```text
 //!   o---o---o      two ridges that meet:     one chain
@@ -15,23 +14,22 @@
 //!       o
 //! ```
 //!
-//! Rejected: pairing the straightest at a junction. It hides that lines meet,
-//! and which pair is straightest can hang on the last bit.
+//! Rejected: pairing the straightest edges at a junction. It hides the junction, and the last bit
+//! can decide which pair is straightest.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::edge_mesh::edge_flags::{CHAIN_CLASSES, EdgeFlags, chain_class_of};
-use crate::edge_mesh::record::EdgeRecord;
-use crate::edge_mesh::{Chain, ChainLink, Chains};
+use crate::edge_mesh::{
+    CHAIN_CLASSES, Chain, ChainLink, Chains, EdgeFlags, EdgeRecord, chain_class_of,
+};
 use crate::index::{NONE, to_u32};
 
-/// The turn at a vertex, between the directions of the line before and behind
-/// it, above which a line ends: 60 degrees. The corners of a hexagon are rounded
-/// by a stroke, those of a square are not.
+/// The default for the largest turn of a line at a vertex: 60 degrees. Strokes go around the
+/// corners of a hexagon, but not of a square.
 pub const DEFAULT_CHAIN_TURN_RAD: f64 = std::f64::consts::FRAC_PI_3;
 
-/// Chains the records; `turn_rad` is the largest turn within a chain.
+/// Chains records; `turn_rad` is the largest turn within a chain.
 pub(crate) fn chain(positions: &[[f32; 3]], records: &[EdgeRecord], turn_rad: f64) -> Chains {
     let features: Vec<u32> = (0..to_u32(records.len()))
         .into_par_iter()
@@ -39,22 +37,21 @@ pub(crate) fn chain(positions: &[[f32; 3]], records: &[EdgeRecord], turn_rad: f6
         .filter(|&record| records[record as usize].flags.intersects(EdgeFlags::ALWAYS_DRAWN))
         .collect();
     let input = ChainInput { positions, records, features: &features, cosine: turn_rad.cos() };
-    let neighbours = input.neighbours();
-    input.walk_all(&neighbours)
+    let neighbors = input.neighbors();
+    input.walk_all(&neighbors)
 }
 
 struct ChainInput<'a> {
     positions: &'a [[f32; 3]],
     records: &'a [EdgeRecord],
-    /// Records that are in chains, ascending.
+    /// Records of chains, ascending.
     features: &'a [u32],
     /// The cosine of the largest turn.
     cosine: f64,
 }
 
-/// For each end of each feature, `2 f` and `2 f + 1`, the end of another one
-/// that it goes on with, or [`NONE`].
-type Neighbours = Vec<u32>;
+/// For each end of each feature, `2 f` and `2 f + 1`, the end of the next feature, or [`NONE`].
+type Neighbors = Vec<u32>;
 
 impl ChainInput<'_> {
     fn record(&self, feature: u32) -> &EdgeRecord {
@@ -70,7 +67,7 @@ impl ChainInput<'_> {
         Vec3::from(self.positions[self.vertex(end) as usize]).as_dvec3()
     }
 
-    fn neighbours(&self) -> Neighbours {
+    fn neighbors(&self) -> Neighbors {
         let mut ends: Vec<(u32, u32, u32)> = (0..2 * to_u32(self.features.len()))
             .into_par_iter()
             .map(|end| {
@@ -80,27 +77,27 @@ impl ChainInput<'_> {
             })
             .collect();
         ends.par_sort_unstable();
-        let mut neighbours = vec![NONE; ends.len()];
+        let mut neighbors = vec![NONE; ends.len()];
         for group in ends.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
             if let [(_, _, a), (_, _, b)] = *group
                 && a / 2 != b / 2
                 && self.goes_on(a, b)
             {
-                neighbours[a as usize] = b;
-                neighbours[b as usize] = a;
+                neighbors[a as usize] = b;
+                neighbors[b as usize] = a;
             }
         }
-        neighbours
+        neighbors
     }
 
-    /// Whether the line turns little enough where the ends `a` and `b` meet.
+    /// Whether the line turns little enough between the ends `a` and `b`.
     fn goes_on(&self, a: u32, b: u32) -> bool {
         let into = (self.position(a) - self.position(a ^ 1)).normalize_or_zero();
         let out = (self.position(b ^ 1) - self.position(b)).normalize_or_zero();
         into.dot(out) >= self.cosine
     }
 
-    fn walk_all(&self, neighbours: &Neighbours) -> Chains {
+    fn walk_all(&self, neighbors: &Neighbors) -> Chains {
         let mut chains = Chains::default();
         let mut is_seen = vec![false; self.features.len()];
         chains.links.reserve(self.features.len());
@@ -108,18 +105,18 @@ impl ChainInput<'_> {
             if is_seen[feature as usize] {
                 continue;
             }
-            let (start, is_loop) = start_of(feature, neighbours);
-            self.walk(start, is_loop, neighbours, &mut is_seen, &mut chains);
+            let (start, is_loop) = start_of(feature, neighbors);
+            self.walk(start, is_loop, neighbors, &mut is_seen, &mut chains);
         }
         chains
     }
 
-    /// Lists the chain that begins at the end `start`.
+    /// Lists the chain from the end `start` on.
     fn walk(
         &self,
         start: u32,
         is_loop: bool,
-        neighbours: &Neighbours,
+        neighbors: &Neighbors,
         is_seen: &mut [bool],
         chains: &mut Chains,
     ) {
@@ -135,7 +132,7 @@ impl ChainInput<'_> {
                 is_reversed: end % 2,
             });
             arc += (self.position(end ^ 1) - self.position(end)).length();
-            end = neighbours[(end ^ 1) as usize];
+            end = neighbors[(end ^ 1) as usize];
         }
         let flags = self.record(start / 2).flags;
         chains.chains.push(Chain {
@@ -153,12 +150,12 @@ const fn rounded(length: f64) -> f32 {
     length as f32
 }
 
-/// The end where the chain of `feature` begins, and whether it is a loop; a
-/// loop begins at `feature`, which is its first.
-fn start_of(feature: u32, neighbours: &Neighbours) -> (u32, bool) {
+/// The end where the chain of `feature` begins, and whether it is a loop. A loop begins at
+/// `feature`, its first record.
+fn start_of(feature: u32, neighbors: &Neighbors) -> (u32, bool) {
     let mut end = 2 * feature;
     loop {
-        let before = neighbours[end as usize];
+        let before = neighbors[end as usize];
         if before == NONE {
             return (end, false);
         }

@@ -1,28 +1,24 @@
-//! Which faces hang together, and which of these components are solids.
+//! Finds the connected components of faces, and the solids among them.
 //!
-//! Idea: a union-find over all faces that several threads work on at once: a
-//! root is hung below a smaller one by compare-and-swap, and tried again where
-//! another thread was quicker (Anderson and Woll 1991, "Wait-free Parallel
-//! Algorithms for the Union-Find Problem"). Roots only ever become smaller, so
-//! each set ends with its smallest face as root, whatever the order.
+//! Idea: a union-find over all faces, by several threads at once. A thread hangs a root below a
+//! smaller root by compare-and-swap, and tries again if another thread was faster (Anderson and
+//! Woll 1991, "Wait-free Parallel Algorithms for the Union-Find Problem"). Roots only become
+//! smaller, so the smallest face becomes the root of each set in any order.
 //!
-//! Rejected: walking from face to face, which one thread does alone.
+//! Rejected: a walk from face to face, which is sequential.
 
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::face_normal::corners_of;
-use crate::edge_mesh::record::EdgeRecord;
-use crate::edge_mesh::topology::EdgeTable;
+use crate::edge_mesh::{EdgeFlags, EdgeRecord, EdgeTable, corners_of};
 use crate::index::{NONE, to_u32};
 
-/// Faces whose volumes one thread sums up in a row.
+/// Successive faces whose volumes one thread sums.
 const FACES_PER_BLOCK: usize = 1 << 16;
 
-/// Disjoint sets of numbers; the smallest of a set is its root.
+/// Disjoint sets of numbers; the root of a set is its smallest number.
 #[derive(Debug)]
 pub(crate) struct Sets {
     parents: Vec<AtomicU32>,
@@ -40,7 +36,7 @@ impl Sets {
                 return item;
             }
             let grandparent = self.parents[parent as usize].load(Ordering::Relaxed);
-            // Halving is only a short cut: losing a race costs nothing.
+            // Halving is only a shortcut: a lost race does no harm.
             self.parents[item as usize].store(grandparent, Ordering::Relaxed);
             item = grandparent;
         }
@@ -70,14 +66,13 @@ impl Sets {
 /// The components of a mesh's faces.
 #[derive(Debug)]
 pub(crate) struct Components {
-    /// The component of each face, counted from 0 in the order of their first
-    /// faces.
+    /// The component of each face, counted from 0 in the order of first faces.
     pub(crate) of_face: Vec<u32>,
     pub(crate) count: usize,
 }
 
 impl Components {
-    /// Faces that share records.
+    /// The components of faces that share records.
     pub(crate) fn of_records(face_count: usize, records: &[EdgeRecord]) -> Self {
         let sets = Sets::new(face_count);
         records.par_iter().with_min_len(1 << 12).for_each(|record| {
@@ -94,7 +89,7 @@ impl Components {
         let mut count = 0;
         for face in 0..face_count {
             let root = of_face[face] as usize;
-            // A root is the smallest of its set, and so numbered before.
+            // A root is the smallest of its set, so it already has a number.
             of_face[face] = if root == face {
                 count += 1;
                 count - 1
@@ -105,8 +100,7 @@ impl Components {
         Self { of_face, count: count as usize }
     }
 
-    /// How many components there are where an edge joins all of its faces, also
-    /// more than two.
+    /// The number of components if an edge joins all of its faces, also more than two.
     pub(crate) fn count_joined_by_edges(&self, table: &EdgeTable) -> usize {
         let sets = Sets::new(self.count);
         for (_, sides) in table.iter().filter(|(_, sides)| sides.len() > 2) {
@@ -118,11 +112,10 @@ impl Components {
         (0..to_u32(self.count)).filter(|&component| sets.root(component) == component).count()
     }
 
-    /// Marks the edges of closed components whose faces look outwards.
+    /// Sets `SOLID` on the edges of closed components whose faces look outward.
     ///
-    /// A component is closed where each of its edges has two faces that wind
-    /// the same way, and looks outwards where the volume it encloses is
-    /// positive.
+    /// A component is closed if each of its edges has two faces with the same winding; its faces
+    /// look outward if the volume that it encloses is positive.
     pub(crate) fn mark_solids(
         &self,
         positions: &[[f32; 3]],
@@ -152,8 +145,8 @@ impl Components {
 
     /// Six times the volume between each component and the first vertex.
     ///
-    /// Blocks are summed side by side and then in their order, so that the sums
-    /// do not depend on the threads.
+    /// Blocks are computed in parallel and summed in order, so that the sums do not depend on the
+    /// threads.
     fn volumes(&self, positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<f64> {
         let origin = positions.first().map_or(DVec3::ZERO, |&first| Vec3::from(first).as_dvec3());
         let of_block = |(block, faces): (usize, &[[u32; 3]])| {

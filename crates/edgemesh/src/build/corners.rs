@@ -1,14 +1,12 @@
-//! The corner attributes that a fill needs: normals with sharp edges, texture
-//! coordinates with their seams.
+//! Corner attributes of the fill: normals with sharp edges, texture coordinates with seams.
 //!
-//! A corner keeps the file's own normal. Where it has none, corners at a vertex
-//! share a normal as far as they are joined by smooth edges: edges inside one
-//! smoothing group where the file states groups, edges below the crease angle
-//! where it does not, and always the diagonals of a polygon.
+//! A corner keeps its normal of the file. Other corners at a vertex share a normal if smooth edges
+//! join them: edges within a smoothing group, edges below the crease angle in files without groups,
+//! and always the diagonals of polygons.
 //!
-//! Idea: a union-find over all corners; each smooth edge joins the corners at
-//! both of its ends. Rejected: comparing all pairs of faces around a vertex,
-//! which takes quadratic time at a hub and smooths across gaps.
+//! Idea: a union-find over all corners; each smooth edge joins the corners at both of its ends.
+//! Rejected: comparing all pairs of faces around a vertex, which takes quadratic time at a hub and
+//! smooths across gaps.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -20,33 +18,30 @@ use super::faces::FaceSources;
 use super::fans::angle;
 use super::planes::has_area;
 use super::runs::fill_runs;
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::face_normal::corners_of;
-use crate::edge_mesh::record::EdgeRecord;
-use crate::edge_mesh::{FacePlane, FillMesh, FillVertex};
+use crate::edge_mesh::{EdgeFlags, EdgeRecord, FacePlane, FillMesh, FillVertex, corners_of};
 use crate::index::{NONE, to_u32};
 use crate::model::{Model, Smoothing};
 
-/// What the fill is made from; all lists are by triangle.
+/// The input of the fill.
 #[derive(Debug)]
 pub(crate) struct CornerInput<'a> {
     pub(crate) model: &'a Model,
     pub(crate) positions: &'a [[f32; 3]],
     pub(crate) triangles: &'a [[u32; 3]],
     pub(crate) sources: &'a FaceSources,
-    /// Planes before any were lent.
+    /// Planes of faces; those of faces without area have no normal yet.
     pub(crate) planes: &'a [FacePlane],
     pub(crate) records: &'a [EdgeRecord],
     pub(crate) attributes: &'a FaceAttributes,
     pub(crate) smoothing_angle_rad: f64,
-    /// Whether anybody wants the fill at all.
+    /// Whether the fill is built.
     pub(crate) is_wanted: bool,
 }
 
-/// Corners whose weighted normals are worked out side by side.
+/// Corners in a block whose weighted normals are computed in parallel.
 const CORNERS_PER_BLOCK: usize = 1 << 18;
 
-/// Builds the fill; an empty one where none is wanted.
+/// Builds the fill, or returns an empty one if it is not wanted.
 pub(crate) fn build_fill(input: &CornerInput) -> FillMesh {
     if !input.is_wanted {
         return FillMesh::default();
@@ -79,21 +74,21 @@ pub(crate) fn build_fill(input: &CornerInput) -> FillMesh {
     }
 }
 
-/// The fill's vertices, found again by the vertex of the mesh that they are at.
+/// The vertices of the fill, by the vertex of the mesh at their position.
 ///
-/// Most vertices have one or two, in a list from the latest to the first; a
-/// vertex with more than a few looks the others up in a table.
+/// Most vertices have one or two, in a list from the latest to the first; a vertex with more than
+/// a few finds the others in a table.
 struct Variants {
     vertices: Vec<FillVertex>,
     /// The latest fill vertex at each vertex, or [`NONE`].
     latest: Vec<u32>,
-    /// The one before each fill vertex at the same vertex, or [`NONE`].
+    /// The previous fill vertex at the same vertex, or [`NONE`].
     before: Vec<u32>,
     table: FxHashMap<(u32, [u32; 8]), u32>,
 }
 
 impl Variants {
-    /// How far a list is followed.
+    /// The length up to which a list is followed.
     const FEW: usize = 8;
 
     fn new(vertex_count: usize) -> Self {
@@ -101,7 +96,7 @@ impl Variants {
         Self { vertices: Vec::new(), latest, before: Vec::new(), table: FxHashMap::default() }
     }
 
-    /// The index of a fill vertex at `vertex`, which is added where it is new.
+    /// The index of a fill vertex at `vertex`, which is added if it is new.
     fn index(&mut self, vertex: u32, wanted: FillVertex) -> u32 {
         let bits = |vertex: &FillVertex| -> [u32; 8] { bytemuck::cast(*vertex) };
         let wanted_bits = bits(&wanted);
@@ -123,7 +118,7 @@ impl Variants {
         {
             return known;
         }
-        // What the new one pushes out of reach goes into the table.
+        // The vertex that the new one pushes out of reach goes to the table.
         if last != NONE {
             self.table.insert((vertex, bits(&self.vertices[last as usize])), last);
         }
@@ -134,7 +129,7 @@ impl Variants {
     }
 }
 
-/// One unit normal for each corner (3 f + k), shared over smooth edges.
+/// A unit normal for each corner (3 f + k), shared across smooth edges.
 fn smooth_normals(input: &CornerInput) -> Vec<[f32; 3]> {
     let sets = Sets::new(input.triangles.len() * 3);
     input.records.par_iter().with_min_len(1 << 12).for_each(|record| {
@@ -146,7 +141,7 @@ fn smooth_normals(input: &CornerInput) -> Vec<[f32; 3]> {
     let roots: Vec<u32> =
         (0..to_u32(corner_count)).into_par_iter().map(|corner| sets.root(corner)).collect();
     let mut sums = vec![DVec3::ZERO; corner_count];
-    // Blocks are worked out side by side and added in order.
+    // Blocks are computed in parallel and added in order.
     for first in (0..corner_count).step_by(CORNERS_PER_BLOCK) {
         let block = first..corner_count.min(first + CORNERS_PER_BLOCK);
         let weighted: Vec<DVec3> =
@@ -173,7 +168,7 @@ fn join_corners(input: &CornerInput, record: &EdgeRecord, sets: &Sets) {
     }
 }
 
-/// The normal of a corner's face times its angle; zero without area.
+/// The normal of the face of a corner, times the angle of the corner; zero without area.
 fn weighted_normal(input: &CornerInput, corner: usize) -> DVec3 {
     let plane = &input.planes[corner / 3];
     if !has_area(plane) {

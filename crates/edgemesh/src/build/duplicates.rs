@@ -1,15 +1,14 @@
-//! Finds triangles that name the same vertices in the same cyclic order as an
-//! earlier one; a reversed twin is none, as the back of a two-sided sheet.
+//! Finds triangles with the same vertices in the same cyclic order as an earlier triangle. A
+//! reversed triangle is not a duplicate: it may be the back of a two-sided sheet.
 //!
-//! Idea: such a pair runs along each of its edges twice in one direction, and a
-//! sound mesh has no edge like that. So only the faces of these edges are
-//! looked at, and a sound mesh costs nothing.
+//! Idea: two such triangles traverse each of their edges in the same direction, which no edge of a
+//! sound mesh has. So only faces of such edges are compared, and a sound mesh costs nothing.
 //!
-//! Rejected: a hash set of all triangles, which takes longer than the edges.
+//! Rejected: a hash set of all triangles, which takes longer than finding the edges.
 
-use crate::edge_mesh::topology::{EdgeTable, triangle_side};
+use crate::edge_mesh::{EdgeTable, triangle_side};
 
-/// Which faces to keep; `None` where none repeats another.
+/// Whether to keep each face; `None` if no face repeats another.
 pub(crate) fn keep_first_of_each(triangles: &[[u32; 3]], table: &EdgeTable) -> Option<Vec<bool>> {
     let mut suspects = suspects(triangles, table);
     suspects.sort_unstable();
@@ -26,7 +25,7 @@ pub(crate) fn keep_first_of_each(triangles: &[[u32; 3]], table: &EdgeTable) -> O
     is_kept
 }
 
-/// Faces of edges that two of them traverse in one direction.
+/// Faces of edges that two faces traverse in the same direction.
 fn suspects(triangles: &[[u32; 3]], table: &EdgeTable) -> Vec<u32> {
     let mut suspects = Vec::new();
     for (ends, sides) in table.iter().filter(|(_, sides)| sides.len() > 1) {
@@ -38,7 +37,7 @@ fn suspects(triangles: &[[u32; 3]], table: &EdgeTable) -> Vec<u32> {
     suspects
 }
 
-/// The same triangle, smallest vertex first.
+/// The triangle with its smallest vertex first.
 fn cyclic([a, b, c]: [u32; 3]) -> [u32; 3] {
     match a.min(b).min(c) {
         smallest if smallest == a => [a, b, c],
@@ -47,7 +46,7 @@ fn cyclic([a, b, c]: [u32; 3]) -> [u32; 3] {
     }
 }
 
-/// The faces that `is_kept` leaves out, ascending.
+/// The faces that are not kept, ascending.
 pub(crate) fn left_out(is_kept: &[bool]) -> impl Iterator<Item = usize> {
     (0..is_kept.len()).filter(|&face| !is_kept[face])
 }
@@ -68,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn a_reversed_twin_and_a_turned_neighbour_stay() {
+    fn a_reversed_twin_and_a_turned_neighbor_stay() {
         assert!(dropped(&[[0, 1, 2], [0, 2, 1], [1, 2, 3]]).is_empty());
         assert!(dropped(&[[0, 1, 2], [5, 6, 7]]).is_empty());
     }

@@ -1,23 +1,21 @@
-//! The triangles of a mesh, and where each comes from.
+//! The faces of a mesh and their sources in the model.
 //!
-//! A model of triangles alone needs no list for that: triangle k is polygon k,
-//! its corners are 3k to 3k+2. Lists are made where polygons are cut, where
-//! triangles are dropped, and where they are turned around.
+//! A model of triangles needs no list: triangle k is polygon k, with the corners 3k to 3k+2. Lists
+//! are made only if polygons are cut, triangles dropped, or faces flipped.
 
 use super::triangulate::{PolygonTriangle, triangulate};
 use crate::index::to_u32;
 use crate::model::Model;
 use crate::report::{Place, Report};
 
-/// Where each face comes from.
+/// The source of each face.
 #[derive(Debug, Default)]
 pub(crate) struct FaceSources {
-    /// The triangles that polygons were cut into; `None` where all polygons
-    /// are triangles.
+    /// The triangles of all polygons; `None` if all polygons are triangles.
     cut: Option<Vec<PolygonTriangle>>,
-    /// Which of these triangles each face is; `None` where none was dropped.
+    /// The triangle of each face; `None` if no triangle was dropped.
     kept: Option<Vec<u32>>,
-    /// Whether each face was turned around; empty where none was.
+    /// Whether each face was flipped; empty if no face was.
     is_turned: Vec<bool>,
     face_count: usize,
 }
@@ -56,17 +54,17 @@ impl FaceSources {
         if self.is_turned(face) { [a, c, b] } else { [a, b, c] }
     }
 
-    /// The polygon that a face is a part of.
+    /// The polygon of a face.
     pub(crate) fn polygon(&self, face: usize) -> usize {
         self.triangle(face).polygon as usize
     }
 
-    /// Where in the file a face stands.
+    /// The place of a face in the file.
     pub(crate) fn place(&self, model: &Model, face: usize) -> Place {
         model.polygon_place(self.polygon(face))
     }
 
-    /// Whether no side can be a diagonal, as all polygons are triangles.
+    /// Whether no side is a diagonal, because all polygons are triangles.
     pub(crate) const fn has_no_diagonals(&self) -> bool {
         self.cut.is_none()
     }
@@ -77,17 +75,17 @@ impl FaceSources {
             return false;
         }
         let (face, corner) = (side as usize / 3, side % 3);
-        // Turning around swaps corners 1 and 2, and with them sides 0 and 2.
+        // A flip swaps corners 1 and 2, and so sides 0 and 2.
         let corner = if self.is_turned(face) { 2 - corner } else { corner };
         self.triangle(face).diagonals & (1 << corner) != 0
     }
 
-    /// Whether an edge is nothing but a diagonal: both of its faces say so.
+    /// Whether an edge is a diagonal for both of its faces.
     pub(crate) fn is_diagonal_edge(&self, sides: &[u32]) -> bool {
         matches!(*sides, [a, b] if self.is_diagonal(a) && self.is_diagonal(b))
     }
 
-    /// Drops the faces that are not in `is_kept`.
+    /// Drops the faces that are not kept.
     pub(crate) fn keep(&mut self, is_kept: &[bool]) {
         debug_assert!(self.is_turned.is_empty(), "faces are turned after others were dropped");
         let index = |face: usize| self.kept.as_ref().map_or(to_u32(face), |kept| kept[face]);
@@ -97,14 +95,14 @@ impl FaceSources {
         self.kept = Some(kept);
     }
 
-    /// Turns a face around by swapping its corners 1 and 2.
+    /// Flips a face by swapping its corners 1 and 2.
     pub(crate) fn turn(&mut self, face: usize) {
         self.is_turned.resize(self.face_count, false);
         self.is_turned[face] = !self.is_turned[face];
     }
 }
 
-/// Drops from `items` what is not in `is_kept`.
+/// Drops the items that are not kept.
 pub(crate) fn keep_items<T>(items: &mut Vec<T>, is_kept: &[bool]) {
     let mut kept = is_kept.iter();
     items.retain(|_| kept.next() == Some(&true));

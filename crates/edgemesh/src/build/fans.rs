@@ -1,16 +1,13 @@
-//! Walks around each vertex: splits it where fans of faces meet in nothing but
-//! the point, and sums up its normal.
+//! Walks around each vertex: splits vertices in which several fans of faces meet, and computes
+//! vertex normals.
 //!
-//! Idea: the faces at a vertex, joined across their records, form fans. A walk
-//! from the first corner of a vertex, from face to face, sees one fan; where
-//! that is not all of its corners, the vertex joins what the surface does not,
-//! and each further fan gets a vertex of its own. A sound mesh has one fan a
-//! vertex, so the walk is also the one pass over its faces that the normal
-//! needs.
+//! Idea: the faces at a vertex, joined across their records, form fans. A walk from face to face,
+//! starting at the first corner of a vertex, covers one fan. If corners are left, the surface is
+//! not connected there, and each further fan gets a new vertex. A sound mesh has one fan for each
+//! vertex, so the walk is also the only pass over the faces that normals need.
 //!
-//! Normals weigh each face by its angle at the vertex (Thürmer and Wüthrich
-//! 1998, "Computing Vertex Normals from Polygonal Facets"), so that they do not
-//! depend on how a flat part is cut.
+//! Normals weigh each face by its angle at the vertex (Thürmer and Wüthrich 1998, "Computing Vertex
+//! Normals from Polygonal Facets"), so that they do not depend on the triangles of a flat part.
 //!
 //! ```text
 //!     \ A /
@@ -20,8 +17,8 @@
 //!     / B \
 //! ```
 //!
-//! Rejected: weighing by area, where one long sliver turns a normal; counting
-//! edges against faces, which misses two closed fans on one point.
+//! Rejected: weights by area, where one long sliver turns a normal; comparing counts of edges and
+//! faces, which misses two closed fans on one point.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -29,47 +26,45 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::planes::has_area;
-use crate::edge_mesh::FacePlane;
-use crate::edge_mesh::record::EdgeRecord;
+use crate::edge_mesh::{EdgeRecord, FacePlane};
 use crate::index::{NONE, to_u32};
 
-/// The mesh whose vertices are walked around.
+/// The mesh of the walks.
 #[derive(Debug)]
 pub(crate) struct FanInput<'a> {
     pub(crate) positions: &'a [[f32; 3]],
     pub(crate) triangles: &'a [[u32; 3]],
     pub(crate) planes: &'a [FacePlane],
-    /// For each side the side across, or [`NONE`].
+    /// For each side, the side across, or [`NONE`].
     pub(crate) twins: &'a [AtomicU32],
-    /// Vertices of edges where the winding clashes, ascending: a record there
-    /// names the vertices of both faces, so they are not split.
+    /// Vertices of edges whose winding clashes, ascending. They are not split, because a record
+    /// there has the vertices of both faces.
     pub(crate) clashing: &'a [u32],
 }
 
-/// What the walks have found.
+/// The result of the walks.
 #[derive(Debug, Default)]
 pub(crate) struct Fans {
-    /// Normals by vertex, of unit length or zero; where a vertex has several
-    /// fans, that of the first one.
+    /// Unit normals of vertices, or zero; a vertex of several fans has that of the first fan.
     pub(crate) normals: Vec<[f32; 3]>,
-    /// Further fans, by vertex and then by first corner.
+    /// Further fans, sorted by vertex and first corner.
     pub(crate) splits: Vec<Split>,
 }
 
-/// A fan that gets a vertex of its own.
+/// A fan that gets a new vertex.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Split {
-    /// The vertex that it is split from.
+    /// The vertex that the fan is split from.
     pub(crate) vertex: u32,
-    /// The corners of its faces at that vertex.
+    /// The corners of the fan at that vertex.
     pub(crate) corners: Vec<u32>,
     pub(crate) normal: [f32; 3],
 }
 
-/// Where a vertex's corners are.
+/// The corners of a vertex.
 #[derive(Debug, Clone, Copy)]
 struct Corners {
-    /// The first one, or [`NONE`].
+    /// The first corner, or [`NONE`].
     first: u32,
     count: u32,
 }
@@ -95,8 +90,7 @@ pub(crate) fn walk_fans(input: &FanInput) -> Fans {
     Fans { normals, splits: input.further_fans(&split) }
 }
 
-/// The first corner of each vertex, and how many it has; each thread looks for
-/// those of its own vertices.
+/// The first corner and the number of corners of each vertex; each thread has a range of vertices.
 fn corners_by_vertex(input: &FanInput) -> Vec<Corners> {
     let vertex_count = input.positions.len();
     let mut corners = vec![Corners { first: NONE, count: 0 }; vertex_count];
@@ -104,7 +98,7 @@ fn corners_by_vertex(input: &FanInput) -> Vec<Corners> {
     corners.par_chunks_mut(chunk).enumerate().for_each(|(part, own)| {
         let start = to_u32(part * chunk);
         for (corner, &vertex) in input.triangles.as_flattened().iter().enumerate() {
-            // Vertices below wrap around to something large.
+            // Vertices below the range wrap around to large numbers.
             if let Some(entry) = own.get_mut(vertex.wrapping_sub(start) as usize) {
                 entry.first = entry.first.min(to_u32(corner));
                 entry.count += 1;
@@ -115,8 +109,7 @@ fn corners_by_vertex(input: &FanInput) -> Vec<Corners> {
 }
 
 impl FanInput<'_> {
-    /// Walks over the fan of the corner `start`; gives its normal and how many
-    /// corners it has.
+    /// Walks over the fan of the corner `start`; returns its normal and number of corners.
     fn walk(&self, start: u32, mut visit: impl FnMut(u32)) -> ([f32; 3], u32) {
         let point = self.point(start);
         let mut sum = Vec3::ZERO;
@@ -150,8 +143,8 @@ impl FanInput<'_> {
         (sum.normalize_or_zero().to_array(), count)
     }
 
-    /// Walks clockwise from the corner `start`, across the side that runs from
-    /// the vertex; `start` itself has been seen.
+    /// Walks clockwise from the corner `start`, which is not visited again, across the side that
+    /// starts at the vertex.
     fn walk_back(
         &self,
         start: u32,
@@ -178,7 +171,7 @@ impl FanInput<'_> {
         self.twins[side as usize].load(Ordering::Relaxed)
     }
 
-    /// The fans of `vertices`, ascending, but for the first one of each.
+    /// The fans of `vertices`, ascending, without the first fan of each.
     fn further_fans(&self, vertices: &[u32]) -> Vec<Split> {
         if vertices.is_empty() {
             return Vec::new();
@@ -215,8 +208,8 @@ impl FanInput<'_> {
     }
 }
 
-/// Gives each further fan a vertex of its own: positions and normals grow,
-/// triangles and records change. Returns which vertex each new one was.
+/// Adds a vertex for each further fan to positions and normals, and changes triangles and records
+/// to it. Returns the vertex that each new one was split from.
 pub(crate) fn apply_splits(
     splits: &[Split],
     (positions, normals): (&mut Vec<[f32; 3]>, &mut Vec<[f32; 3]>),
@@ -256,9 +249,8 @@ const fn previous(corner: u32) -> u32 {
     if corner.is_multiple_of(3) { corner + 2 } else { corner - 1 }
 }
 
-/// The angle whose cosine is `cosine`, to 7 digits (Abramowitz and Stegun,
-/// *Handbook of Mathematical Functions*, 4.4.46); faster than the exact one,
-/// and the same on every machine.
+/// The arc cosine in radians, to 7 digits (Abramowitz and Stegun, *Handbook of Mathematical
+/// Functions*, 4.4.46); faster than the exact one, and the same on every machine.
 pub(crate) fn angle(cosine: f32) -> f32 {
     const COEFFICIENTS: [f32; 7] = [
         0.006_670_09,
@@ -325,8 +317,8 @@ mod tests {
         assert_eq!(ends, [(0, 0, 1), (0, 2, 0), (1, 5, 3), (1, 4, 5), (0, 1, 2), (1, 3, 4)]);
     }
 
-    /// Two tetrahedra, tip to tip: both fans are closed, so that there are as
-    /// many edges as faces at the vertex.
+    /// Two tetrahedra, tip to tip: both fans are closed, so the vertex has as many edges as
+    /// faces.
     #[test]
     fn closed_fans_on_one_point_are_split_too() {
         let tip = [0., 0., 0.];

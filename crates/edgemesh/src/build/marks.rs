@@ -1,31 +1,28 @@
-//! Edges that the artist chose: lines in the file, and pairs of vertices from a
-//! side file. A line that runs along no edge of the mesh is kept as a record of
-//! its own, without faces.
+//! Marked edges: lines of the model, and pairs of vertices from a side file. A line that is not an
+//! edge of the mesh becomes a record without faces.
 
 use std::collections::BTreeSet;
 
 use super::BuildOptions;
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::record::EdgeRecord;
-use crate::edge_mesh::topology::EdgeTable;
+use crate::edge_mesh::{EdgeFlags, EdgeRecord, EdgeTable};
 use crate::index::{NONE, to_u32};
 use crate::model::Model;
 use crate::report::{Place, Report, WarningCode};
 
-/// The marked edges of a mesh.
+/// The marked and suppressed edges of a mesh.
 #[derive(Debug, Default)]
 pub(crate) struct Marks {
     /// Numbers of edges of the table, ascending.
     marked: Vec<u32>,
     /// Edges that are never creases, ascending.
-    hidden: Vec<u32>,
-    /// Lines that are no edge of the mesh, as welded vertices; ascending.
+    suppressed: Vec<u32>,
+    /// Lines that are not edges of the mesh, as welded vertices; ascending.
     loose: Vec<[u32; 2]>,
 }
 
 impl Marks {
-    /// Finds the edges of the model's lines, and of the pairs of its vertices that a side
-    /// file marks, without those that it does not want marked.
+    /// Finds the edges of the lines of the model and of the marks in `options`, without those that
+    /// `options` unmarks.
     pub(crate) fn find(
         model: &Model,
         options: &BuildOptions,
@@ -50,12 +47,12 @@ impl Marks {
                 Some(edge) => marks.marked.push(to_u32(edge)),
                 None => report.warn(WarningCode::Mark, Some(Place::Vertex(u64::from(pair[0]) + 1)), || {
                     let [a, b] = pair.map(|vertex| u64::from(vertex) + 1);
-                    format!("vertices {a} and {b} are marked but share no edge; the mark is left out")
+                    format!("vertices {a} and {b} are marked but share no edge; the mark was left out")
                 }),
             }
         }
-        let hidden = model.hidden_edges.iter().filter_map(|pair| welded(*pair));
-        marks.hidden.extend(hidden.filter_map(|[a, b]| table.find(a, b)).map(to_u32));
+        let suppressed = model.suppressed_edges.iter().filter_map(|pair| welded(*pair));
+        marks.suppressed.extend(suppressed.filter_map(|[a, b]| table.find(a, b)).map(to_u32));
         marks.sort();
         let unmarked = options.unmarked.iter().filter_map(|pair| welded(*pair));
         let unmarked: BTreeSet<[u32; 2]> = unmarked.map(|[a, b]| [a.min(b), a.max(b)]).collect();
@@ -69,7 +66,7 @@ impl Marks {
     }
 
     fn sort(&mut self) {
-        for list in [&mut self.marked, &mut self.hidden] {
+        for list in [&mut self.marked, &mut self.suppressed] {
             list.sort_unstable();
             list.dedup();
         }
@@ -83,11 +80,11 @@ impl Marks {
     }
 
     /// Whether edge number `edge` is never a crease.
-    pub(crate) fn is_hidden(&self, edge: usize) -> bool {
-        !self.hidden.is_empty() && self.hidden.binary_search(&to_u32(edge)).is_ok()
+    pub(crate) fn is_suppressed(&self, edge: usize) -> bool {
+        !self.suppressed.is_empty() && self.suppressed.binary_search(&to_u32(edge)).is_ok()
     }
 
-    /// Records of the lines that are no edge of the mesh.
+    /// Records of the lines that are not edges of the mesh.
     pub(crate) fn loose_records(&self) -> impl Iterator<Item = EdgeRecord> {
         self.loose.iter().map(|&[v0, v1]| EdgeRecord {
             v0,

@@ -1,4 +1,4 @@
-//! From a [`Model`] to an [`EdgeMesh`], stage by stage:
+//! Builds the [`EdgeMesh`] of a [`Model`], in stages:
 //!
 //! ```text
 //! positions --frame--> 32 bits --weld--.
@@ -9,9 +9,8 @@
 //!     planes --> records --> components --> fans (split, normals) --> chains --> fill
 //! ```
 //!
-//! Every stage takes linear time. Stages that touch every face or edge share
-//! their work among threads, and none of them depends on how many there are or
-//! which is first: the same model gives the same bytes.
+//! Every stage takes linear time. Stages that visit every face or edge run in parallel, and their
+//! results do not depend on the threads: the same model gives the same bytes.
 
 mod attributes;
 mod chains;
@@ -44,43 +43,42 @@ use self::marks::Marks;
 use self::records::{RecordInput, Surface, build_records};
 pub use self::weld::Welding;
 use self::weld::{Weld, weld};
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::mesh_frame::MeshFrame;
-use crate::edge_mesh::topology::{EdgeCounts, EdgePart, EdgeTable, triangle_side};
-use crate::edge_mesh::{Bounds, EdgeMesh, MeshCounts, SourceCounts};
+use crate::edge_mesh::{
+    Bounds, EdgeCounts, EdgeFlags, EdgeMesh, EdgePart, EdgeTable, MeshCounts, MeshFrame,
+    SourceCounts, triangle_side,
+};
 use crate::index::{NONE, to_u32};
 use crate::model::Model;
 use crate::report::{Place, RepairKind, Report, WarningCode};
 
-/// The angle between face normals above which an edge is a crease: 30 degrees,
-/// that is, an internal angle of 150 degrees in the paper's terms. Enough to
-/// leave out the facets of a cylinder with 12 sides or more.
+/// The default for the angle between face normals above which an edge is a crease: 30 degrees, an
+/// internal angle of 150 degrees in the paper. The facets of a cylinder with 12 or more sides are
+/// not creases.
 pub const DEFAULT_CREASE_ANGLE_RAD: f64 = std::f64::consts::FRAC_PI_6;
 
-/// How the edge mesh is made.
+/// Options of the builder.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BuildOptions {
-    /// A convex edge is a ridge where its face normals differ by more than
-    /// this. Default: [`DEFAULT_CREASE_ANGLE_RAD`].
+    /// The angle between the face normals of a convex edge above which it is a ridge, in radians.
+    /// Default: [`DEFAULT_CREASE_ANGLE_RAD`].
     pub ridge_angle_rad: f64,
-    /// A concave edge is a valley where its face normals differ by more than
-    /// this. Default: [`DEFAULT_CREASE_ANGLE_RAD`].
+    /// The angle between the face normals of a concave edge above which it is a valley, in radians.
+    /// Default: [`DEFAULT_CREASE_ANGLE_RAD`].
     pub valley_angle_rad: f64,
-    /// The fill is smooth across edges up to this angle, where the file has
-    /// neither normals nor smoothing groups. Default:
-    /// [`DEFAULT_CREASE_ANGLE_RAD`].
+    /// The angle between face normals up to which the fill is smooth, in radians, if the file has
+    /// neither normals nor smoothing groups. Default: [`DEFAULT_CREASE_ANGLE_RAD`].
     pub smoothing_angle_rad: f64,
-    /// The largest turn within a chain. Default: [`DEFAULT_CHAIN_TURN_RAD`].
+    /// The largest turn within a chain, in radians. Default: [`DEFAULT_CHAIN_TURN_RAD`].
     pub chain_turn_rad: f64,
-    /// Which vertices become one. Default: those at the same position.
+    /// The vertices that become one. Default: [`Welding::Exact`].
     pub welding: Welding,
-    /// Pairs of the file's vertices, counted from 0, whose edges are marked.
+    /// Pairs of vertices of the file, counted from 0, whose edges are marked.
     pub marks: Vec<[u32; 2]>,
-    /// Pairs whose edges are not marked, though the file or another pair marks them.
+    /// Pairs of vertices whose edges are not marked, even if the file or `marks` marks them.
     pub unmarked: Vec<[u32; 2]>,
-    /// Where the mesh lies in its file. Default: [`MeshFrame::of_box`] decides.
+    /// The frame of the mesh. Default: the identity, unless 32 bits would lose detail.
     pub frame: Option<MeshFrame>,
-    /// Whether the fill is built, which only shading needs. Default: yes.
+    /// Whether the fill is built, which only shading needs. Default: true.
     pub with_fill: bool,
 }
 
@@ -101,25 +99,27 @@ impl Default for BuildOptions {
 }
 
 impl BuildOptions {
-    /// The cosines of the ridge and the valley threshold.
+    /// The cosines of the thresholds of ridges and valleys.
     fn crease_cosines(&self) -> [f64; 2] {
         [self.ridge_angle_rad.cos(), self.valley_angle_rad.cos()]
     }
 }
 
-/// Builds the edge mesh of `model`; what is repaired or dropped goes to `report`.
+/// Builds the edge mesh of `model`, and adds its warnings and repairs to `report`.
 ///
-/// A model whose faces are all degenerate gives an edge mesh without triangles
-/// and a warning, not an error.
+/// A model of degenerate faces gives an edge mesh without triangles and a warning.
+///
+/// # Panics
+/// Panics if an index of `model` is out of range. Models from a reader have none.
 #[must_use]
 pub fn build_edge_mesh(model: &Model, options: &BuildOptions, report: &mut Report) -> EdgeMesh {
     build_with_file_vertices(model, options, report).0
 }
 
-/// As [`build_edge_mesh`], with a vertex of the file, counted from 0, for each vertex of
-/// the mesh: the first one at its place.
+/// As [`build_edge_mesh`], with the first vertex of the file, counted from 0, at the position of
+/// each vertex of the mesh.
 #[must_use]
-pub fn build_with_file_vertices(
+pub(crate) fn build_with_file_vertices(
     model: &Model,
     options: &BuildOptions,
     report: &mut Report,
@@ -156,8 +156,11 @@ pub fn build_with_file_vertices(
     (mesh, file_vertices)
 }
 
-/// Marks edges of a finished mesh between pairs of its vertices, or takes the marks of
-/// these edges away, and chains anew.
+/// Marks or unmarks the edges between pairs of vertices of `mesh`, and chains its edges again with
+/// the largest turn of `options`.
+///
+/// # Panics
+/// Panics if a vertex is out of range.
 pub fn set_marks(mesh: &mut EdgeMesh, pairs: &[[u32; 2]], is_marked: bool, options: &BuildOptions) {
     let welded_count = mesh.positions.len() - mesh.split_from.len();
     let split_from = &mesh.split_from;
@@ -175,9 +178,9 @@ pub fn set_marks(mesh: &mut EdgeMesh, pairs: &[[u32; 2]], is_marked: bool, optio
     mesh.chains = chains::chain(&mesh.positions, &mesh.records, options.chain_turn_rad);
 }
 
-/// Finds the creases of a finished mesh by other thresholds, and chains anew.
-pub fn reclassify(mesh: &mut EdgeMesh, options: &BuildOptions) {
-    // The planes that were lent must not make creases.
+/// Finds the creases of a mesh with the thresholds of `options`, and chains its edges again.
+pub(crate) fn reclassify(mesh: &mut EdgeMesh, options: &BuildOptions) {
+    // Without the planes of neighbors, which would make creases.
     let planes = planes::face_planes(&mesh.positions, &mesh.triangles);
     let surface =
         Surface { positions: &mesh.positions, triangles: &mesh.triangles, planes: &planes };
@@ -185,7 +188,7 @@ pub fn reclassify(mesh: &mut EdgeMesh, options: &BuildOptions) {
     mesh.chains = chains::chain(&mesh.positions, &mesh.records, options.chain_turn_rad);
 }
 
-/// Moves the vertices that are used into the mesh's frame and welds them.
+/// Converts used vertices to the mesh frame and welds them.
 fn weld_model(model: &Model, options: &BuildOptions, report: &mut Report) -> (MeshFrame, Weld) {
     let is_used = used_vertices(model);
     let frame = options.frame.unwrap_or_else(|| {
@@ -211,7 +214,7 @@ fn weld_model(model: &Model, options: &BuildOptions, report: &mut Report) -> (Me
     (frame, welded)
 }
 
-/// Whether faces or lines use each vertex.
+/// Whether a face or line uses each vertex.
 fn used_vertices(model: &Model) -> Vec<bool> {
     let is_used: Vec<AtomicBool> = model.positions.iter().map(|_| AtomicBool::new(false)).collect();
     let mark = |&vertex: &u32| is_used[vertex as usize].store(true, Ordering::Relaxed);
@@ -220,10 +223,10 @@ fn used_vertices(model: &Model) -> Vec<bool> {
     is_used.into_iter().map(AtomicBool::into_inner).collect()
 }
 
-/// The corners of the box around the vertices that a model uses, in its own
-/// units; infinite and turned around where it uses none.
+/// The corners of the box around the used vertices of a model, in its units; without any, infinite
+/// with the lower corner above the upper one.
 #[must_use]
-pub fn box_of(model: &Model) -> (DVec3, DVec3) {
+pub(crate) fn box_of(model: &Model) -> (DVec3, DVec3) {
     used_box(model, &used_vertices(model))
 }
 
@@ -235,7 +238,7 @@ fn used_box(model: &Model, is_used: &[bool]) -> (DVec3, DVec3) {
         .reduce(nothing, |a, b| (a.0.min(b.0), a.1.max(b.1)))
 }
 
-/// Different positions that faces use.
+/// Counts the different positions that faces use.
 fn count_face_vertices(model: &Model, welded: &Weld) -> usize {
     if model.segments.is_empty() {
         return welded.positions.len();
@@ -247,7 +250,7 @@ fn count_face_vertices(model: &Model, welded: &Weld) -> usize {
     is_used.iter().filter(|&&used| used).count()
 }
 
-/// Makes welded triangles and drops those that name a vertex twice.
+/// Makes welded triangles and drops those with a repeated vertex.
 fn weld_triangles(
     model: &Model,
     welded_from_input: &[u32],
@@ -293,7 +296,7 @@ fn count_edges(
     }
 }
 
-/// Counts the file's own polygons, by the file's own vertices.
+/// Counts the polygons of the file, by the vertices of the file.
 fn count_source(model: &Model, welded: &Weld, counts: &MeshCounts) -> SourceCounts {
     let mut source = SourceCounts {
         vertices: model.positions.len(),
@@ -303,7 +306,7 @@ fn count_source(model: &Model, welded: &Weld, counts: &MeshCounts) -> SourceCoun
     };
     let used = welded.welded_from_input.iter().filter(|&&vertex| vertex != NONE).count();
     let is_welded = used != welded.positions.len();
-    // Where nothing was welded, cut or dropped, the mesh is the file's own.
+    // If nothing was welded, cut or dropped, the edges of the mesh are those of the file.
     if is_welded || !model.is_triangles() || counts.degenerate_triangles > 0 {
         let mut sides = Vec::with_capacity(model.corner_positions.len());
         for polygon in 0..model.polygon_count() {
@@ -331,12 +334,12 @@ fn warn_non_manifold(
     let sides = first.unwrap_or_default();
     let place = sides.get(2).map(|&side| sources.place(model, side as usize / 3));
     report.warn_many(WarningCode::NonManifold, counts.edges.non_manifold, place, || {
-        format!("an edge is shared by {} faces; they are drawn in pairs", sides.len())
+        format!("{} faces share an edge; they are drawn in pairs", sides.len())
     });
 }
 
-/// Drops faces that repeat others and makes the winding consistent; returns the
-/// edges that clash nevertheless. A sound mesh is left as it is, at no cost.
+/// Drops duplicate faces and makes the winding consistent; returns the edges that still clash. A
+/// sound mesh is not changed and costs nothing.
 fn repair(
     model: &Model,
     welded: &Weld,
@@ -367,8 +370,8 @@ fn repair(
     repair_winding(model, welded, triangles, sources, table, report)
 }
 
-/// Flips the minority of every component that winds two ways; returns the
-/// edges that clash nevertheless.
+/// Flips the minority of faces in every component with inconsistent winding; returns the edges that
+/// still clash.
 fn repair_winding(
     model: &Model,
     welded: &Weld,
@@ -384,20 +387,20 @@ fn repair_winding(
         let last = table.sides(edge as usize).last();
         let place = last.map(|&side| sources.place(model, side as usize / 3));
         report.warn_many(WarningCode::Orientation, orientation.clashes.len(), place, || {
-            "the surface has no two sides; it is cut along edges where its faces clash".into()
+            "the surface cannot be oriented; it was cut along edges whose faces clash".into()
         });
     }
     if !orientation.flipped.is_empty() {
         for &face in &orientation.flipped {
             sources.turn(face);
         }
-        // Flipped triangles number their sides anew; the edges stay the same.
+        // A flip renumbers the sides of a triangle; the edges stay the same.
         *table = EdgeTable::from_triangles(welded.positions.len(), triangles);
     }
     orientation.clashes
 }
 
-/// What the first stages leave for the last ones.
+/// The results of the first stages, for the last ones.
 struct Parts {
     positions: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
@@ -497,7 +500,7 @@ fn report_splits(model: &Model, sources: &FaceSources, splits: &[Split], report:
     report.repair(RepairKind::SplitVertices, splits.len(), place);
 }
 
-/// The vertices of edges where the winding clashes, ascending.
+/// The vertices of edges whose winding clashes, ascending.
 fn clashing_vertices(triangles: &[[u32; 3]], table: &EdgeTable, clashes: &[u32]) -> Vec<u32> {
     let sides = clashes.iter().filter_map(|&edge| table.sides(edge as usize).first());
     let mut vertices: Vec<u32> = sides.flat_map(|&side| triangle_side(triangles, side)).collect();
@@ -506,7 +509,7 @@ fn clashing_vertices(triangles: &[[u32; 3]], table: &EdgeTable, clashes: &[u32])
     vertices
 }
 
-/// Gives faces without area the planes of their neighbours, and counts them.
+/// Gives faces without area the planes of their neighbors, and counts them.
 fn lend_planes(
     model: &Model,
     sources: &FaceSources,

@@ -1,38 +1,35 @@
 //! Makes the winding of every component consistent.
 //!
-//! Idea: walk from face to face over edges of exactly two faces; a face that
-//! traverses the shared edge in the same direction as its neighbour is turned
-//! relative to it. When all is walked, the minority of each component is
-//! flipped, so that a model with one wrong face loses that one and keeps the
-//! rest. An edge whose two faces still clash belongs to a surface that has no
-//! two sides, like a Möbius strip; the surface is cut there.
+//! Idea: walk from face to face across edges of exactly two faces. A face that traverses the shared
+//! edge in the same direction as its neighbor is turned relative to it. At the end the minority of
+//! each component is flipped, so that one wrong face does not flip all others. An edge whose faces
+//! still clash belongs to a surface that cannot be oriented, such as a Möbius strip; the surface is
+//! cut there.
 //!
-//! Rejected: turning components outwards by their signed volume. An open
-//! surface has none, and a file that is consistent is left as it is.
+//! Rejected: turning components outward by signed volume. Open surfaces have none, and consistent
+//! files should not change.
 
-use crate::edge_mesh::topology::{EdgeTable, triangle_side};
+use crate::edge_mesh::{EdgeTable, triangle_side};
 use crate::index::{NONE, to_u32};
 
-/// What was found and done.
+/// The result of [`orient`].
 #[derive(Debug, Default)]
 pub(crate) struct Orientation {
-    /// Faces that were flipped in place, ascending.
+    /// Flipped faces, ascending.
     pub(crate) flipped: Vec<usize>,
-    /// Edges (numbers of the table) whose faces clash whatever is flipped,
-    /// ascending.
+    /// Edges (numbers of the table) whose faces clash in any case, ascending.
     pub(crate) clashes: Vec<u32>,
 }
 
-/// Flips triangles of `triangles` in place until their winding agrees across
-/// every edge of two faces, where that is possible. A flip swaps corners 1 and
-/// 2.
+/// Flips triangles in place so that their winding agrees across every edge of two faces, if
+/// possible. A flip swaps corners 1 and 2.
 pub(crate) fn orient(triangles: &mut [[u32; 3]], table: &EdgeTable) -> Orientation {
-    let neighbours = neighbours_over_edges(triangles, table);
-    let is_turned = turn_the_minority(&neighbours);
+    let neighbors = neighbors_over_edges(triangles, table);
+    let is_turned = turn_the_minority(&neighbors);
     let mut orientation = Orientation::default();
     for (edge, (_, sides)) in table.iter().enumerate() {
         if let [a, b] = *sides {
-            let disagrees = neighbours[a as usize].disagrees;
+            let disagrees = neighbors[a as usize].disagrees;
             let turned_apart = is_turned[a as usize / 3] != is_turned[b as usize / 3];
             if disagrees != turned_apart {
                 orientation.clashes.push(to_u32(edge));
@@ -46,10 +43,10 @@ pub(crate) fn orient(triangles: &mut [[u32; 3]], table: &EdgeTable) -> Orientati
     orientation
 }
 
-/// Walks over each component and decides which of its faces are turned; of the
-/// two ways the one that turns fewer.
-fn turn_the_minority(neighbours: &[Neighbour]) -> Vec<bool> {
-    let face_count = neighbours.len() / 3;
+/// Walks over each component and decides for each face whether it is turned; turns the smaller
+/// number of faces.
+fn turn_the_minority(neighbors: &[Neighbor]) -> Vec<bool> {
+    let face_count = neighbors.len() / 3;
     let mut is_turned = vec![false; face_count];
     let mut is_seen = vec![false; face_count];
     let mut patch = Vec::new();
@@ -62,10 +59,10 @@ fn turn_the_minority(neighbours: &[Neighbour]) -> Vec<bool> {
         let mut next = 0;
         while let Some(&face) = patch.get(next) {
             next += 1;
-            for neighbour in neighbours[3 * face..3 * face + 3].iter().filter(|n| n.face != NONE) {
-                let other = neighbour.face as usize;
+            for neighbor in neighbors[3 * face..3 * face + 3].iter().filter(|n| n.face != NONE) {
+                let other = neighbor.face as usize;
                 if !std::mem::replace(&mut is_seen[other], true) {
-                    is_turned[other] = is_turned[face] != neighbour.disagrees;
+                    is_turned[other] = is_turned[face] != neighbor.disagrees;
                     patch.push(other);
                 }
             }
@@ -80,25 +77,25 @@ fn turn_the_minority(neighbours: &[Neighbour]) -> Vec<bool> {
     is_turned
 }
 
-/// The face across a side, where the edge has exactly two.
+/// The face across a side, if the edge has exactly two faces.
 #[derive(Debug, Clone, Copy)]
-struct Neighbour {
+struct Neighbor {
     /// The face, or [`NONE`].
     face: u32,
-    /// Whether the two traverse the edge in the same direction.
+    /// Whether both faces traverse the edge in the same direction.
     disagrees: bool,
 }
 
-fn neighbours_over_edges(triangles: &[[u32; 3]], table: &EdgeTable) -> Vec<Neighbour> {
-    let mut neighbours = vec![Neighbour { face: NONE, disagrees: false }; triangles.len() * 3];
+fn neighbors_over_edges(triangles: &[[u32; 3]], table: &EdgeTable) -> Vec<Neighbor> {
+    let mut neighbors = vec![Neighbor { face: NONE, disagrees: false }; triangles.len() * 3];
     for (_, sides) in table.iter() {
         if let [a, b] = *sides {
             let disagrees = triangle_side(triangles, a) == triangle_side(triangles, b);
-            neighbours[a as usize] = Neighbour { face: b / 3, disagrees };
-            neighbours[b as usize] = Neighbour { face: a / 3, disagrees };
+            neighbors[a as usize] = Neighbor { face: b / 3, disagrees };
+            neighbors[b as usize] = Neighbor { face: a / 3, disagrees };
         }
     }
-    neighbours
+    neighbors
 }
 
 #[cfg(test)]

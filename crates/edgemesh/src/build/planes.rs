@@ -1,15 +1,12 @@
-//! Face planes: what decides whether a face looks at the eye.
+//! Face planes, which decide whether a face looks at the eye.
 //!
-//! A face without area has no normal of its own: it takes the plane of the
-//! face across its longest edge, so that it is never on its own side of a
-//! contour.
+//! A face without area has no normal. It takes the plane of the face across its longest edge, so
+//! that no contour separates the two.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::edge_mesh::FacePlane;
-use crate::edge_mesh::face_normal::{corners_of, face_normal};
-use crate::edge_mesh::topology::EdgeTable;
+use crate::edge_mesh::{EdgeTable, FacePlane, corners_of, face_normal};
 
 /// The planes of all faces; a face without area has a normal of zero.
 pub(crate) fn face_planes(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<FacePlane> {
@@ -26,7 +23,7 @@ pub(crate) fn has_area(plane: &FacePlane) -> bool {
     plane.normal != [0.0; 4]
 }
 
-/// Gives the faces without area, `flat`, the planes of their neighbours.
+/// Gives the faces without area, `flat`, the planes of their neighbors.
 pub(crate) fn lend_planes(
     positions: &[[f32; 3]],
     triangles: &[[u32; 3]],
@@ -37,8 +34,8 @@ pub(crate) fn lend_planes(
     if flat.is_empty() {
         return;
     }
-    // Slivers can lie side by side, so the planes travel on from face to face.
-    let mut takers = longest_edge_neighbours(positions, triangles, planes, table);
+    // Slivers can be adjacent, so planes travel from face to face.
+    let mut takers = longest_edge_neighbors(positions, triangles, planes, table);
     takers.sort_unstable_by_key(|&(face, donor)| (donor, face));
     let mut donors: Vec<usize> =
         takers.iter().map(|taker| taker.1).filter(|&donor| has_area(&planes[donor])).collect();
@@ -55,7 +52,7 @@ pub(crate) fn lend_planes(
 }
 
 /// For each face without area, the face across its longest edge.
-fn longest_edge_neighbours(
+fn longest_edge_neighbors(
     positions: &[[f32; 3]],
     triangles: &[[u32; 3]],
     planes: &[FacePlane],

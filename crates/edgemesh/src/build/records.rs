@@ -1,17 +1,16 @@
-//! Makes the edge records: two faces each, with the classes that no view changes.
+//! Makes the edge records, with two faces each and the classes that no view changes.
 //!
-//! An edge of more than two faces is split into pairs of neighbours around the
-//! edge, so that each record is manifold: going around by dihedral angle, a
-//! face that bounds solid matter on its far side is paired with the next one
-//! that bounds it on its near side. Two cubes that touch along an edge become
-//! two plain edges of a cube.
+//! An edge of more than two faces is split into pairs of neighbors around it, so that each record
+//! is manifold: in the order of dihedral angles, a face with solid matter on its far side is paired
+//! with the next face that has it on its near side. Two cubes that touch along an edge become two
+//! edges of a cube.
 //!
-//! The cosine of a crease is first taken from the 32-bit normals of the planes,
-//! and only within their rounding of a threshold from the positions in 64 bits:
-//! the answer is that of 64 bits, at the cost of 32.
+//! The cosine of a crease is computed from the 32-bit normals of the planes, and again in 64 bits
+//! from positions if it is within rounding of a threshold: the result is that of 64 bits at the
+//! cost of 32.
 //!
-//! Rejected: refusing such meshes, as half-edge structures do; pairing in file
-//! order, which joins faces through one another.
+//! Rejected: refusing such meshes, as half-edge structures do; pairs in file order, which join
+//! faces through one another.
 //!
 //! ```text
 //!        b | c          around the edge (seen along v0 -> v1):
@@ -29,22 +28,20 @@ use super::faces::FaceSources;
 use super::marks::Marks;
 use super::planes::has_area;
 use super::{BuildOptions, FaceAttributes};
-use crate::edge_mesh::FacePlane;
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::face_normal::{corners_of, face_normal};
-use crate::edge_mesh::record::EdgeRecord;
-use crate::edge_mesh::topology::{EdgePart, EdgeTable, triangle_side};
+use crate::edge_mesh::{
+    EdgeFlags, EdgePart, EdgeRecord, EdgeTable, FacePlane, corners_of, face_normal, triangle_side,
+};
 use crate::index::{NONE, to_u32};
 
-/// The cosine of two normals that were rounded to 32 bits errs by less.
+/// An upper bound for the error of the cosine of two normals in 32 bits.
 const COSINE_ERROR: f64 = 1e-6;
 
-/// What the records are made from.
+/// The input of the records.
 #[derive(Debug)]
 pub(crate) struct RecordInput<'a> {
     pub(crate) positions: &'a [[f32; 3]],
     pub(crate) triangles: &'a [[u32; 3]],
-    /// Planes before any were lent: faces without area have no normal.
+    /// Planes of faces; those of faces without area have no normal yet.
     pub(crate) planes: &'a [FacePlane],
     pub(crate) sources: &'a FaceSources,
     pub(crate) attributes: &'a FaceAttributes,
@@ -56,13 +53,13 @@ pub(crate) struct RecordInput<'a> {
     pub(crate) options: &'a BuildOptions,
 }
 
-/// The records, and how faces hang together by them.
+/// The records, and the sides that they join.
 #[derive(Debug)]
 pub(crate) struct RecordTable {
-    /// In the order of the edges of the table.
+    /// Records in the order of the edges of the table.
     pub(crate) records: Vec<EdgeRecord>,
-    /// For each side the side across, of the face that its record pairs it
-    /// with; [`NONE`] at boundaries and where the winding clashes.
+    /// For each side, the side of the other face of its record; [`NONE`] at boundaries and where
+    /// the winding clashes.
     pub(crate) twins: Vec<AtomicU32>,
     /// Edges of more than two faces.
     pub(crate) split_edges: usize,
@@ -72,11 +69,10 @@ pub(crate) struct RecordTable {
 pub(crate) fn build_records(input: &RecordInput, table: &EdgeTable) -> RecordTable {
     let twins: Vec<AtomicU32> =
         (0..input.triangles.len() * 3).into_par_iter().map(|_| AtomicU32::new(NONE)).collect();
-    // Edges of more than two faces are rare; how many records they make is
-    // known only when they are split.
+    // Edges of more than two faces are rare; only splitting them tells the number of records.
     let splits = input.split_edges(table, &twins);
     let count = table.edge_count() + splits.iter().map(|s| s.records.len() - 1).sum::<usize>();
-    // Memory that is zero to begin with, so that the threads touch it first.
+    // Zeroed memory, which the threads touch first.
     let mut records: Vec<EdgeRecord> = bytemuck::zeroed_vec(count);
     let targets = targets(table, &splits, &mut records);
     table.parts().zip(targets).for_each(|((first_edge, part), (records, splits))| {
@@ -85,14 +81,13 @@ pub(crate) fn build_records(input: &RecordInput, table: &EdgeTable) -> RecordTab
     RecordTable { records, twins, split_edges: splits.len() }
 }
 
-/// An edge of more than two faces, in pairs.
+/// An edge of more than two faces, split into pairs.
 struct SplitEdge {
     edge: usize,
     records: Vec<EdgeRecord>,
 }
 
-/// Cuts the list of records, and that of the split edges, into those of each
-/// part.
+/// Cuts the lists of records and split edges into those of each part.
 fn targets<'a>(
     table: &EdgeTable,
     mut splits: &'a [SplitEdge],
@@ -169,8 +164,8 @@ impl RecordInput<'_> {
         EdgeRecord { v0, v1, face_a: side / 3, face_b: NONE, flags }
     }
 
-    /// The record of an edge with two faces; A is the one that runs from the
-    /// smaller vertex to the larger.
+    /// The record of an edge with two faces; face A traverses it from the smaller vertex to the
+    /// larger one.
     fn pair(&self, edge: usize, first: u32, second: u32, twins: &[AtomicU32]) -> EdgeRecord {
         let [start, end] = triangle_side(self.triangles, first);
         let clashes = self.clashes.binary_search(&to_u32(edge)).is_ok();
@@ -182,7 +177,7 @@ impl RecordInput<'_> {
         } else {
             join(twins, a, b);
         }
-        if self.sources.is_diagonal_edge(&[a, b]) || self.marks.is_hidden(edge) {
+        if self.sources.is_diagonal_edge(&[a, b]) || self.marks.is_suppressed(edge) {
             record.flags |= EdgeFlags::DIAGONAL;
             return record;
         }
@@ -202,8 +197,8 @@ impl RecordInput<'_> {
         Vec3::from(self.positions[vertex as usize]).as_dvec3()
     }
 
-    /// Splits the faces of one edge into pairs around solid matter; a face that
-    /// finds no partner gets a record of its own.
+    /// Splits the faces of an edge into pairs around solid matter; a face without a partner gets a
+    /// separate record.
     fn split(
         &self,
         [low, high]: [u32; 2],
@@ -216,9 +211,8 @@ impl RecordInput<'_> {
         let count = around.len();
         let mut is_paired = vec![false; count];
         for at in 0..count {
-            // Angles grow clockwise about the axis, and the normal of a face
-            // that runs up is turned the other way: its matter lies at larger
-            // angles than the face itself, up to a face that runs down.
+            // Angles grow clockwise about the axis, and the normal of a face that runs up points
+            // the other way: its matter lies at larger angles, up to a face that runs down.
             let next = (at + 1) % count;
             if runs_up(around[at]) && !runs_up(around[next]) && !is_paired[next] {
                 is_paired[at] = true;
@@ -236,8 +230,7 @@ impl RecordInput<'_> {
         }
     }
 
-    /// The sides of an edge by the angle of their faces around it; equal angles
-    /// keep the order of the faces.
+    /// The sides of an edge, sorted by the angle of their faces around it, then by face.
     fn sorted_by_angle(&self, low: u32, high: u32, sides: &[u32]) -> Vec<u32> {
         let origin = self.position(low);
         let axis = (self.position(high) - origin).normalize_or_zero();
@@ -257,7 +250,7 @@ impl RecordInput<'_> {
     }
 }
 
-/// What creases are worked out from.
+/// The input of creases.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Surface<'a> {
     pub(crate) positions: &'a [[f32; 3]],
@@ -266,9 +259,8 @@ pub(crate) struct Surface<'a> {
 }
 
 impl Surface<'_> {
-    /// Ridge or valley by Equation 1, the thresholds read as angles between
-    /// the face normals: `n_A . n_B < cos(threshold)`. `apex_b` is the vertex of
-    /// face B that is not on the edge.
+    /// Ridge or valley by Equation 1, with thresholds between the face normals:
+    /// `n_A . n_B < cos(threshold)`. `apex_b` is the vertex of face B off the edge.
     pub(crate) fn crease(
         &self,
         record: &EdgeRecord,
@@ -301,7 +293,7 @@ impl Surface<'_> {
     }
 }
 
-/// Finds the creases of records by other thresholds.
+/// Finds the creases of records with the thresholds of `options`.
 pub(crate) fn reclassify(surface: &Surface, records: &mut [EdgeRecord], options: &BuildOptions) {
     let never = EdgeFlags::NON_MANIFOLD | EdgeFlags::DIAGONAL;
     let sound = |record: &&mut EdgeRecord| record.face_b != NONE && !record.flags.intersects(never);

@@ -1,9 +1,8 @@
-//! What triangles share: material, group, and whether they have texture
-//! coordinates.
+//! Material ranges: triangles of the same material and group, with or without texture coordinates.
 //!
-//! Idea: triangles stand in the order of the polygons that they come from, so a
-//! run of polygons is a range of triangles, whose end is found by halving. Only
-//! where some corners have texture coordinates is every triangle looked at.
+//! Idea: triangles are in the order of their polygons, so a run of polygons is a range of
+//! triangles, whose end is found by binary search. Every triangle is visited only if some corners
+//! have texture coordinates.
 
 use std::ops::Range;
 
@@ -12,7 +11,7 @@ use crate::edge_mesh::FillRun;
 use crate::index::{NONE, to_u32};
 use crate::model::{Attributes, Model};
 
-/// The runs of all triangles; none where there is no triangle.
+/// The material ranges of all triangles.
 pub(crate) fn fill_runs(model: &Model, sources: &FaceSources) -> Vec<FillRun> {
     let mut runs = Vec::new();
     let mut attributes = Attributes::default();
@@ -26,7 +25,7 @@ pub(crate) fn fill_runs(model: &Model, sources: &FaceSources) -> Vec<FillRun> {
     runs
 }
 
-/// The first face that comes from `polygon` or one behind it.
+/// The first face of `polygon` or of a later polygon.
 fn first_face_from(sources: &FaceSources, polygon: usize) -> usize {
     let (mut start, mut end) = (0, sources.len());
     while start < end {
@@ -40,7 +39,7 @@ fn first_face_from(sources: &FaceSources, polygon: usize) -> usize {
     start
 }
 
-/// Adds faces of the same attributes.
+/// Adds faces with the same attributes.
 fn push_faces(
     runs: &mut Vec<FillRun>,
     model: &Model,

@@ -1,13 +1,11 @@
-//! Cuts polygons into triangles and remembers which sides are diagonals.
+//! Cuts polygons into triangles and stores which sides are diagonals.
 //!
-//! Idea: a fan from the first corner, (0, k, k+1), which is what most programs
-//! do and what the reference counts assume. Only where a fan triangle would
-//! turn against its polygon, that is, where the fan would overlap itself, the
-//! polygon is cut by ear clipping (Meisters 1975) instead.
+//! Idea: a fan from the first corner, (0, k, k+1), as most programs and the reference counts have
+//! it. If a triangle of the fan turns against its polygon, so that the fan would overlap itself,
+//! the polygon is cut by ear clipping (Meisters 1975) instead.
 //!
-//! Rejected: ear clipping everywhere. It gives better triangles, but other
-//! diagonals than everyone else's, and a diagonal of a polygon that is not flat
-//! can be a contour.
+//! Rejected: ear clipping for all polygons. Its triangles are better, but its diagonals differ from
+//! those of other programs, and the diagonal of a polygon that is not flat can be a contour.
 //!
 //! ```text
 //!   3---2      (0,1,2) has the diagonal 2-0: side 2
@@ -22,22 +20,22 @@ use crate::index::to_u32;
 use crate::model::Model;
 use crate::report::{RepairKind, Report};
 
-/// Polygons above this are cut as fans whatever their shape: ear clipping takes
-/// quadratic time. The largest concave face seen in real files has 936 corners.
+/// Larger polygons are cut as fans in any case, because ear clipping takes quadratic time. The
+/// largest concave face seen in real files has 936 corners.
 const MAX_EAR_CLIPPED_CORNERS: usize = 4096;
 
 /// A triangle of a polygon.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PolygonTriangle {
-    /// Indices of the model's corners.
+    /// Indices of corners of the model.
     pub(crate) corners: [u32; 3],
-    /// The polygon, by its place in the model.
+    /// The index of the polygon in the model.
     pub(crate) polygon: u32,
-    /// Bit k is set where the side from corner k to corner k+1 is a diagonal.
+    /// Bit k is set if the side from corner k to corner k+1 is a diagonal.
     pub(crate) diagonals: u8,
 }
 
-/// Cuts every polygon of `model`; the order of polygons is kept.
+/// Cuts every polygon of `model`, in order.
 pub(crate) fn triangulate(model: &Model, report: &mut Report) -> Vec<PolygonTriangle> {
     let total = model.corner_positions.len() - 2 * model.polygon_count();
     let mut triangles = Vec::with_capacity(total);
@@ -72,7 +70,7 @@ fn position_of(model: &Model, corner: usize) -> DVec3 {
     DVec3::from(model.positions[model.corner_positions[corner] as usize])
 }
 
-/// A side is a diagonal unless its ends follow each other in the polygon.
+/// The bits of the diagonals: sides whose ends are not successive in the polygon.
 fn diagonal_sides(local: [usize; 3], count: usize) -> u8 {
     (0..3)
         .filter(|&side| (local[side] + 1) % count != local[(side + 1) % 3])
@@ -93,17 +91,16 @@ fn fan_overlaps(points: &[DVec3]) -> bool {
     })
 }
 
-/// Cuts off ears until a triangle is left; `None` where no ear is found, as in
-/// polygons that cross themselves.
+/// Cuts off ears until a triangle is left; `None` if there is no ear, as in polygons that cross
+/// themselves.
 fn clip_ears(points: &[DVec3]) -> Option<Vec<[usize; 3]>> {
     let normal = area_vector(points);
     let mut ring: Vec<usize> = (0..points.len()).collect();
     let mut ears = Vec::with_capacity(points.len() - 2);
-    // Cutting an ear can make ears of its two neighbours only.
+    // Cutting an ear can make ears only of its two neighbors.
     let mut ear: Vec<bool> =
         (0..ring.len()).map(|tip| is_ear(points, &ring, tip, normal)).collect();
-    // The search goes on behind the last ear, so that a strip of ears does not
-    // become a fan of slivers around one corner.
+    // The search goes on after the last ear, so that a strip does not become a fan of slivers.
     let mut at = 0;
     while ring.len() > 3 {
         let count = ring.len();

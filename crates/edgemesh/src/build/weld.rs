@@ -1,22 +1,19 @@
-//! Welds vertices that are in one place.
+//! Welds vertices at the same position.
 //!
-//! Only mesh geometry matters for edges (paper, section 3, footnote 4): a
-//! vertex that a file lists twice, for a second normal or texture coordinate,
-//! is one vertex here. Positions are compared as numbers, so -0 equals 0.
+//! Only the geometry matters for edges (paper, section 3, footnote 4): a vertex that a file lists
+//! twice, for a second normal or texture coordinate, is one vertex here. Positions are compared as
+//! numbers, so -0 equals 0.
 //!
-//! Idea: of equal positions the one that the file lists first stands for all,
-//! and the welded vertices are numbered in the file's order. Positions are
-//! shared out among the threads by their hash, so that equal ones meet in one
-//! thread; the result depends neither on the hash nor on the threads.
+//! Idea: the first of equal positions in the file represents all, and welded vertices are numbered
+//! in the order of the file. Positions are distributed to threads by hash, so that equal ones meet
+//! in one thread; the result depends neither on the hash nor on the threads.
 //!
-//! With a tolerance, vertices go to the nearest of the standing ones before
-//! them that is near enough, found by a grid of cells as wide as the
-//! tolerance. A vertex moves by the tolerance at most, however many lie side
-//! by side.
+//! With a tolerance, a vertex is welded to the nearest earlier representative within the tolerance,
+//! found in a grid of cells as wide as the tolerance. A vertex moves by at most the tolerance,
+//! however many neighbors it has.
 //!
-//! Rejected: sorting all positions, which takes longer and gains nothing;
-//! a tolerance by default, which breaks small geometry; rounding to a grid,
-//! which parts neighbours on two sides of a line.
+//! Rejected: sorting all positions, which takes longer; a tolerance by default, which breaks small
+//! geometry; rounding to a grid, which separates neighbors on two sides of a grid line.
 
 use std::hash::{BuildHasher, RandomState};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -27,33 +24,32 @@ use rustc_hash::FxHashMap;
 
 use crate::index::{NONE, to_u32};
 
-/// Which vertices become one.
+/// The vertices that become one.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub enum Welding {
-    /// Those at exactly the same position.
+    /// Vertices at exactly the same position.
     #[default]
     Exact,
-    /// Those at most this far apart, in units of the file.
+    /// Vertices at most this far apart, in units of the file.
     Within(f64),
-    /// None: the file's own vertices are kept.
+    /// No vertices: those of the file are kept.
     Off,
 }
 
-/// The welded positions and where each input position went.
+/// The welded positions, and the welded vertex of each input position.
 #[derive(Debug)]
 pub(crate) struct Weld {
     /// Different positions, in the order of the file.
     pub(crate) positions: Vec<[f32; 3]>,
-    /// For each input position its index in `positions`; [`NONE`] where it is
-    /// not used.
+    /// For each input position, its index in `positions`, or [`NONE`] if it is unused.
     pub(crate) welded_from_input: Vec<u32>,
-    /// Vertices that a tolerance has moved, and the first of them in the file.
+    /// The number of vertices that a tolerance moved.
     pub(crate) moved: usize,
     pub(crate) first_moved: Option<usize>,
 }
 
-/// Welds the positions that are used. `tolerance` is in the units of
-/// `positions`.
+/// Welds used positions. A tolerance is in the units of `positions`.
 pub(crate) fn weld(positions: &[[f32; 3]], is_used: &[bool], welding: Welding) -> Weld {
     let standing = match welding {
         Welding::Off => (0..to_u32(positions.len())).collect(),
@@ -64,7 +60,7 @@ pub(crate) fn weld(positions: &[[f32; 3]], is_used: &[bool], welding: Welding) -
     number(positions, is_used, standing)
 }
 
-/// Numbers the vertices that stand for themselves.
+/// Numbers the representatives.
 fn number(positions: &[[f32; 3]], is_used: &[bool], standing: Vec<u32>) -> Weld {
     let mut welded = Vec::with_capacity(positions.len());
     let mut moved = 0;
@@ -78,7 +74,7 @@ fn number(positions: &[[f32; 3]], is_used: &[bool], standing: Vec<u32>) -> Weld 
             welded.push(positions[input]);
             to_u32(welded.len() - 1)
         } else {
-            // Numbered already: who stands for others comes before them.
+            // Already numbered, because a representative comes first.
             let target = welded_from_input[stands as usize];
             if welded[target as usize] != positions[input] {
                 moved += 1;
@@ -90,15 +86,14 @@ fn number(positions: &[[f32; 3]], is_used: &[bool], standing: Vec<u32>) -> Weld 
     Weld { positions: welded, welded_from_input, moved, first_moved }
 }
 
-/// The bits of a position; adding 0 turns -0 into 0 and leaves every other
-/// number alone.
+/// The bits of a position; adding 0 turns -0 into 0 and keeps every other number.
 fn bits_of(position: [f32; 3]) -> [u32; 3] {
     position.map(|coordinate| (coordinate + 0.0).to_bits())
 }
 
-/// For each used vertex the first one that is in the same place.
+/// For each used vertex, the first vertex at the same position.
 fn exact(positions: &[[f32; 3]], is_used: &[bool]) -> Vec<u32> {
-    // Another seed in each run, so that no file can be made to collide.
+    // A new seed in each run, so that no file can provoke collisions.
     let seed = RandomState::new().hash_one(0);
     let hashes: Vec<u32> = positions.par_iter().map(|&p| hash(bits_of(p), seed)).collect();
     let standing: Vec<AtomicU32> = (0..to_u32(positions.len())).map(AtomicU32::new).collect();
@@ -120,8 +115,7 @@ fn exact(positions: &[[f32; 3]], is_used: &[bool]) -> Vec<u32> {
     standing.into_iter().map(AtomicU32::into_inner).collect()
 }
 
-/// The thread that a hash belongs to, by its upper bits; the table takes the
-/// lower ones.
+/// The thread of a hash, from its upper bits; the table uses the lower bits.
 const fn part_of(hash: u32, parts: u32) -> u32 {
     ((hash >> 16) * parts) >> 16
 }
@@ -164,21 +158,19 @@ impl Table {
     }
 }
 
-/// For each used vertex the nearest standing one within `tolerance`, else
-/// itself.
+/// For each used vertex, the nearest earlier representative within `tolerance`, or the vertex.
 fn within(positions: &[[f32; 3]], is_used: &[bool], tolerance: f64) -> Vec<u32> {
     let cell_of = |point: Vec3| (point.as_dvec3() / tolerance).floor();
     let mut standing: Vec<u32> = (0..to_u32(positions.len())).collect();
-    // The last standing vertex of each cell, and the one before it in the cell.
+    // The last representative of each cell, and the previous one in the cell.
     let mut last_in_cell: FxHashMap<[u64; 3], u32> = FxHashMap::default();
     let mut before = vec![NONE; positions.len()];
     for vertex in (0..positions.len()).filter(|&vertex| is_used[vertex]) {
         let point = Vec3::from(positions[vertex]);
         let cell = cell_of(point);
         let mut best = (tolerance * tolerance, NONE);
-        for neighbour in 0..27_u32 {
-            let step =
-                [neighbour % 3, neighbour / 3 % 3, neighbour / 9].map(|s| f64::from(s) - 1.0);
+        for neighbor in 0..27_u32 {
+            let step = [neighbor % 3, neighbor / 3 % 3, neighbor / 9].map(|s| f64::from(s) - 1.0);
             let key = (cell + glam::DVec3::from(step)).to_array().map(cell_key);
             let mut other = last_in_cell.get(&key).copied().unwrap_or(NONE);
             while other != NONE {

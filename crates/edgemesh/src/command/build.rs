@@ -21,18 +21,16 @@ use crate::format::edge_mesh_file::{Layout, to_bytes};
     edgemesh build *.stl -o meshes/\n  \
     zcat part.ply.gz | edgemesh build - --format ply -o part.edgemesh")]
 pub struct BuildCommand {
-    /// The models; - is standard input
+    /// Models to build; - is standard input
     #[arg(value_name = "MODEL", required = true)]
     pub models: Vec<PathBuf>,
-    /// The file to write, - for standard output; a folder where there are
-    /// several models
+    /// File to write; - is standard output. Several models need a folder
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
-    /// Add the edge vertices of a layout to the file, which always has the
-    /// indexed ones; may be given twice
+    /// Layout to add to the indexed one, which every file has; can be repeated
     #[arg(long = "layout", value_name = "LAYOUT")]
     pub layouts: Vec<Layout>,
-    /// How the input is read
+    /// Arguments for reading the input
     #[command(flatten)]
     pub input: InputArguments,
 }
@@ -56,8 +54,8 @@ impl BuildCommand {
     /// Reads, builds and writes each model.
     ///
     /// # Errors
-    /// Where a model cannot be read or a file not be written; those before it
-    /// are written.
+    /// Fails if a model cannot be read or a file cannot be written; the files of the models
+    /// before it stay.
     pub fn run(&self, is_quiet: bool) -> Result<(), Failure> {
         let targets = Targets::new(&self.models, &self.output, "edgemesh")?;
         for (model, target) in targets.pairs() {

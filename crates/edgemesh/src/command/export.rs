@@ -15,7 +15,7 @@ use crate::format::export::{ExportFormat, to_bytes};
 
 /// Writes the mesh and its feature edges for other programs
 ///
-/// glTF has them in an extension of its own for edge visibility, PLY as edges,
+/// glTF stores edges in an extension for edge visibility, PLY as edges,
 /// OBJ as lines in a group for each class, JSON as lists.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = "Examples:\n  \
@@ -23,17 +23,16 @@ use crate::format::export::{ExportFormat, to_bytes};
     edgemesh export part.stl -o part-lines.obj --crease 20\n  \
     edgemesh export bunny.edgemesh -o - --to json")]
 pub struct ExportCommand {
-    /// Models or edge meshes; - is standard input
+    /// Models or edge meshes to export; - is standard input
     #[arg(value_name = "IN", required = true)]
     pub inputs: Vec<PathBuf>,
-    /// The file to write, - for standard output; a folder where there are
-    /// several inputs
+    /// File to write; - is standard output. Several inputs need a folder
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
-    /// The format to write [default: told by the ending of OUT]
+    /// Format to write [default: detected from the extension of OUT]
     #[arg(long, value_name = "FORMAT")]
     pub to: Option<ExportFormat>,
-    /// How the input is read
+    /// Arguments for reading the input
     #[command(flatten)]
     pub input: InputArguments,
 }
@@ -55,7 +54,7 @@ impl ExportCommand {
         }
         ExportFormat::of_name(&self.output).ok_or_else(|| {
             Failure::usage(format!(
-                "{}: no format has this ending; use .glb, .gltf, .ply, .obj or .json, or --to",
+                "{}: unknown extension; use .glb, .gltf, .ply, .obj or .json, or give --to",
                 self.output.display()
             ))
         })
@@ -64,8 +63,8 @@ impl ExportCommand {
     /// Reads, builds where needed, and writes each input.
     ///
     /// # Errors
-    /// Where an input cannot be read or a file not be written; those before it
-    /// are written.
+    /// Fails if an input cannot be read or a file cannot be written; the files of the inputs
+    /// before it stay.
     pub fn run(&self, is_quiet: bool) -> Result<(), Failure> {
         let format = self.format()?;
         let targets = Targets::new(&self.inputs, &self.output, format.as_str())?;

@@ -1,14 +1,13 @@
-//! Why a command ends early: a message and an exit status.
+//! Failures of commands: a message and an exit status.
 
 use std::process::ExitCode;
 
 use crate::format::read::{ReadError, ReadErrorKind};
 use crate::format::whole_file::WriteError;
 use crate::load::LoadError;
-use crate::view::camera::CameraError;
+use crate::view::CameraError;
 
-/// An exit status of a command; scripts rely on the numbers. A program may have statuses
-/// beside the ones that are named here.
+/// An exit status of a command; scripts rely on the numbers. A program may add further ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ExitStatus(u8);
 
@@ -20,7 +19,7 @@ impl ExitStatus {
     /// 70: an internal error.
     pub const INTERNAL: Self = Self(70);
 
-    /// The exit status of a number.
+    /// The status `number`.
     #[must_use]
     pub const fn new(number: u8) -> Self {
         Self(number)
@@ -33,23 +32,23 @@ impl From<ExitStatus> for ExitCode {
     }
 }
 
-/// Why a command ends early: a message and an exit status.
+/// The failure of a command.
 #[derive(Debug)]
 pub struct Failure {
-    /// One message, without "error:" before it.
+    /// The message, without a leading "error:"; empty if it was printed before.
     pub message: String,
-    /// The exit status.
+    /// The exit status of the process.
     pub status: ExitStatus,
 }
 
 impl Failure {
-    /// The input or the output is at fault.
+    /// A failure with [`ExitStatus::FAULT`].
     #[must_use]
     pub fn fault(message: impl Into<String>) -> Self {
         Self { message: message.into(), status: ExitStatus::FAULT }
     }
 
-    /// The command line is wrong.
+    /// A failure with [`ExitStatus::USAGE`].
     #[must_use]
     pub fn usage(message: impl Into<String>) -> Self {
         Self { message: message.into(), status: ExitStatus::USAGE }
@@ -60,13 +59,13 @@ impl From<LoadError> for Failure {
     fn from(error: LoadError) -> Self {
         match error {
             LoadError::FormatNeeded => {
-                Self::usage("standard input (-) needs --format, as --format obj")
+                Self::usage("standard input (-) needs --format, such as --format obj")
             }
             LoadError::ModelsOnly { file } => Self::usage(format!(
-                "{file}: --weld, --no-weld and --marks are for models; an edge mesh is welded \
-                 already"
+                "{file}: --weld, --no-weld and --marks apply to models only; an edge mesh is \
+                 already welded"
             )),
-            // Each line is an error; the first one gets its word where it is printed.
+            // Each line is an error; `run` adds "error:" to the first one.
             LoadError::Warnings { file, report } => {
                 Self::fault(report.warning_lines(&file, "").join("\nerror: "))
             }

@@ -12,13 +12,13 @@ use super::loading::load_input;
 use super::messages::print_warnings;
 use super::output::{print_to_stdout, to_json};
 use crate::arguments::{CameraArguments, InputArguments};
-use crate::edge_mesh::{EdgeMesh, LayoutBytes};
-use crate::line::class::LineClass;
-use crate::load::Loaded;
+use crate::edge_mesh::{EdgeMesh, EdgeVertex, EdgeVertex16};
+use crate::line::LineClass;
+use crate::load::LoadedMesh;
 use crate::report::{RepairKind, Report, place_in};
-use crate::view::feature_counts::{FeatureCounts, count_features};
+use crate::view::{FeatureCounts, count_features};
 
-/// Prints counts of a model: vertices, edges, what is broken, feature edges
+/// Prints counts of a model: vertices, edges, defects, feature edges
 #[derive(Debug, Clone, Args)]
 #[command(after_help = "Examples:\n  \
     edgemesh info bunny.obj\n  \
@@ -29,13 +29,13 @@ pub struct InfoCommand {
     /// Models (OBJ, PLY, STL, glTF, VRML) or edge meshes; - is standard input
     #[arg(value_name = "MODEL", required = true)]
     pub models: Vec<PathBuf>,
-    /// Print JSON: an object, or an array of them where there are several models
+    /// Print JSON: an object, or an array of objects for several models
     #[arg(long)]
     pub json: bool,
-    /// How the input is read
+    /// Arguments for reading the input
     #[command(flatten)]
     pub input: InputArguments,
-    /// The view that contours are counted in
+    /// View in which contours are counted
     #[command(flatten)]
     pub camera: CameraArguments,
 }
@@ -44,8 +44,8 @@ impl InfoCommand {
     /// Reads, builds, counts and prints.
     ///
     /// # Errors
-    /// Where a model cannot be read, the camera is wrong, or standard output
-    /// cannot be written; nothing is printed then.
+    /// Fails without output if a model cannot be read, the camera is wrong, or standard output
+    /// cannot be written.
     pub fn run(&self, is_quiet: bool) -> Result<(), Failure> {
         let infos: Vec<Info> = self
             .models
@@ -66,17 +66,17 @@ impl InfoCommand {
         print_to_stdout(text.as_bytes())
     }
 
-    fn info_of(&self, loaded: &Loaded) -> Result<Info, Failure> {
-        let Loaded { name, mesh, report, .. } = loaded;
-        // The aspect does not matter for the eye.
+    fn info_of(&self, loaded: &LoadedMesh) -> Result<Info, Failure> {
+        let LoadedMesh { name, mesh, report, .. } = loaded;
+        // The eye does not depend on the aspect ratio.
         let eye = self.camera.camera(&mesh.bounds, &mesh.frame)?.view(&mesh.bounds, 1.0).eye;
         Ok(Info::of(name, mesh, report, count_features(mesh, eye)))
     }
 }
 
-/// What `info --json` prints; scripts rely on the keys.
+/// The output of `info --json`; scripts rely on the keys.
 #[derive(Debug, Clone, Serialize)]
-pub struct Info {
+struct Info {
     file: String,
     vertices: usize,
     welded_vertices: usize,
@@ -101,7 +101,7 @@ pub struct Info {
     features: FeatureCounts,
 }
 
-/// The box in the units of the file.
+/// The bounds in the units of the file.
 #[derive(Debug, Clone, Serialize)]
 struct BoundsInfo {
     min: [f64; 3],
@@ -112,7 +112,7 @@ impl BoundsInfo {
     fn of(mesh: &EdgeMesh) -> Self {
         let [min, max] = [mesh.bounds.min, mesh.bounds.max].map(|corner| {
             if mesh.frame.is_identity() {
-                // The decimal digits of 32 bits, not those of 64.
+                // Prints the shortest digits of the 32-bit number, not those of its 64-bit value.
                 corner.map(|x| x.to_string().parse().unwrap_or(f64::from(x)))
             } else {
                 mesh.frame.to_file(Vec3::from(corner).as_dvec3()).to_array()
@@ -122,20 +122,39 @@ impl BoundsInfo {
     }
 }
 
-/// Where the mesh lies in its file: `in_mesh = (in_file - origin) * scale`.
+/// The frame of the mesh: `in_mesh = (in_file - origin) * scale`.
 #[derive(Debug, Clone, Serialize)]
 struct FrameInfo {
     origin: [f64; 3],
     scale: f64,
 }
 
-/// Bytes of the mesh that goes in, and of the edge mesh in each layout.
+/// Bytes of the input mesh, and of the edge mesh in each layout.
 #[derive(Debug, Clone, Serialize)]
 struct BytesInfo {
+    /// 24 bytes a vertex (position and normal), 12 a triangle.
     input: usize,
+    /// Positions, normals, triangles, and 20 bytes an edge record.
     indexed: usize,
+    /// Four edge vertices of 80 bytes an edge.
     replicated_f32: usize,
+    /// Four edge vertices of 40 bytes an edge: 37 bytes, padded.
     replicated_i16: usize,
+}
+
+impl BytesInfo {
+    fn of(mesh: &EdgeMesh) -> Self {
+        let edges = mesh.records.len();
+        Self {
+            input: mesh.positions.len() * 24 + size_of_val(&*mesh.triangles),
+            indexed: size_of_val(&*mesh.positions)
+                + size_of_val(&*mesh.vertex_normals)
+                + size_of_val(&*mesh.triangles)
+                + size_of_val(&*mesh.records),
+            replicated_f32: edges * 4 * size_of::<EdgeVertex>(),
+            replicated_i16: edges * 4 * size_of::<EdgeVertex16>(),
+        }
+    }
 }
 
 /// Chains of edges that no view changes.
@@ -144,7 +163,7 @@ struct ChainsInfo {
     count: usize,
     loops: usize,
     edges: usize,
-    /// Edges of the longest one.
+    /// Edges of the longest chain.
     longest: u32,
 }
 
@@ -170,36 +189,31 @@ struct RepairsInfo {
     recentred: usize,
 }
 
-/// A repair as `--json` prints it.
+/// A repair in the output of `--json`.
 #[derive(Debug, Clone, Serialize)]
-pub struct RepairInfo {
-    /// The kind.
-    pub kind: &'static str,
-    /// How many elements it concerns.
-    pub count: usize,
-    /// The first one.
-    pub place: String,
+pub(super) struct RepairInfo {
+    pub(super) kind: &'static str,
+    /// Repaired elements.
+    pub(super) count: usize,
+    /// The first repaired element, behind the name of its file.
+    pub(super) place: String,
 }
 
-/// A warning as `--json` prints it.
+/// A warning in the output of `--json`.
 #[derive(Debug, Clone, Serialize)]
-pub struct WarningInfo {
-    /// The kind.
-    pub code: &'static str,
-    /// How many elements it concerns.
-    pub count: usize,
-    /// The first one.
-    pub place: String,
-    /// What was found there, and what was done.
-    pub message: String,
+pub(super) struct WarningInfo {
+    pub(super) code: &'static str,
+    /// Affected elements.
+    pub(super) count: usize,
+    /// The first affected element, behind the name of its file.
+    pub(super) place: String,
+    /// The defect at `place`, and how it was handled.
+    pub(super) message: String,
 }
 
 impl Info {
-    /// Gathers what there is to say of `mesh`.
-    #[must_use]
-    pub fn of(file: &str, mesh: &EdgeMesh, report: &Report, features: FeatureCounts) -> Self {
+    fn of(file: &str, mesh: &EdgeMesh, report: &Report, features: FeatureCounts) -> Self {
         let counts = &mesh.counts;
-        let LayoutBytes { input, indexed, replicated_f32, replicated_i16 } = mesh.layout_bytes();
         Self {
             file: file.into(),
             vertices: counts.vertices,
@@ -215,7 +229,7 @@ impl Info {
             components: counts.components,
             bounds: BoundsInfo::of(mesh),
             frame: FrameInfo { origin: mesh.frame.origin.into(), scale: mesh.frame.scale },
-            bytes: BytesInfo { input, indexed, replicated_f32, replicated_i16 },
+            bytes: BytesInfo::of(mesh),
             records: mesh.records.len(),
             chains: ChainsInfo::of(mesh),
             source: SourceInfo::of(mesh),
@@ -269,7 +283,7 @@ impl Info {
         text
     }
 
-    /// The layouts with their sizes over that of the mesh that goes in.
+    /// Writes the size of each layout, and its ratio to that of the input.
     fn write_bytes(&self, text: &mut String) {
         #[expect(clippy::cast_precision_loss, reason = "two digits are shown")]
         let ratio = |bytes: usize| bytes as f64 / self.bytes.input.max(1) as f64;
@@ -328,9 +342,8 @@ impl RepairsInfo {
     }
 }
 
-/// The warnings of `report` for JSON, each with its first place, `file:line`.
-#[must_use]
-pub fn warnings_of(file: &str, report: &Report) -> Vec<WarningInfo> {
+/// The warnings of `report` for JSON, with places such as `file:line`.
+pub(super) fn warnings_of(file: &str, report: &Report) -> Vec<WarningInfo> {
     report
         .warnings()
         .iter()
@@ -343,9 +356,8 @@ pub fn warnings_of(file: &str, report: &Report) -> Vec<WarningInfo> {
         .collect()
 }
 
-/// The repairs of `report` for JSON, each with its first place.
-#[must_use]
-pub fn repairs_of(file: &str, report: &Report) -> Vec<RepairInfo> {
+/// The repairs of `report` for JSON.
+pub(super) fn repairs_of(file: &str, report: &Report) -> Vec<RepairInfo> {
     report
         .repairs()
         .iter()

@@ -1,12 +1,12 @@
-//! Loading, with the stages on the terminal.
+//! Loads inputs and shows the stages on the terminal.
 
 use std::path::Path;
 
 use super::progress::TerminalProgress;
 use crate::arguments::InputArguments;
-use crate::load::{LoadError, LoadOptions, Loaded, load};
+use crate::load::{LoadError, LoadOptions, LoadedMesh, load};
 
-/// Loads one input of a verb; `with_fill` is for verbs that keep what shading needs.
+/// Loads one input of a verb; `with_fill` builds the fill, for verbs that write it.
 ///
 /// # Errors
 /// As [`load`].
@@ -15,7 +15,7 @@ pub(super) fn load_input(
     path: &Path,
     with_fill: bool,
     is_quiet: bool,
-) -> Result<Loaded, LoadError> {
+) -> Result<LoadedMesh, LoadError> {
     let options = LoadOptions { with_fill, ..input.load_options() };
     load(path, &options, &TerminalProgress::new(is_quiet))
 }

@@ -1,4 +1,4 @@
-//! Shell completions and manual pages, from the same definitions as `--help`.
+//! Shell completions and manual pages, generated from the definitions of the arguments.
 
 use std::path::PathBuf;
 
@@ -9,17 +9,17 @@ use super::failure::Failure;
 use super::output::print_to_stdout;
 use crate::format::whole_file::write_file;
 
-/// Prints the completions of a shell
+/// Prints the completion script of a shell
 #[derive(Debug, Clone, Args)]
 pub struct CompletionsCommand {
-    /// The shell
+    /// Shell that reads the script
     pub shell: Shell,
 }
 
-/// Prints the manual page, or writes those of all commands to a folder
+/// Prints the manual page, or writes the pages of all commands to a folder
 #[derive(Debug, Clone, Args)]
 pub struct ManCommand {
-    /// The folder to write to, a page a command
+    /// Folder for the pages, one for each command
     #[arg(short, long, value_name = "FOLDER")]
     pub output: Option<PathBuf>,
 }
@@ -28,7 +28,7 @@ impl CompletionsCommand {
     /// Prints the completions of `program`.
     ///
     /// # Errors
-    /// Where standard output cannot be written.
+    /// Fails if standard output cannot be written.
     pub fn run(&self, mut program: Command) -> Result<(), Failure> {
         let name = program.get_name().to_owned();
         let mut text = Vec::new();
@@ -41,7 +41,7 @@ impl ManCommand {
     /// Prints or writes the pages of `program`.
     ///
     /// # Errors
-    /// Where standard output or a page cannot be written.
+    /// Fails if standard output or a page cannot be written.
     pub fn run(&self, program: Command) -> Result<(), Failure> {
         let Some(folder) = &self.output else {
             return print_to_stdout(&page(&program)?);
@@ -61,6 +61,6 @@ fn page(command: &Command) -> Result<Vec<u8>, Failure> {
     let mut text = Vec::new();
     clap_mangen::Man::new(command.clone())
         .render(&mut text)
-        .map_err(|error| Failure::fault(format!("the manual page cannot be made: {error}")))?;
+        .map_err(|error| Failure::fault(format!("cannot make the manual page: {error}")))?;
     Ok(text)
 }

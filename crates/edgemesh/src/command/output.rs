@@ -6,10 +6,10 @@ use serde::Serialize;
 
 use super::failure::{ExitStatus, Failure};
 
-/// Writes `bytes` to standard output; a closed pipe is a quiet end, not an error.
+/// Writes `bytes` to standard output; a closed pipe is not an error.
 ///
 /// # Errors
-/// If standard output cannot be written for another reason, such as a full disk.
+/// Fails if standard output cannot be written for another reason, such as a full disk.
 pub fn print_to_stdout(bytes: &[u8]) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
@@ -23,10 +23,10 @@ pub fn print_to_stdout(bytes: &[u8]) -> Result<(), Failure> {
 /// `value` as JSON with a final line end.
 ///
 /// # Errors
-/// If it cannot be written as JSON, which is an internal error.
+/// Fails if `value` cannot be written as JSON, which is an internal error.
 pub fn to_json(value: &impl Serialize) -> Result<String, Failure> {
     serde_json::to_string_pretty(value).map(|json| json + "\n").map_err(|error| Failure {
-        message: format!("internal error: no JSON: {error}"),
+        message: format!("internal error: cannot write JSON: {error}"),
         status: ExitStatus::INTERNAL,
     })
 }

@@ -1,7 +1,7 @@
-//! A line on standard error while work takes long: the stage, and since when.
+//! Shows the stage and its elapsed time on one line of standard error.
 //!
-//! It shows only on a terminal and only after a second, and is gone when the work is done, so
-//! that scripts and quick work see nothing of it.
+//! The line appears on a terminal only, after a second, and is cleared at the end, so that scripts
+//! and short runs never see it.
 
 use std::cell::RefCell;
 use std::io::{IsTerminal as _, stderr};
@@ -22,7 +22,7 @@ pub struct TerminalProgress {
 }
 
 impl TerminalProgress {
-    /// Shows nothing if `is_quiet`.
+    /// A progress display, without output if `is_quiet`.
     #[must_use]
     pub const fn new(is_quiet: bool) -> Self {
         Self { is_quiet, line: RefCell::new(None) }
@@ -40,17 +40,17 @@ impl Progress for TerminalProgress {
     }
 }
 
-/// How long work may take before the line shows.
+/// The delay before the line appears.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Shows the line until it is dropped.
+/// A line on the terminal, cleared on drop.
 #[derive(Debug)]
 pub(super) struct TerminalLine {
     watcher: Option<(Sender<()>, JoinHandle<()>)>,
 }
 
 impl TerminalLine {
-    /// Shows `what` if it takes long and standard error is a terminal.
+    /// Shows `what` after [`PATIENCE`] if standard error is a terminal.
     pub(super) fn start(what: String, is_quiet: bool) -> Self {
         if is_quiet || !stderr().is_terminal() {
             return Self { watcher: None };
@@ -65,7 +65,7 @@ impl TerminalLine {
                 bar.set_style(style);
             }
             bar.enable_steady_tick(Duration::from_millis(120));
-            // Ends when the sender is dropped.
+            // Returns when the sender is dropped.
             let _ = receiver.recv();
             bar.finish_and_clear();
         });
@@ -77,7 +77,7 @@ impl Drop for TerminalLine {
     fn drop(&mut self) {
         if let Some((sender, thread)) = self.watcher.take() {
             drop(sender);
-            // A panic there has nothing to say about the work.
+            // A panic of this thread does not concern the work.
             let _ = thread.join();
         }
     }

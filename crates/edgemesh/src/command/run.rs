@@ -1,4 +1,4 @@
-//! From a command's result to the end of its process.
+//! Turns the result of a command into the exit status of its process.
 
 use std::panic::UnwindSafe;
 use std::process::ExitCode;
@@ -10,19 +10,18 @@ use signal_hook::flag::register_conditional_shutdown;
 
 use super::failure::{ExitStatus, Failure};
 
-/// Runs a command's body and turns its result into an exit status; the one place where
-/// errors are printed.
+/// Runs the body of a command and returns its exit status; errors are printed here only.
 ///
-/// Interrupts end the process with 130, terminations with 143. A panic is an internal error:
-/// it is printed as one, and the status is 70.
+/// SIGINT ends the process with 130, SIGTERM with 143. A panic is printed as an internal error and
+/// gives 70.
 #[expect(clippy::print_stderr, reason = "the one handler of errors")]
 pub fn run(body: impl FnOnce() -> Result<(), Failure> + UnwindSafe) -> ExitCode {
     for (signal, status) in [(SIGINT, 130), (SIGTERM, 143)] {
-        // Without the handler a signal still ends the process, by its default.
+        // If the handler cannot be set, the signal ends the process by default.
         let _ = register_conditional_shutdown(signal, status, Arc::new(AtomicBool::new(true)));
     }
     std::panic::set_hook(Box::new(|panic| {
-        eprintln!("error: internal error, please report it with the command and the file: {panic}");
+        eprintln!("error: internal error; please report it with the command and the file: {panic}");
     }));
     match std::panic::catch_unwind(body) {
         Ok(Ok(())) => ExitCode::SUCCESS,

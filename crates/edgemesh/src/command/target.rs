@@ -1,4 +1,4 @@
-//! Where results go: a file, standard output, or a folder for several.
+//! Targets of results: a file, standard output, or a folder for several files.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -7,24 +7,24 @@ use super::failure::Failure;
 use super::output::print_to_stdout;
 use crate::format::whole_file::write_file;
 
-/// Each input with the file that is made of it.
+/// Each input with its output file.
 #[derive(Debug)]
 pub(crate) struct Targets {
     pairs: Vec<(PathBuf, PathBuf)>,
 }
 
 impl Targets {
-    /// One input goes to `output`, unless that is a folder; several go into the
-    /// folder `output`, under their own names with another ending.
+    /// Writes one input to `output`, or inputs to the folder `output` under their names with the
+    /// extension `extension`.
     ///
     /// # Errors
-    /// Where results would overwrite each other or an input, or several would
-    /// go to one file.
+    /// Fails if a result would overwrite another result or an input, or if several inputs have no
+    /// folder.
     pub(crate) fn new(inputs: &[PathBuf], output: &Path, extension: &str) -> Result<Self, Failure> {
         let is_folder = output.is_dir();
         if inputs.len() > 1 && !is_folder {
             return Err(Failure::usage(format!(
-                "{}: several inputs need a folder to go to; make it first",
+                "{}: several inputs need a folder for their results; create it first",
                 output.display()
             )));
         }
@@ -50,7 +50,7 @@ impl Targets {
         Ok(targets)
     }
 
-    /// No input may be overwritten, not even under another name.
+    /// Fails if an output is an input, also by another path.
     fn check_inputs(&self) -> Result<(), Failure> {
         let same = |a: &Path, b: &Path| {
             a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b)
@@ -58,7 +58,7 @@ impl Targets {
         for (_, target) in &self.pairs {
             if let Some((input, _)) = self.pairs.iter().find(|(input, _)| same(input, target)) {
                 return Err(Failure::usage(format!(
-                    "{}: would overwrite the input; give another -o",
+                    "{}: -o would overwrite this input; give another file",
                     input.display()
                 )));
             }
@@ -71,7 +71,7 @@ impl Targets {
     }
 }
 
-/// The name of `input` with the ending `extension`.
+/// The name of `input` with the extension `extension`.
 fn file_name(input: &Path, extension: &str) -> OsString {
     let stem = match input.file_stem() {
         Some(stem) if input != Path::new("-") => stem.to_owned(),

@@ -1,4 +1,4 @@
-//! `edgemesh validate`: what is wrong with files.
+//! `edgemesh validate`: checks files.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -11,30 +11,29 @@ use super::info::{RepairInfo, WarningInfo, repairs_of, warnings_of};
 use super::loading::load_input;
 use super::output::{print_to_stdout, to_json};
 use crate::arguments::InputArguments;
-use crate::load::Loaded;
+use crate::load::LoadedMesh;
 
-/// Says what is wrong with each file: errors, warnings, repairs
+/// Checks files and prints their errors, warnings and repairs
 ///
-/// The exit status is 0 where every file can be used, with or without warnings,
-/// and 1 otherwise.
+/// The exit status is 0 if every file can be used, with or without warnings, or else 1.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = "Examples:\n  \
     edgemesh validate part.obj\n  \
     edgemesh validate models/*.stl --strict\n  \
     edgemesh validate part.glb --json")]
 pub struct ValidateCommand {
-    /// The files; - is standard input
+    /// Files to check; - is standard input
     #[arg(value_name = "IN", required = true)]
     pub inputs: Vec<PathBuf>,
     /// Print JSON: an array with an object for each file
     #[arg(long)]
     pub json: bool,
-    /// How the input is read
+    /// Arguments for reading the input
     #[command(flatten)]
     pub input: InputArguments,
 }
 
-/// What `validate --json` prints of a file.
+/// The output of `validate --json` for a file.
 #[derive(Debug, Clone, Serialize)]
 struct Verdict {
     file: String,
@@ -50,10 +49,9 @@ impl ValidateCommand {
     /// Reads and builds each file and prints what was found.
     ///
     /// # Errors
-    /// Where a file cannot be used; its message is among the results already,
-    /// so the failure has none.
+    /// Fails without a message if a file cannot be used; the results contain the message.
     pub fn run(&self, is_quiet: bool) -> Result<(), Failure> {
-        // Warnings are judged here, once all of them are told.
+        // Strictness is applied below, after all warnings are listed.
         let input = InputArguments { strict: false, ..self.input.clone() };
         let mut status = None;
         let mut verdicts = Vec::new();
@@ -86,7 +84,7 @@ impl ValidateCommand {
 }
 
 impl Verdict {
-    fn of(loaded: &Loaded) -> Self {
+    fn of(loaded: &LoadedMesh) -> Self {
         let warnings = warnings_of(&loaded.name, &loaded.report);
         Self {
             file: loaded.name.clone(),

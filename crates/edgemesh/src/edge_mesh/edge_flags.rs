@@ -1,40 +1,37 @@
-//! What is known of an edge before there is a view: its classes, the words for them, and the
-//! order in which they chain.
+//! The classes of an edge that no view changes, their names, and their order in chains.
 
 use bytemuck::{Pod, Zeroable};
 
 bitflags::bitflags! {
-    /// What is known of an edge before there is a view.
+    /// The classes of an edge that no view changes; an edge can have several.
     ///
-    /// The paper's record cannot tell a marked edge from a boundary, since both
-    /// set `v3 = v0`; these bits can. Several may hold at once. WGSL twin: the
-    /// constants of `shaders/common/feature.wgsl`.
+    /// The paper's record sets `v3 = v0` for marked and boundary edges and cannot tell them apart;
+    /// these bits can. WGSL twin: the constants of `shaders/common/feature.wgsl`.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
     #[repr(transparent)]
     pub struct EdgeFlags: u32 {
-        /// Exactly one face.
+        /// The edge has exactly one face.
         const BOUNDARY = 1 << 0;
-        /// Convex, and the face normals differ by more than the ridge threshold.
+        /// Convex: the face normals differ by more than the ridge threshold.
         const RIDGE = 1 << 1;
-        /// Concave, and the face normals differ by more than the valley threshold.
+        /// Concave: the face normals differ by more than the valley threshold.
         const VALLEY = 1 << 2;
-        /// Chosen by the artist.
+        /// Marked by the artist.
         const MARKED = 1 << 3;
-        /// The two faces differ in material.
+        /// The two faces have different materials.
         const MATERIAL = 1 << 4;
-        /// One pair of faces of an edge that more than two share.
+        /// One pair of the faces of an edge with more than two.
         const NON_MANIFOLD = 1 << 5;
-        /// The diagonal of a polygon: it can be a contour and nothing else.
+        /// The diagonal of a polygon, which can only be a contour.
         const DIAGONAL = 1 << 6;
-        /// Both faces traverse the edge in the same direction, on a surface
-        /// that cannot be oriented; the facing of face B counts reversed.
+        /// Both faces traverse the edge in the same direction, on a surface that cannot be
+        /// oriented; the facing of face B is reversed.
         const CLASH = 1 << 7;
-        /// On a closed component whose faces look outwards: where both faces
-        /// look away from an eye outside of it, the component hides the edge.
-        /// (A surface that passes through itself can enclose a part inside out;
-        /// edges there count as hidden as well.)
+        /// On a closed component whose faces look outward: it hides the edge if both faces look
+        /// away from an eye outside of it. (A surface that intersects itself can enclose a part
+        /// inside out; edges there count as hidden, too.)
         const SOLID = 1 << 8;
-        /// The two faces are of different smoothing groups.
+        /// The two faces have different smoothing groups.
         const SMOOTHING = 1 << 9;
     }
 }
@@ -50,7 +47,7 @@ impl EdgeFlags {
         .union(Self::SMOOTHING);
 }
 
-/// The classes by the words that files and messages have for them.
+/// The names of the classes in files and messages.
 const CLASS_NAMES: [(EdgeFlags, &str); 10] = [
     (EdgeFlags::BOUNDARY, "boundary"),
     (EdgeFlags::RIDGE, "ridge"),
@@ -64,13 +61,13 @@ const CLASS_NAMES: [(EdgeFlags, &str); 10] = [
     (EdgeFlags::SMOOTHING, "smoothing"),
 ];
 
-/// The words for all that `flags` have, in the order of their bits.
+/// The names of the classes in `flags`, in the order of their bits.
 pub fn class_names(flags: EdgeFlags) -> impl Iterator<Item = &'static str> {
     let is_set = move |(flag, _): &&(EdgeFlags, &str)| flags.contains(*flag);
     CLASS_NAMES.iter().filter(is_set).map(|(_, name)| *name)
 }
 
-/// The classes by which edges are chained, the strongest first.
+/// The classes that are chained, the strongest first.
 pub const CHAIN_CLASSES: [EdgeFlags; 7] = [
     EdgeFlags::MARKED,
     EdgeFlags::BOUNDARY,
@@ -81,7 +78,7 @@ pub const CHAIN_CLASSES: [EdgeFlags; 7] = [
     EdgeFlags::VALLEY,
 ];
 
-/// The number of the first class in [`CHAIN_CLASSES`] that `flags` have.
+/// The index of the first class of `flags` in [`CHAIN_CLASSES`].
 #[must_use]
 pub fn chain_class_of(flags: EdgeFlags) -> Option<usize> {
     CHAIN_CLASSES.iter().position(|class| flags.intersects(*class))
@@ -92,7 +89,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_class_has_its_word() {
+    fn every_class_has_its_name() {
         let words: Vec<&str> = class_names(EdgeFlags::all()).collect();
         let names = EdgeFlags::all().iter_names();
         assert!(names.map(|(name, _)| name.to_lowercase()).eq(words), "in order");

@@ -1,4 +1,4 @@
-//! The [`EdgeWord`] of every edge of a mesh, from the positions of its faces' corners.
+//! Computes the [`EdgeWord`] of every edge of a mesh from the positions of its faces.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -10,7 +10,7 @@ use crate::edge_mesh::face_normal::{corners_of, face_normal};
 use crate::edge_mesh::record::EdgeRecord;
 use crate::index::NONE;
 
-/// The words of all records of `mesh`, in order.
+/// The words of all records of a mesh, in order.
 #[must_use]
 pub fn edge_words(mesh: &EdgeMesh) -> Vec<EdgeWord> {
     mesh.records.par_iter().with_min_len(1 << 12).map(|record| edge_word(mesh, record)).collect()
@@ -21,7 +21,7 @@ fn edge_word(mesh: &EdgeMesh, record: &EdgeRecord) -> EdgeWord {
     if record.face_b == NONE || record.face_a == NONE || record.flags.intersects(never) {
         return record.flags.into();
     }
-    // From the positions: the planes of faces without area are lent ones.
+    // From positions, because faces without area have the planes of their neighbors.
     let [normal_a, mut normal_b] = [record.face_a, record.face_b]
         .map(|face| face_normal(corners_of(&mesh.positions, mesh.triangles[face as usize])));
     if normal_a == DVec3::ZERO || normal_b == DVec3::ZERO {
@@ -30,7 +30,7 @@ fn edge_word(mesh: &EdgeMesh, record: &EdgeRecord) -> EdgeWord {
     if record.flags.contains(EdgeFlags::CLASH) {
         normal_b = -normal_b;
     }
-    // The arc cosine has no digits left near 0.
+    // The arc cosine is imprecise near 0.
     let angle_rad = normal_a.cross(normal_b).length().atan2(normal_a.dot(normal_b));
     let point = |vertex: u32| glam::Vec3::from(mesh.positions[vertex as usize]).as_dvec3();
     let across = point(mesh.apex(record.face_b, record)) - point(record.v0);

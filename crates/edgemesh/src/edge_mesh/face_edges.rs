@@ -1,9 +1,7 @@
-//! Which record each side of each face is on: the way from a face to its
-//! neighbours, for walks over the surface.
+//! The record of each side of each face, for walks from face to face.
 //!
-//! Twelve bytes a face. With the two faces of each record this is what a half-edge
-//! structure knows, but edges of more than two faces, which are several records
-//! here, do not break it.
+//! Twelve bytes for each face. Together with the two faces of each record this equals a half-edge
+//! structure, but also allows edges of more than two faces, which are several records.
 
 use crate::edge_mesh::EdgeMesh;
 use crate::edge_mesh::record::EdgeRecord;
@@ -15,7 +13,7 @@ use crate::index::{NONE, to_u32};
 pub struct FaceEdges(Vec<[u32; 3]>);
 
 impl FaceEdges {
-    /// The table of `mesh`.
+    /// Builds the table of a mesh.
     #[must_use]
     pub fn of(mesh: &EdgeMesh) -> Self {
         let mut sides = vec![[NONE; 3]; mesh.triangles.len()];
@@ -29,14 +27,15 @@ impl FaceEdges {
         Self(sides)
     }
 
-    /// The records of the sides of `face`; [`NONE`] for a side on no record.
+    /// The records of the sides of `face`; [`NONE`] for a side without a record, and for a face
+    /// that does not exist.
     #[must_use]
     pub fn sides(&self, face: u32) -> [u32; 3] {
         self.0.get(face as usize).copied().unwrap_or([NONE; 3])
     }
 }
 
-/// The side of `face`, 0 to 2, that lies on the edge of `record`.
+/// The side of `face`, 0 to 2, on the edge of `record`.
 #[must_use]
 pub(crate) fn side_on(mesh: &EdgeMesh, face: u32, record: &EdgeRecord) -> Option<u32> {
     let ends = [record.v0, record.v1];

@@ -1,51 +1,50 @@
-//! The edge mesh: what the preprocessor makes and the GPU draws.
+//! The edge mesh, which the builder makes and the GPU draws.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, DVec3, Vec3};
 
 use crate::edge_mesh::edge_flags::EdgeFlags;
 use crate::edge_mesh::mesh_frame::MeshFrame;
-use crate::edge_mesh::record::{EdgeRecord, EdgeVertex, EdgeVertex16};
+use crate::edge_mesh::record::EdgeRecord;
 use crate::edge_mesh::topology::EdgeCounts;
 use crate::index::NONE;
 use crate::model::Material;
 
-/// A mesh with every undirected edge as a record.
+/// A mesh with a record for every undirected edge.
+///
+/// Lists refer to each other by index. Functions of this crate panic on a mesh with an index out of
+/// range; meshes that are built or read have none.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct EdgeMesh {
-    /// Where the mesh lies in its file.
+    /// The origin and scale of the mesh in its file.
     pub frame: MeshFrame,
-    /// Welded positions; vertices that were split follow the others.
+    /// Welded positions, followed by those of split vertices.
     pub positions: Vec<[f32; 3]>,
-    /// The vertex that each of those was split from, in order; empty where none
-    /// was.
+    /// For each split vertex, the vertex that it was split from.
     pub split_from: Vec<u32>,
-    /// Normals of the vertices, weighted by angle, of unit length; zero
-    /// where the faces cancel out.
+    /// Unit normals of the vertices, weighted by angle; zero if the faces cancel out.
     pub vertex_normals: Vec<[f32; 3]>,
-    /// Welded triangles, winding repaired.
+    /// Welded triangles with repaired winding.
     pub triangles: Vec<[u32; 3]>,
-    /// One a triangle: what decides whether it faces the eye.
+    /// A plane for each triangle, which decides whether it faces the eye.
     pub face_planes: Vec<FacePlane>,
-    /// The edges, sorted by (min, max) welded vertex; behind them the lines that
-    /// are no edge of a face.
+    /// The edges, sorted by (min, max) welded vertex, followed by lines without faces.
     pub records: Vec<EdgeRecord>,
-    /// The edges that no view changes, as polylines.
+    /// The edges that every view draws, as polylines.
     pub chains: Chains,
-    /// The same triangles with the corner attributes that shading needs; empty
-    /// where none was asked for.
+    /// The triangles with the corner attributes that shading needs; empty unless it was built.
     pub fill: FillMesh,
-    /// The box around all vertices that faces and lines use.
+    /// The bounds of all vertices that faces and lines use.
     pub bounds: Bounds,
-    /// Counts from before any repair.
+    /// Counts before repairs.
     pub counts: MeshCounts,
 }
 
-/// A face's unit normal and a point on it. WGSL twin: `FacePlane` in
+/// The unit normal of a face and a point on it: 32 bytes. WGSL twin: `FacePlane` in
 /// `shaders/common/mesh.wgsl`.
 ///
-/// Normal and point rather than a plane's four coefficients: `n . (eye - p)`
-/// keeps its sign where `n . eye + d` cancels out.
+/// Not the four coefficients of a plane, because `n . (eye - p)` keeps its sign where
+/// `n . eye + d` cancels out.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct FacePlane {
@@ -55,12 +54,12 @@ pub struct FacePlane {
     pub point: [f32; 4],
 }
 
-/// Polylines of edges that no view changes.
+/// Polylines of edges that every view draws.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Chains {
     /// The polylines, in the order of their first records.
     pub chains: Vec<Chain>,
-    /// The edges of all polylines, polyline by polyline.
+    /// The edges of all polylines, one polyline after the other.
     pub links: Vec<ChainLink>,
 }
 
@@ -68,20 +67,20 @@ pub struct Chains {
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Chain {
-    /// Its first link in [`Chains::links`].
+    /// The first link in [`Chains::links`].
     pub first_link: u32,
-    /// How many links it has.
+    /// The number of links.
     pub link_count: u32,
-    /// Its length, in units of the mesh.
+    /// The length, in units of the mesh.
     pub length: f32,
-    /// 1 where its end is its start, else 0.
+    /// 1 if the polyline is closed, otherwise 0.
     pub is_loop: u32,
-    /// The one class that it is chained by.
+    /// The class of all its edges: one of [`CHAIN_CLASSES`](crate::edge_mesh::CHAIN_CLASSES).
     pub class: EdgeFlags,
 }
 
 impl Chain {
-    /// The range of its links in [`Chains::links`].
+    /// The range of the links in [`Chains::links`].
     #[must_use]
     pub const fn link_range(&self) -> std::ops::Range<usize> {
         self.first_link as usize..(self.first_link + self.link_count) as usize
@@ -98,29 +97,28 @@ pub struct ChainLink {
     pub chain: u32,
     /// The length of the polyline before this edge, in units of the mesh.
     pub arc_start: f32,
-    /// 1 where the polyline runs from the record's `v1` to its `v0`, else 0.
+    /// 1 if the polyline runs from `v1` of the record to `v0`, otherwise 0.
     pub is_reversed: u32,
 }
 
-/// Triangles for shading: vertices split where normals or texture coordinates
-/// differ, and what the triangles look like.
+/// Triangles for shading, with vertices split where normals or texture coordinates differ, and
+/// their materials.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct FillMesh {
     /// The split vertices.
     pub vertices: Vec<FillVertex>,
-    /// Three indices a triangle, in the order of [`EdgeMesh::triangles`].
+    /// Three indices for each triangle, in the order of [`EdgeMesh::triangles`].
     pub indices: Vec<u32>,
-    /// What triangles share, in runs, ascending by first triangle; the first one
-    /// starts at triangle 0 wherever there is a triangle.
+    /// Material ranges, ascending by first triangle; the first range begins at triangle 0.
     pub runs: Vec<FillRun>,
     /// The materials of the model, used or not.
     pub materials: Vec<Material>,
-    /// Names of the model's groups, objects or nodes.
+    /// Names of the groups, objects or nodes of the model.
     pub groups: Vec<String>,
 }
 
-/// What triangles in a row share: 16 bytes. The next run ends this one, and
-/// differs in something.
+/// A material range: successive triangles of one material and group, 16 bytes. It ends where the
+/// next range begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct FillRun {
@@ -130,12 +128,12 @@ pub struct FillRun {
     pub material: u32,
     /// Index into [`FillMesh::groups`], or [`NONE`].
     pub group: u32,
-    /// 1 where all corners have texture coordinates of the file, else 0.
+    /// 1 if all corners have texture coordinates in the file, otherwise 0.
     pub has_texcoords: u32,
 }
 
 impl FillRun {
-    /// The run of triangles that nothing is known of.
+    /// The range of triangles without attributes.
     pub const PLAIN: Self =
         Self { first_triangle: 0, material: NONE, group: NONE, has_texcoords: 0 };
 }
@@ -144,16 +142,16 @@ impl FillRun {
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct FillVertex {
-    /// Position, in the units of the file.
+    /// Position, in units of the mesh.
     pub position: [f32; 3],
     /// Unit normal.
     pub normal: [f32; 3],
-    /// Texture coordinate, (0, 0) at the lower left corner of a picture; (0, 0)
-    /// where the file has none.
+    /// Texture coordinate; (0, 0) is the lower left corner of a picture, and the value of corners
+    /// without one.
     pub texcoord: [f32; 2],
 }
 
-/// A box along the axes.
+/// A box along the axes, in units of the mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
     /// Lower corner.
@@ -163,14 +161,14 @@ pub struct Bounds {
 }
 
 impl Default for Bounds {
-    /// The box of nothing at all, a point at the origin.
+    /// A point at the origin.
     fn default() -> Self {
         Self { min: [0.0; 3], max: [0.0; 3] }
     }
 }
 
 impl Bounds {
-    /// The box around `positions`; a point at the origin if there are none.
+    /// The box around `positions`; without any, a point at the origin.
     #[must_use]
     pub fn of(positions: &[[f32; 3]]) -> Self {
         let Some(&first) = positions.first() else { return Self::default() };
@@ -179,7 +177,7 @@ impl Bounds {
         })
     }
 
-    /// The box around both.
+    /// The box around both boxes.
     #[must_use]
     pub fn union(&self, other: &Self) -> Self {
         Self {
@@ -188,7 +186,7 @@ impl Bounds {
         }
     }
 
-    /// The box around this one's corners, moved by `transform`.
+    /// The box around the corners of this box, moved by `transform`.
     #[must_use]
     pub fn transformed(&self, transform: &DMat4) -> Self {
         if *transform == DMat4::IDENTITY {
@@ -212,68 +210,55 @@ impl Bounds {
         (Vec3::from(self.min).as_dvec3() + Vec3::from(self.max).as_dvec3()) / 2.0
     }
 
-    /// Half the diagonal.
+    /// Half the length of the diagonal: the radius of the bounding sphere.
     #[must_use]
     pub fn radius(&self) -> f64 {
         (Vec3::from(self.max).as_dvec3() - Vec3::from(self.min).as_dvec3()).length() / 2.0
     }
 }
 
-/// What a mesh consists of, counted before anything is repaired.
+/// Counts of a mesh before repairs.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct MeshCounts {
-    /// Vertices listed in the file.
+    /// Vertices in the file.
     pub vertices: usize,
     /// Different positions that faces use.
     pub welded_vertices: usize,
     /// Triangles with three different welded vertices.
     pub triangles: usize,
-    /// Triangles (and faces of fewer than three corners) that were dropped.
+    /// Dropped triangles without three different welded vertices, and faces of fewer corners.
     pub degenerate_triangles: usize,
-    /// Triangles that repeat another.
+    /// Triangles that repeat another triangle.
     pub duplicate_triangles: usize,
-    /// Edges of `triangles`, polygon diagonals included.
+    /// Edges of `triangles`, with the diagonals of polygons.
     pub edges: EdgeCounts,
-    /// Edges that are nothing but a polygon's diagonal.
+    /// Edges that are only diagonals of polygons.
     pub diagonal_edges: usize,
-    /// Sets of faces connected by edges.
+    /// Components: sets of faces connected by edges.
     pub components: usize,
-    /// The file's own polygons, before any welding.
+    /// Counts of the polygons of the file, before welding.
     pub source: SourceCounts,
 }
 
-/// Counts over the polygons as the file lists them.
+/// Counts of the polygons of a file, before welding.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct SourceCounts {
-    /// Vertices listed.
+    /// Vertices in the file.
     pub vertices: usize,
-    /// Polygons kept.
+    /// Polygons of three corners or more.
     pub polygons: usize,
-    /// Triangles that a fan makes of them.
+    /// Triangles in fans of these polygons.
     pub triangles: usize,
-    /// Edges of the polygons; there are no diagonals among them.
+    /// Edges of the polygons, without diagonals.
     pub edges: EdgeCounts,
 }
 
-/// Bytes that the edge mesh takes in each layout.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct LayoutBytes {
-    /// The mesh that it is made from: a position and a normal of 12 bytes each a
-    /// vertex, three indices of 4 bytes a triangle.
-    pub input: usize,
-    /// Positions, normals, triangles and 20 bytes an edge record.
-    pub indexed: usize,
-    /// Four edge vertices of 80 bytes an edge.
-    pub replicated_f32: usize,
-    /// Four edge vertices of 37 bytes, padded to 40, an edge.
-    pub replicated_i16: usize,
-}
-
 impl EdgeMesh {
-    /// The vertex of `face` that is not on `record`'s edge; the edge's start
-    /// where there is no face.
+    /// The vertex of `face` off the edge of `record`; without a face, the start of the edge.
     #[must_use]
-    pub fn apex(&self, face: u32, record: &EdgeRecord) -> u32 {
+    pub(crate) fn apex(&self, face: u32, record: &EdgeRecord) -> u32 {
         if face == NONE {
             return record.v0;
         }
@@ -282,7 +267,7 @@ impl EdgeMesh {
         triangle.into_iter().find(off_edge).unwrap_or(NONE)
     }
 
-    /// The welded vertex that a vertex is, or was split from.
+    /// The welded vertex of a vertex: the one that it was split from, or itself.
     #[must_use]
     pub fn welded_vertex(&self, vertex: u32) -> u32 {
         let first_split = self.positions.len() - self.split_from.len();
@@ -292,10 +277,10 @@ impl EdgeMesh {
         }
     }
 
-    /// The corners of the box around the mesh, in the units of its file; infinite
-    /// and turned around where there are no vertices.
+    /// The corners of the bounds in units of the file; without vertices, infinite with the lower
+    /// corner above the upper one.
     #[must_use]
-    pub fn box_in_file(&self) -> (DVec3, DVec3) {
+    pub(crate) fn box_in_file(&self) -> (DVec3, DVec3) {
         if self.positions.is_empty() {
             return (DVec3::INFINITY, DVec3::NEG_INFINITY);
         }
@@ -303,9 +288,8 @@ impl EdgeMesh {
         (corner(self.bounds.min), corner(self.bounds.max))
     }
 
-    /// Moves the mesh to another frame, so that it lies at the same place of the
-    /// file; lengths are scaled, directions stay.
-    pub fn set_frame(&mut self, frame: MeshFrame) {
+    /// Moves the mesh to another frame, at the same place in the file.
+    pub(crate) fn set_frame(&mut self, frame: MeshFrame) {
         if frame == self.frame {
             return;
         }
@@ -335,21 +319,6 @@ impl EdgeMesh {
             link.arc_start = scaled(link.arc_start);
         }
     }
-
-    /// Sizes of the layouts.
-    #[must_use]
-    pub fn layout_bytes(&self) -> LayoutBytes {
-        let edges = self.records.len();
-        LayoutBytes {
-            input: self.positions.len() * 24 + size_of_val(&*self.triangles),
-            indexed: size_of_val(&*self.positions)
-                + size_of_val(&*self.vertex_normals)
-                + size_of_val(&*self.triangles)
-                + size_of_val(&*self.records),
-            replicated_f32: edges * 4 * size_of::<EdgeVertex>(),
-            replicated_i16: edges * 4 * size_of::<EdgeVertex16>(),
-        }
-    }
 }
 
 #[cfg(test)]
@@ -359,7 +328,7 @@ mod tests {
     use crate::model::Model;
     use crate::report::Report;
 
-    /// A mesh that is moved to a frame is the one that is built in it.
+    /// A mesh moved to a frame equals the mesh built in it.
     #[test]
     fn a_mesh_in_another_frame_is_at_the_same_place() {
         let near = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.5]];

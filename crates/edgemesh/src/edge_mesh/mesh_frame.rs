@@ -1,82 +1,79 @@
-//! Where the mesh lies in its file: an origin and a scale.
+//! The mesh frame: origin and scale of a mesh in its file.
 //!
-//! Idea: 32 bits are enough for a mesh that lies around the origin at a usual
-//! size, and most do. One that lies far away loses its detail to the distance,
-//! and one of 1e30 or 1e-40 units overflows or vanishes in a view. Such a mesh
-//! is moved and scaled in 64 bits first; the scale is a power of two, which
-//! loses nothing.
+//! Idea: 32 bits suffice for a mesh of usual size around the origin, and most meshes are so. A mesh
+//! far away loses its detail, and one of 1e30 or 1e-40 units overflows or vanishes in a view. These
+//! are first moved and scaled in 64 bits; the scale is a power of two, which loses nothing.
 //!
-//! Rejected: moving every mesh. Then two files of one scene would not share
-//! their coordinates, and positions would no longer be the file's own numbers.
+//! Rejected: moving every mesh. Two files of a scene would not share their coordinates, and
+//! positions would not be the numbers of the file.
 
 use glam::DVec3;
 
-/// A mesh that lies further from the origin than this many times its own size
-/// would lose more than a thousandth of its size to rounding in 32 bits.
+/// Farther from the origin than this many times its size, a mesh loses more than a thousandth of
+/// its size to rounding in 32 bits.
 const FAR_FROM_ORIGIN: f64 = 8192.0;
 
-/// Sizes from here up are scaled: an eye some radii away, and squares of
-/// distances, stay finite in 32 bits below.
+/// Sizes from this one on are scaled. Below it, an eye some radii away and squares of distances
+/// stay finite in 32 bits.
 const HUGE: f64 = 1e15;
 
-/// Sizes from here down are scaled: squares of distances stay normal above.
+/// Sizes up to this one are scaled. Above it, squares of distances stay normal numbers.
 const TINY: f64 = 1e-15;
 
-/// Takes positions of a file to those of its mesh:
+/// Origin and scale of a mesh in its file:
 /// `in_mesh = (in_file - origin) * scale`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeshFrame {
-    /// The point of the file that is the mesh's origin.
+    /// The origin of the mesh, in units of the file.
     pub origin: DVec3,
-    /// Units of the mesh in one of the file: a power of two.
+    /// Units of the mesh per unit of the file: a power of two.
     pub scale: f64,
 }
 
 impl Default for MeshFrame {
-    /// The frame that changes nothing.
+    /// The identity.
     fn default() -> Self {
         Self { origin: DVec3::ZERO, scale: 1.0 }
     }
 }
 
 impl MeshFrame {
-    /// The frame for vertices between `low` and `high`: the one that changes
-    /// nothing, unless 32 bits would lose detail.
+    /// The frame for vertices between `low` and `high`: the identity, unless 32 bits would lose
+    /// detail.
     #[must_use]
-    pub fn of_box(low: DVec3, high: DVec3) -> Self {
+    pub(crate) fn of_box(low: DVec3, high: DVec3) -> Self {
         let size = (high - low).max_element();
         let reach = low.abs().max(high.abs()).max_element();
         if !(size > 0.0 && size.is_finite()) {
             return Self::default();
         }
-        // Half each first: the sum of two large numbers may overflow.
+        // Halved first, because the sum of two large numbers can overflow.
         let origin =
             if reach > FAR_FROM_ORIGIN * size { low / 2.0 + high / 2.0 } else { DVec3::ZERO };
         let scale = if (TINY..HUGE).contains(&size) { 1.0 } else { power_of_two_near(1.0 / size) };
         Self { origin, scale }
     }
 
-    /// Whether positions stay as the file has them.
+    /// Whether positions are the numbers of the file.
     #[must_use]
     pub fn is_identity(&self) -> bool {
         *self == Self::default()
     }
 
-    /// A point of the file in the mesh.
+    /// Converts a point from units of the file to units of the mesh.
     #[must_use]
     pub fn to_mesh(&self, in_file: DVec3) -> DVec3 {
         (in_file - self.origin) * self.scale
     }
 
-    /// A point of the mesh in the file.
+    /// Converts a point from units of the mesh to units of the file.
     #[must_use]
     pub fn to_file(&self, in_mesh: DVec3) -> DVec3 {
         in_mesh / self.scale + self.origin
     }
 }
 
-/// The power of two at or below `value`, which is positive; between the
-/// smallest and largest that have an exact inverse.
+/// The power of two at or below a positive `value`, clamped so that its inverse is exact.
 fn power_of_two_near(value: f64) -> f64 {
     value.log2().floor().clamp(-1000.0, 1000.0).exp2()
 }

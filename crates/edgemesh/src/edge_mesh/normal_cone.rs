@@ -1,23 +1,22 @@
-//! Clusters of faces that all look at the eye, or all away from it.
+//! Normal cones: bounds of clusters of faces that all look at the eye, or all away from it.
 //!
-//! A contour is near a few in a hundred of the edges of a fine mesh; the rest can
-//! be passed over in clusters. A cluster knows a sphere around its points and a
-//! cone around its normals. Where the whole cone looks one way from everywhere
-//! in the sphere, so do all faces, and no edge between them is a contour
+//! Only a few percent of the edges of a fine mesh are contours; clusters skip most of the others.
+//! A cluster has a sphere around its points and a cone around its normals. If the whole cone looks
+//! one way from everywhere in the sphere, so do all faces, and no edge between them is a contour
 //! (Johnson and Cohen 2001, spatialized normal cones).
 //!
-//! A claim is never wrong: the bounds are rounded outward by more than the
-//! arithmetic errs, so what is drawn is what a look at every face draws.
+//! The bounds are rounded outward by more than the arithmetic errs, so the test never skips a
+//! contour.
 //!
 //! ```text
 //!        axis           for each p in the sphere and n in the cone
 //!     \\   |   /          n . (eye - p)  >=  |d| cos(angle + half) - radius,
-//!      \\  |  /           d = eye - centre
+//!      \\  |  /           d = eye - center
 //!    ( . \\|/ . )
 //! ```
 //!
-//! Rejected: a tree of clusters (Sander et al. 2000). One level leaves one look
-//! for every 32 faces, and no order in which threads must wait for each other.
+//! Rejected: a tree of clusters (Sander et al. 2000). With one level, a test covers 32 faces, and
+//! no thread waits for another.
 //!
 //! WGSL twin: `shaders/common/normal_cone.wgsl`.
 
@@ -26,40 +25,37 @@ use glam::{Vec3, Vec4};
 
 use crate::edge_mesh::FacePlane;
 
-/// How far a bound must be met, as a part of the distances in it. WGSL twin: the
-/// constant of this name.
+/// The margin of a bound, as a fraction of its distances. WGSL twin: the constant of this name.
 pub const CONE_MARGIN: f32 = 1e-4;
 
 /// The bounds of a cluster of faces: 32 bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct NormalCone {
-    /// Middle of a sphere around a point of each face.
+    /// Center of a sphere around a point of each face.
     pub center: [f32; 3],
-    /// Its radius.
+    /// Radius of the sphere.
     pub radius: f32,
     /// Axis of a cone around the normals.
     pub axis: [f32; 3],
-    /// The cosine of its half angle; not positive where there is no such cone,
-    /// and then nothing is claimed.
+    /// Cosine of the half angle of the cone; 0 or less if there is no such cone.
     pub cosine: f32,
 }
 
-/// What is known of all faces of a cluster. WGSL twins: the constants `MIXED`,
-/// `ALL_FACE` and `ALL_AWAY`.
+/// The facing of a cluster. WGSL twins: the constants `MIXED`, `ALL_FACE` and `ALL_AWAY`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
 pub enum ConeFacing {
-    /// Nothing.
+    /// Unknown: faces can look either way.
     Mixed = 0,
-    /// All look at the eye.
+    /// All faces look at the eye.
     AllFace = 1,
-    /// All look away from it.
+    /// All faces look away from the eye.
     AllAway = 2,
 }
 
 impl NormalCone {
-    /// The cone of some faces.
+    /// The bounds of the faces with these planes.
     #[must_use]
     pub fn of<'a>(planes: impl Iterator<Item = &'a FacePlane> + Clone) -> Self {
         let normal = |plane: &FacePlane| Vec3::from_slice(&plane.normal);
@@ -81,8 +77,7 @@ impl NormalCone {
     }
 }
 
-/// What the faces of `cone` do as seen by `eye` (w = 1), or by a viewer in that
-/// direction (w = 0).
+/// The facing of a cluster, seen by `eye` (w = 1), or by a viewer in that direction (w = 0).
 #[must_use]
 pub fn cone_facing(cone: &NormalCone, eye: Vec4) -> ConeFacing {
     if cone.cosine <= 0.0 {
@@ -94,7 +89,7 @@ pub fn cone_facing(cone: &NormalCone, eye: Vec4) -> ConeFacing {
     let across = (distance * distance - along * along).max(0.0).sqrt();
     let sine = (1.0 - cone.cosine * cone.cosine).max(0.0).sqrt();
     let reach = eye.w.abs() * cone.radius;
-    // Rounding must not make a claim.
+    // The margin covers rounding.
     let bound = reach + CONE_MARGIN * (distance + reach);
     if along * cone.cosine - across * sine > bound {
         ConeFacing::AllFace
@@ -108,7 +103,7 @@ pub fn cone_facing(cone: &NormalCone, eye: Vec4) -> ConeFacing {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::facing::faces_eye;
+    use crate::view::faces_eye;
 
     fn plane(normal: Vec3, point: Vec3) -> FacePlane {
         FacePlane {

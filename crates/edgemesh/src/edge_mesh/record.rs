@@ -1,12 +1,11 @@
-//! The layouts of an edge mesh's records.
+//! Layouts of the edges of an edge mesh.
 //!
-//! 1. The **indexed edge record**, 20 bytes an edge: indices into positions and
-//!    faces that the fill shares. This is what the paper's section 6 says will
-//!    be possible once vertex programs can read memory.
-//! 2. The **replicated edge vertex**, the paper's own (section 3): four
-//!    successive copies of `<v0, v1, v2, v3, n0, n1, r, i>`, 80 bytes each in
-//!    32-bit floats ([`crate::edge_mesh::replicate`] makes them).
-//! 3. The same at 16 bits: 37 bytes, padded to 40 with the classes.
+//! 1. The **indexed edge record**, 20 bytes for each edge: indices into positions and faces that
+//!    the fill shares. The paper (section 6) expects it once vertex programs can read memory.
+//! 2. The **replicated edge vertex** of the paper (section 3): four successive copies of
+//!    `<v0, v1, v2, v3, n0, n1, r, i>`, 80 bytes each in 32-bit floats, made by
+//!    [`crate::edge_mesh::replicate`].
+//! 3. The replicated edge vertex at 16 bits: 37 bytes, padded to 40 with the classes.
 //!
 //! ```text
 //!            v1              face A = <v0, v1, v2>, left of v0 -> v1
@@ -33,20 +32,19 @@ pub struct EdgeRecord {
     pub v0: u32,
     /// End vertex.
     pub v1: u32,
-    /// The face that traverses the edge from `v0` to `v1`; [`crate::index::NONE`] for a line
-    /// that is no edge of a face.
+    /// The face that traverses the edge from `v0` to `v1`, or [`NONE`](crate::index::NONE) for a
+    /// line without faces.
     pub face_a: u32,
-    /// The face across, or [`crate::index::NONE`].
+    /// The face across, or [`NONE`](crate::index::NONE).
     pub face_b: u32,
-    /// Static classes.
+    /// Classes that no view changes.
     pub flags: EdgeFlags,
 }
 
-/// The paper's edge vertex at 16 bits: 37 bytes (section 3.1), and the class
-/// bits in the three bytes that pad it to 40.
+/// The paper's edge vertex at 16 bits: 37 bytes (section 3.1), padded to 40 with the edge word.
 ///
-/// Positions are whole steps from the middle of the mesh's box, normals are in
-/// units of 1 / 32767; [`crate::edge_mesh::replicate::Quantization`] has the steps.
+/// Positions are whole steps from the center of the bounds
+/// ([`Quantization`](crate::edge_mesh::Quantization)); normals are in units of 1 / 32767.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct EdgeVertex16 {
@@ -56,47 +54,47 @@ pub struct EdgeVertex16 {
     pub v1: [i16; 3],
     /// Third vertex of face A.
     pub v2: [i16; 3],
-    /// Third vertex of face B; equal to `v0` for boundary edges.
+    /// Third vertex of face B; `v0` for boundary edges.
     pub v3: [i16; 3],
     /// Welded vertex normal at `v0`.
     pub n0: [i16; 3],
     /// Welded vertex normal at `v1`.
     pub n1: [i16; 3],
-    /// The corner index i, 0 to 3, in the low two bits; the edge's random
-    /// scalar in the six above, in steps of 1 / 64.
+    /// The corner index i, 0 to 3, in the low two bits; the random scalar of the edge in the six
+    /// bits above, in steps of 1 / 64.
     pub corner_and_random: u8,
-    /// The edge's [`EdgeWord`], the lowest byte first.
+    /// The [`EdgeWord`], lowest byte first.
     pub flags: [u8; 3],
 }
 
 impl EdgeVertex16 {
-    /// The corner index i.
+    /// The corner index i, 0 to 3.
     #[must_use]
     pub const fn corner(&self) -> u32 {
         (self.corner_and_random & 3) as u32
     }
 
-    /// The edge's random scalar, rounded down to steps of 1 / 64.
+    /// The random scalar of the edge, rounded down to steps of 1 / 64.
     #[must_use]
     pub fn random(&self) -> f32 {
         f32::from(self.corner_and_random >> 2) / 64.0
     }
 
-    /// The classes and the angle of the crease.
+    /// The classes and the crease angle.
     #[must_use]
     pub const fn word(&self) -> EdgeWord {
         let [low, middle, high] = self.flags;
         EdgeWord(u32::from_le_bytes([low, middle, high, 0]))
     }
 
-    /// The class bits.
+    /// The classes.
     #[must_use]
     pub const fn flags(&self) -> EdgeFlags {
         self.word().flags()
     }
 }
 
-/// The paper's edge vertex in 32-bit floats: 80 bytes, four in a row an edge.
+/// The paper's edge vertex in 32-bit floats: 80 bytes, four successive ones for each edge.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct EdgeVertex {
@@ -106,63 +104,60 @@ pub struct EdgeVertex {
     pub v1: [f32; 3],
     /// Third vertex of face A.
     pub v2: [f32; 3],
-    /// Third vertex of face B; equal to `v0` for boundary edges.
+    /// Third vertex of face B; `v0` for boundary edges.
     pub v3: [f32; 3],
     /// Welded vertex normal at `v0`.
     pub n0: [f32; 3],
     /// Welded vertex normal at `v1`.
     pub n1: [f32; 3],
-    /// The edge's random scalar, 0 to 1.
+    /// The random scalar of the edge, 0 to 1.
     pub r: f32,
-    /// The corner index i, 0 to 3, in the low two bits; the edge's [`EdgeWord`] from bit
-    /// [`Self::FLAGS_SHIFT`] on.
+    /// The corner index i, 0 to 3, in the low two bits; the [`EdgeWord`] from bit 8 on.
     pub corner_and_flags: u32,
 }
 
 impl EdgeVertex {
-    /// Where the class bits begin in [`Self::corner_and_flags`].
-    pub const FLAGS_SHIFT: u32 = 8;
+    /// The lowest bit of the edge word in [`Self::corner_and_flags`].
+    pub(crate) const FLAGS_SHIFT: u32 = 8;
 
-    /// The corner index i.
+    /// The corner index i, 0 to 3.
     #[must_use]
     pub const fn corner(&self) -> u32 {
         self.corner_and_flags & 3
     }
 
-    /// The classes and the angle of the crease.
+    /// The classes and the crease angle.
     #[must_use]
     pub const fn word(&self) -> EdgeWord {
         EdgeWord(self.corner_and_flags >> Self::FLAGS_SHIFT)
     }
 
-    /// The class bits.
+    /// The classes.
     #[must_use]
     pub const fn flags(&self) -> EdgeFlags {
         self.word().flags()
     }
 }
 
-/// Card and Mitchell's vertex of a fin (*Rendering Outlines*, their Figure 2): 48
-/// bytes, four in a row an edge. It is here to be compared with: it cannot be
-/// posed, as its face normals stay what they are, and it knows no creases.
+/// Card and Mitchell's vertex of a fin (*Rendering Outlines*, Figure 2): 48 bytes, four successive
+/// ones for each edge. It serves comparisons only: its face normals cannot be posed, and it has no
+/// creases.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct FinVertex {
     /// One end of the edge.
     pub position: [f32; 3],
-    /// The vertex normal there, along which the fin stands out; zero for the two
-    /// vertices that stay on the edge.
+    /// The vertex normal, along which the fin stands out; zero for the two vertices on the edge.
     pub normal: [f32; 3],
     /// Normal of face A.
     pub face_a: [f32; 3],
-    /// Normal of face B; at boundaries the opposite of that of face A, so that
-    /// exactly one of both always looks at the eye.
+    /// Normal of face B; at boundaries the opposite of `face_a`, so that exactly one of the two
+    /// looks at the eye.
     pub face_b: [f32; 3],
 }
 
-/// The edge's random scalar r in [0, 1): a hash of its two end positions, the
-/// same whichever end comes first, so it needs no room in the indexed record
-/// and survives any renumbering of the mesh.
+/// The random scalar r of an edge, in [0, 1): a hash of the positions of its ends in either order.
+/// So the indexed record need not store it, and renumbering a mesh does not change it.
 ///
 /// The mixing is PCG's output function (O'Neill 2014). WGSL twin: `edge_random`
 /// in `shaders/common/mesh.wgsl`.

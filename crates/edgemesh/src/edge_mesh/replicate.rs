@@ -1,21 +1,18 @@
-//! The paper's own layouts (section 3): four copies of `<v0, v1, v2, v3, n0, n1,
-//! r, i>` an edge, which need nothing but vertex attributes.
+//! The layouts of the paper (section 3): four copies of `<v0, v1, v2, v3, n0, n1, r, i>` for each
+//! edge, which need only vertex attributes.
 //!
-//! At 16 bits positions are quantized to steps of the box's largest side over
-//! 65534, the same along all axes, so that angles stay as they are. No position
-//! moves by more than half a step along an axis, plus its rounding; normals err
-//! by half of 1 / 32767 a component.
+//! At 16 bits, positions are quantized to steps of the largest side of the bounds over 65534, the
+//! same along all axes, so that angles are kept. A position moves by at most half a step along an
+//! axis, plus its rounding; a component of a normal errs by at most half of 1 / 32767.
 //!
-//! A face without area faces the eye as its neighbour does. The edge vertex has
-//! no room to say so, so the third vertex of such a face is set off the edge, in
-//! its neighbour's plane.
+//! A face without area has the facing of its neighbor. The edge vertex cannot store that, so the
+//! third vertex of such a face is moved off the edge, in the plane of the neighbor.
 //!
-//! The paper sets `v3 = v0` for marked edges too. A marked edge would lose its
-//! second face by that, and with it its contour and what hides it; the class
-//! bits say that it is marked, and it keeps its vertex.
+//! The paper sets `v3 = v0` for marked edges, too. A marked edge would then lose its second face,
+//! and so its contour; here the class bits mark it, and it keeps its vertex.
 //!
-//! Rejected: steps of their own along each axis. A flat mesh would gain digits
-//! across it, and every normal would have to be bent.
+//! Rejected: a separate step along each axis. A flat mesh would gain precision across, but every
+//! normal would have to be corrected.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -31,7 +28,7 @@ use crate::index::NONE;
 /// The largest 16-bit step from the middle.
 const LARGEST_STEP: f64 = 32767.0;
 
-/// What the edge vertices of one record have in common.
+/// The values that the edge vertices of a record share.
 struct EdgeCorners {
     /// The paper's v0 to v3.
     positions: [[f32; 3]; 4],
@@ -55,7 +52,7 @@ impl EdgeCorners {
                 return mesh.positions[vertex as usize];
             }
             let [v0, v1] = ends.map(Vec3::from);
-            // A quarter of the edge's length off its middle, left of it for face A.
+            // A quarter of its length off the middle of the edge, on the left for face A.
             (v0.midpoint(v1) + plane.cross(v1 - v0) * (0.25 * side)).to_array()
         };
         let positions = [ends[0], ends[1], third(record.face_a, 1.0), third(record.face_b, -1.0)];
@@ -67,7 +64,7 @@ impl EdgeCorners {
     }
 }
 
-/// Four edge vertices a record, in order.
+/// Four edge vertices for each record, in order.
 fn replicate_with<T: Send>(
     mesh: &EdgeMesh,
     vertex: impl Fn(&EdgeCorners, u8) -> T + Sync,
@@ -80,8 +77,7 @@ fn replicate_with<T: Send>(
     mesh.records.par_iter().zip(&words).flat_map_iter(of_record).collect()
 }
 
-/// Writes out the paper's edge mesh in 32-bit floats: four edge vertices a
-/// record, in order.
+/// Makes the paper's edge mesh in 32-bit floats: four edge vertices for each record, in order.
 #[must_use]
 pub fn replicate(mesh: &EdgeMesh) -> Vec<EdgeVertex> {
     replicate_with(mesh, |edge, corner| {
@@ -91,8 +87,7 @@ pub fn replicate(mesh: &EdgeMesh) -> Vec<EdgeVertex> {
     })
 }
 
-/// Writes out the paper's edge mesh at 16 bits: four edge vertices a record, in
-/// order.
+/// Makes the paper's edge mesh at 16 bits: four edge vertices for each record, in order.
 #[must_use]
 pub fn replicate_16(mesh: &EdgeMesh) -> Vec<EdgeVertex16> {
     let quantization = Quantization::of(&mesh.bounds);
@@ -105,8 +100,8 @@ pub fn replicate_16(mesh: &EdgeMesh) -> Vec<EdgeVertex16> {
     })
 }
 
-/// Writes out Card and Mitchell's fins: four vertices a record, in order, the two
-/// ends on the edge and then, from the end back, the two that stand out.
+/// Makes Card and Mitchell's fins: four vertices for each record, in order. The first two are the
+/// ends on the edge, the next two those that stand out, from the end back to the start.
 #[must_use]
 pub fn fins(mesh: &EdgeMesh) -> Vec<FinVertex> {
     let normal = |face: u32| {
@@ -132,12 +127,12 @@ pub fn fins(mesh: &EdgeMesh) -> Vec<FinVertex> {
     mesh.records.par_iter().flat_map_iter(of_record).collect()
 }
 
-/// How positions become 16-bit steps and steps positions.
+/// The conversion between positions and 16-bit steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quantization {
-    /// The position of step 0 along all axes: the middle of the box.
+    /// The position of step 0 along all axes: the center of the bounds.
     pub center: DVec3,
-    /// Units of the mesh a step.
+    /// The length of a step, in units of the mesh.
     pub step: f64,
 }
 
@@ -150,7 +145,7 @@ impl Quantization {
         Self { center: bounds.center(), step: if half > 0.0 { half / LARGEST_STEP } else { 1.0 } }
     }
 
-    /// The steps of a position within the box.
+    /// The steps of a position; positions outside of the bounds are clamped.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "clamped to 16 bits")]
     pub fn quantize(&self, position: [f32; 3]) -> [i16; 3] {
@@ -158,15 +153,14 @@ impl Quantization {
         steps.to_array().map(|step| step.round().clamp(-LARGEST_STEP, LARGEST_STEP) as i16)
     }
 
-    /// The position of steps, as the GPU works it out.
+    /// The position of steps, as the GPU computes it.
     #[must_use]
     pub fn dequantize(&self, steps: [i16; 3]) -> [f32; 3] {
         let [x, y, z] = steps.map(f64::from);
         (self.center + DVec3::new(x, y, z) * self.step).as_vec3().to_array()
     }
 
-    /// No coordinate of a position moves by more than this: half a step, and the
-    /// rounding of the result to 32 bits.
+    /// The largest error of a coordinate: half a step, and the rounding to 32 bits.
     #[must_use]
     pub fn largest_error(&self) -> f64 {
         let reach = self.center.abs().max_element() + self.step * LARGEST_STEP;
@@ -179,7 +173,7 @@ fn quantize_normal(component: f32) -> i16 {
     (f64::from(component) * LARGEST_STEP).round().clamp(-LARGEST_STEP, LARGEST_STEP) as i16
 }
 
-/// Six bits of a scalar from 0 up to 1.
+/// Converts a scalar from 0 to 1 to six bits.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 64")]
 fn quantize_random(random: f32) -> u8 {
     ((random * 64.0) as u8).min(63)
@@ -234,9 +228,9 @@ mod tests {
         }
     }
 
-    /// A face of three points on a line faces the eye as its neighbour does.
+    /// A face of three points on a line has the facing of its neighbor.
     #[test]
-    fn a_face_without_area_stands_in_its_neighbours_plane() {
+    fn a_face_without_area_stands_in_its_neighbors_plane() {
         let positions = [[0., 0., 0.], [1., 0., 0.], [2., 0., 0.], [1., 1., 0.]];
         let model = Model::from_polygons(&positions, &[&[0, 2, 3], &[0, 1, 2]]);
         let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());

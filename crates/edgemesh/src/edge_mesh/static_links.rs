@@ -1,19 +1,19 @@
-//! The chains that no view changes, as a link per record.
+//! The chains that no view changes, as a link for each record.
 
 use crate::edge_mesh::mesh::EdgeMesh;
 use crate::index::NONE;
 
-/// For each record what the preprocessor's chains say of it.
+/// The place of each record in the chains of its mesh.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct StaticLinks {
-    /// The record that follows, or [`NONE`].
+    /// For each record, the record that follows, or [`NONE`].
     pub next: Vec<u32>,
-    /// Whether the chain runs from the record's `v1` to its `v0`.
+    /// For each record, whether the chain runs from its `v1` to its `v0`.
     pub is_reversed: Vec<bool>,
 }
 
 impl StaticLinks {
-    /// Those of `mesh`.
+    /// Builds the links of a mesh.
     #[must_use]
     pub fn of(mesh: &EdgeMesh) -> Self {
         let count = mesh.records.len();

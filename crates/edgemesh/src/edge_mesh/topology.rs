@@ -1,15 +1,13 @@
-//! Undirected edges and who uses them, in linear time and in parallel.
+//! Finds the undirected edges of faces and the sides of each edge, in linear time and in parallel.
 //!
-//! Idea: each face side is a directed pair of vertices. A counting sort brings
-//! the sides of one smaller vertex together; these few are sorted by their
-//! larger vertex and by side. Each thread does so for a range of smaller
-//! vertices of its own, so that nothing is shared, and the ranges follow each
-//! other. The edges come out sorted by (min, max), the sides of an edge in the
-//! order of their faces, whatever the number of threads.
+//! Idea: a side of a face is a directed pair of vertices. A counting sort groups the sides by their
+//! smaller vertex; each small group is sorted by larger vertex and by side. Each thread has a range
+//! of smaller vertices, so that threads share nothing. The edges are sorted by (min, max), and the
+//! sides of an edge by their faces, for any number of threads.
 //!
-//! Rejected: a hash map of pairs, whose order must be mended afterwards; a
-//! half-edge structure, which refuses edges of three faces; two counting sorts
-//! over all sides, which touch memory twice as often.
+//! Rejected: a hash map of pairs, which needs sorting afterward; a half-edge structure, which
+//! cannot store edges of three faces; two counting sorts over all sides, which access memory twice
+//! as often.
 //!
 //! ```text
 //!   sides   (2,0) (0,1) (1,2) (1,0) ...
@@ -23,12 +21,12 @@ use rayon::prelude::*;
 
 use crate::index::to_u32;
 
-/// All undirected edges of some faces, with the sides that use each.
+/// The undirected edges of faces, with the sides on each edge.
 #[derive(Debug, Clone)]
 pub struct EdgeTable {
-    /// Parts by ascending smaller vertex.
+    /// Parts, ascending by smaller vertex.
     parts: Vec<EdgePart>,
-    /// The number of the first edge of each part, and of all edges at the end.
+    /// The number of the first edge of each part, and at the end the number of edges.
     first_edges: Vec<usize>,
 }
 
@@ -37,14 +35,14 @@ pub struct EdgeTable {
 pub(crate) struct EdgePart {
     /// The vertices of each edge, smaller first; sorted.
     edges: Vec<[u32; 2]>,
-    /// Where each edge's sides begin in `sides`; one entry more than edges.
+    /// The start of each edge in `sides`, and at the end the number of sides.
     first_side: Vec<u32>,
     /// Side indices, edge by edge, ascending within an edge.
     sides: Vec<u32>,
 }
 
 impl EdgePart {
-    /// Each edge's vertices, smaller first, with its sides, ascending.
+    /// The vertices of each edge, smaller first, with its sides, ascending.
     pub(crate) fn iter(&self) -> impl Iterator<Item = ([u32; 2], &[u32])> {
         self.edges
             .iter()
@@ -58,17 +56,18 @@ impl EdgePart {
 }
 
 impl EdgeTable {
-    /// Builds the table from directed sides; a side whose ends are the same
-    /// vertex belongs to no edge.
-    ///
-    /// All vertices must be below `vertex_count`.
+    /// Builds the table of directed sides with vertices below `vertex_count`; a side with equal
+    /// ends has no edge.
     #[must_use]
-    pub fn from_sides(vertex_count: usize, sides: &[[u32; 2]]) -> Self {
+    pub(crate) fn from_sides(vertex_count: usize, sides: &[[u32; 2]]) -> Self {
         Self::build(vertex_count, &sides)
     }
 
-    /// Builds the table of a triangle mesh: side `3 f + k` of the table runs
-    /// from corner k to corner k+1 of triangle f.
+    /// Builds the table of a triangle mesh: side `3 f + k` runs from corner k to corner k+1 of
+    /// triangle f.
+    ///
+    /// # Panics
+    /// May panic, or leave out sides, if a vertex is not below `vertex_count`.
     #[must_use]
     pub fn from_triangles(vertex_count: usize, triangles: &[[u32; 3]]) -> Self {
         Self::build(vertex_count, &TriangleSides(triangles))
@@ -85,13 +84,13 @@ impl EdgeTable {
         Self { parts, first_edges }
     }
 
-    /// How many undirected edges there are.
+    /// The number of undirected edges.
     #[must_use]
     pub fn edge_count(&self) -> usize {
         self.first_edges.last().copied().unwrap_or_default()
     }
 
-    /// Each edge's vertices, smaller first, with its sides, ascending.
+    /// The vertices of each edge, smaller first, with its sides, ascending.
     pub fn iter(&self) -> impl Iterator<Item = ([u32; 2], &[u32])> {
         self.parts.iter().flat_map(EdgePart::iter)
     }
@@ -101,7 +100,7 @@ impl EdgeTable {
         self.parts.par_iter().enumerate().map(|(part, edges)| (self.first_edges[part], edges))
     }
 
-    /// The sides of edge number `edge`.
+    /// The sides of an edge, by its number.
     pub(crate) fn sides(&self, edge: usize) -> &[u32] {
         let part = self.first_edges.partition_point(|&first| first <= edge) - 1;
         let at = edge - self.first_edges[part];
@@ -119,11 +118,11 @@ impl EdgeTable {
     }
 }
 
-/// Directed sides by their numbers.
+/// Directed sides with numbers.
 trait Sides: Sync {
     fn count(&self) -> usize;
 
-    /// Calls `visit` with every so many-th side, its start and its end.
+    /// Calls `visit` with the number, start and end of about every `step`-th side.
     fn each(&self, step: usize, visit: impl FnMut(usize, u32, u32));
 }
 
@@ -139,7 +138,7 @@ impl Sides for &[[u32; 2]] {
     }
 }
 
-/// The sides of triangles: 3 f + k runs from corner k to the next one.
+/// The sides of triangles: side 3 f + k runs from corner k to the next corner.
 struct TriangleSides<'a>(&'a [[u32; 3]]);
 
 impl Sides for TriangleSides<'_> {
@@ -147,7 +146,7 @@ impl Sides for TriangleSides<'_> {
         3 * self.0.len()
     }
 
-    /// Whole triangles, so that no side is divided by three.
+    /// Visits whole triangles, which saves a division for each side.
     fn each(&self, step: usize, mut visit: impl FnMut(usize, u32, u32)) {
         for (face, &[a, b, c]) in self.0.iter().enumerate().step_by(step.div_ceil(3)) {
             visit(3 * face, a, b);
@@ -157,8 +156,8 @@ impl Sides for TriangleSides<'_> {
     }
 }
 
-/// Cuts the vertices into as many ranges as there are threads, with about as
-/// many sides each; a sample of the sides tells.
+/// Cuts the vertices into a range for each thread, with about the same number of sides, estimated
+/// from a sample.
 fn even_ranges(vertex_count: usize, sides: &impl Sides) -> Vec<Range<u32>> {
     const CELLS: usize = 1024;
     const SAMPLES: usize = 1 << 16;
@@ -195,7 +194,7 @@ fn even_ranges(vertex_count: usize, sides: &impl Sides) -> Vec<Range<u32>> {
 /// The edges whose smaller vertex is within `range`.
 fn edges_of(range: Range<u32>, sides: &impl Sides) -> EdgePart {
     let vertex_count = range.len();
-    // Vertices below the range wrap around to something large.
+    // Vertices below the range wrap around to large numbers.
     let own = |a: u32, b: u32| a.min(b).wrapping_sub(range.start) as usize;
     let mut next = vec![0_u32; vertex_count + 1];
     sides.each(1, |_, a, b| {
@@ -207,7 +206,7 @@ fn edges_of(range: Range<u32>, sides: &impl Sides) -> EdgePart {
     for slot in 1..next.len() {
         next[slot] += next[slot - 1];
     }
-    // The larger vertex above the side: sorts by both at once.
+    // The larger vertex in the upper half, the side in the lower: one sort orders by both.
     let mut keys = vec![0_u64; next[vertex_count] as usize];
     sides.each(1, |side, a, b| {
         let vertex = own(a, b);
@@ -217,7 +216,7 @@ fn edges_of(range: Range<u32>, sides: &impl Sides) -> EdgePart {
             *place += 1;
         }
     });
-    // `next` now has each vertex's end, which is the start of the one behind.
+    // `next` now has the end of each vertex, which is the start of the next vertex.
     let mut part = EdgePart {
         edges: Vec::with_capacity(keys.len() / 2 + 1),
         first_side: Vec::with_capacity(keys.len() / 2 + 2),
@@ -235,7 +234,7 @@ fn edges_of(range: Range<u32>, sides: &impl Sides) -> EdgePart {
 }
 
 impl EdgePart {
-    /// Adds the edges of one smaller vertex, given its sorted keys.
+    /// Adds the edges of a smaller vertex from its sorted keys.
     fn push_bucket(&mut self, smaller: u32, keys: &[u64]) {
         let mut last = None;
         for &key in keys {
@@ -251,7 +250,7 @@ impl EdgePart {
     }
 }
 
-/// Counts of a face set's edges, before anything is repaired.
+/// Counts of edges before repairs.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct EdgeCounts {
     /// Undirected edges.
@@ -260,14 +259,14 @@ pub struct EdgeCounts {
     pub boundary: usize,
     /// Edges with more than two faces.
     pub non_manifold: usize,
-    /// Edges that their two faces traverse in the same direction.
+    /// Edges whose two faces traverse them in the same direction.
     pub inconsistent: usize,
 }
 
 impl EdgeCounts {
-    /// Counts the edges of `table`, whose sides are `sides`.
+    /// Counts the edges of `table`; `sides` returns the vertices of a side.
     #[must_use]
-    pub fn of(table: &EdgeTable, sides: impl Fn(u32) -> [u32; 2] + Sync) -> Self {
+    pub(crate) fn of(table: &EdgeTable, sides: impl Fn(u32) -> [u32; 2] + Sync) -> Self {
         let of_part = |(_, part): (usize, &EdgePart)| {
             let mut counts = Self { edges: part.edge_count(), ..Self::default() };
             for (_, users) in part.iter() {
@@ -296,10 +295,9 @@ impl std::ops::Add for EdgeCounts {
     }
 }
 
-/// The directed side `side` of a triangle list, as [`EdgeTable::from_triangles`]
-/// numbers them.
+/// The vertices of a side, as [`EdgeTable::from_triangles`] numbers sides.
 #[must_use]
-pub fn triangle_side(triangles: &[[u32; 3]], side: u32) -> [u32; 2] {
+pub(crate) fn triangle_side(triangles: &[[u32; 3]], side: u32) -> [u32; 2] {
     let triangle = triangles[side as usize / 3];
     let corner = side as usize % 3;
     [triangle[corner], triangle[(corner + 1) % 3]]

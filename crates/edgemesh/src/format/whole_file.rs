@@ -1,17 +1,17 @@
-//! Files that are written whole or not at all.
+//! Writes files whole or not at all.
 
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-/// Why a file could not be written.
+/// A file could not be written.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WriteError {
-    /// Its folder does not exist.
+    /// The folder of the file does not exist.
     #[error(
-        "{}: cannot be written: the folder {} does not exist; make it first",
+        "{}: cannot be written: the folder {} does not exist; create it first",
         path.display(), folder.display()
     )]
     NoFolder {
@@ -20,12 +20,12 @@ pub enum WriteError {
         /// The folder.
         folder: PathBuf,
     },
-    /// The operating system refused.
+    /// The operating system cannot write the file.
     #[error("{}: cannot be written: {reason}", path.display())]
     Io {
         /// The file.
         path: PathBuf,
-        /// What the operating system said.
+        /// The error of the operating system.
         reason: io::Error,
     },
 }
@@ -33,7 +33,7 @@ pub enum WriteError {
 /// Checks that the folder of the file `path` exists.
 ///
 /// # Errors
-/// [`WriteError::NoFolder`].
+/// Fails with [`WriteError::NoFolder`] if it does not.
 pub fn check_folder(path: &Path) -> Result<(), WriteError> {
     let folder = folder_of(path);
     match folder.is_dir() {
@@ -42,11 +42,12 @@ pub fn check_folder(path: &Path) -> Result<(), WriteError> {
     }
 }
 
-/// Writes `bytes` beside `path` and renames them into place, so that a failure leaves no half
-/// file, and an old file stays until the new one is whole.
+/// Writes `bytes` to a file beside `path` and renames it, so that a failure leaves no partial file,
+/// and an old file stays until the new one is complete.
 ///
 /// # Errors
-/// [`WriteError`], if the folder does not exist, `path` is a folder, or the disk is full, say.
+/// Fails if the folder does not exist, `path` is a folder, or the file cannot be written, for
+/// example because the disk is full.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     check_folder(path)?;
     let failed = |reason: io::Error| WriteError::Io { path: path.to_owned(), reason };
@@ -57,7 +58,7 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt as _;
-        // As any new file: the umask takes away what others must not do.
+        // The usual permissions of a new file, which the umask reduces.
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     let mut file = builder.prefix(".edgemesh-").tempfile_in(folder_of(path)).map_err(failed)?;
@@ -66,8 +67,8 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     Ok(())
 }
 
-/// The folder of the file `path`.
-fn folder_of(path: &Path) -> &Path {
+/// The folder of the file `path`; `.` for a bare name.
+pub(super) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),

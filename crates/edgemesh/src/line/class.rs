@@ -1,15 +1,15 @@
-//! Line classes: one table that everything else is indexed by.
+//! Line classes, in one table.
 //!
-//! The number of a class is its place in [`LineClass::ALL`], the strongest first: a line of
-//! several classes is drawn as the strongest that is drawn at all. Counts, layers and bit
-//! masks are indexed by it, in Rust and in WGSL, so a class is added in two places: a row of
-//! the table below with its variant, and its constant in the WGSL twin.
+//! The number of a class is its index in [`LineClass::ALL`], the strongest first: an edge of
+//! several classes is drawn as the strongest that is drawn at all. Counts, layers and bit masks
+//! are indexed by this number, in Rust and in WGSL. So a class is added in two places: as a variant
+//! with a row of the table below, and as a constant of the WGSL twin.
 //!
 //! WGSL twin: `shaders/common/line_class.wgsl`.
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::edge_mesh::edge_flags::EdgeFlags;
+use crate::edge_mesh::EdgeFlags;
 
 /// A class of lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -20,7 +20,7 @@ pub enum LineClass {
     Contour,
     /// Marked by the artist.
     Marked,
-    /// Edges of one face, or of more than two.
+    /// On one face, or on more than two.
     Boundary,
     /// Between two materials.
     Material,
@@ -35,11 +35,11 @@ pub enum LineClass {
 /// A row of the table.
 struct ClassRow {
     class: LineClass,
-    /// The word in techniques, JSON and statistics.
+    /// The name in techniques, JSON and statistics.
     name: &'static str,
-    /// Edges with any of these flags are of the class, whatever the view.
+    /// Edges with any of these flags are of the class in every view.
     drawn_by: EdgeFlags,
-    /// Edges with this flag are counted as of the class.
+    /// Edges with this flag count as the class.
     counted_by: EdgeFlags,
 }
 
@@ -62,7 +62,7 @@ const CLASSES: [ClassRow; LineClass::COUNT] = [
 ];
 
 impl LineClass {
-    /// How many classes there are. WGSL twin: `LINE_CLASS_COUNT`.
+    /// The number of classes. WGSL twin: `LINE_CLASS_COUNT`.
     pub const COUNT: usize = 7;
 
     /// All classes, the strongest first.
@@ -81,7 +81,7 @@ impl LineClass {
         &CLASSES[self as usize]
     }
 
-    /// Its name in techniques, JSON and statistics.
+    /// The name in techniques, JSON and statistics, such as `contour`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         self.row().name
@@ -94,45 +94,46 @@ impl LineClass {
         self.row().drawn_by
     }
 
-    /// Edges with this flag count as of the class; empty for classes that depend on the view.
+    /// Edges with this flag count as the class; empty for classes that depend on the view.
     #[must_use]
-    pub const fn counted_by(self) -> EdgeFlags {
+    pub(crate) const fn counted_by(self) -> EdgeFlags {
         self.row().counted_by
     }
 
-    /// The bit of the class in masks of classes.
+    /// The bit of the class in masks.
     #[must_use]
     pub const fn bit(self) -> u32 {
         1 << self as u32
     }
 }
 
-/// Classes that a [`ClassTable`] has room for. WGSL twin: the constant of this name.
+/// The capacity of a [`ClassTable`]. WGSL twin: the constant of this name.
 pub const MAX_LINE_CLASSES: usize = 32;
 
 /// The layer of a class that is not drawn. WGSL twin: the constant of this name.
 pub const NO_LAYER: u32 = 255;
 
-/// Which classes are drawn, in which layer, and from which angle on an edge is a crease.
+/// The layer of each class, and the angles from which edges are creases.
 /// WGSL twin: `shaders/common/line_class.wgsl`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct ClassTable {
-    /// Eight bits per class, class 0 lowest in the first word: its layer, or [`NO_LAYER`].
+    /// The layer of each class in 8 bits, or [`NO_LAYER`]; class 0 is in the lowest bits of the
+    /// first word.
     pub layers: [u32; MAX_LINE_CLASSES / 4],
-    /// One bit per class that is drawn.
+    /// The bits of the classes that are drawn.
     pub drawn: u32,
-    /// From this many steps on a convex edge is a ridge; 0 for the ridges as built.
+    /// The least crease angle of a ridge, in steps; 0 for the ridges of the mesh.
     pub ridge_steps: u32,
-    /// From this many steps on a concave edge is a valley; 0 for the valleys as built.
+    /// The least crease angle of a valley, in steps; 0 for the valleys of the mesh.
     pub valley_steps: u32,
-    /// 1 if edges that their own solid hides are kept, to be drawn as hidden lines.
+    /// 1 to keep edges hidden by their own solid, for drawing hidden lines; otherwise 0.
     pub keeps_hidden: u32,
 }
 
 impl ClassTable {
-    /// The table with each class in the layer that `layer_of` returns, from 0 to 254; classes
-    /// without a layer are not drawn.
+    /// The table with each class in the layer that `layer_of` returns, from 0 to 254. Classes
+    /// without such a layer are not drawn.
     #[must_use]
     pub fn new(layer_of: impl Fn(LineClass) -> Option<u32>) -> Self {
         let mut table = Self { layers: [u32::MAX; MAX_LINE_CLASSES / 4], ..Self::zeroed() };
@@ -145,13 +146,16 @@ impl ClassTable {
         table
     }
 
-    /// All classes in one layer, with the creases as built.
+    /// All classes in layer 0, with the creases of the mesh.
     #[must_use]
     pub fn all_in_one() -> Self {
         Self::new(|_| Some(0))
     }
 
-    /// The layer of the class with this number, or [`NO_LAYER`].
+    /// The layer of the class with a number, or [`NO_LAYER`].
+    ///
+    /// # Panics
+    /// Panics if `class_index` is [`MAX_LINE_CLASSES`] or more.
     #[must_use]
     pub const fn layer(&self, class_index: u32) -> u32 {
         self.layers[class_index as usize / 4] >> (8 * (class_index % 4)) & 0xff

@@ -1,12 +1,12 @@
-//! Kinds of lines: what is drawn along an edge, and what is at its ends.
+//! Kinds of lines: the shape along an edge and at its ends.
 
 /// Triangles of a half disk. WGSL twin: the constant of this name.
 pub const DISK_STEPS: u32 = 8;
 
-/// Vertices that a cap has besides those of the quad.
+/// Vertices of a cap, besides those of the quad.
 pub const CAP_VERTICES: u32 = 3;
 
-/// Vertices that a half disk has.
+/// Vertices of a half disk.
 pub const DISK_VERTICES: u32 = DISK_STEPS + 2;
 
 /// Kinds of lines and of their ends. WGSL twins: the constants of these names.
@@ -15,20 +15,19 @@ pub const DISK_VERTICES: u32 = DISK_STEPS + 2;
 pub enum LineKind {
     /// A line of one pixel (section 3.2).
     Thin = 0,
-    /// A quad that ends where its edge does.
+    /// A quad that ends with its edge.
     Quad = 1,
     /// A quad with the paper's caps (Equations 4 and 5).
     #[default]
     QuadAndCaps = 2,
     /// A quad with half disks (section 6).
     QuadAndDisks = 3,
-    /// A quad that stands on the edge along the vertex normals (Card and
-    /// Mitchell, Listing 1).
+    /// A quad along the vertex normals at the edge (Card and Mitchell, Listing 1).
     Fin = 4,
 }
 
 impl LineKind {
-    /// Vertices an edge.
+    /// The number of vertices for each edge.
     #[must_use]
     pub const fn vertex_count(self) -> u32 {
         match self {
@@ -39,7 +38,7 @@ impl LineKind {
         }
     }
 
-    /// The vertices of an edge as triangles, or as one line.
+    /// Indices of the vertices of an edge: triangles, or one line for [`Self::Thin`].
     #[must_use]
     pub fn indices(self) -> Vec<u32> {
         let mut indices = match self {

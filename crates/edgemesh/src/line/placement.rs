@@ -1,29 +1,28 @@
-//! Where strokes lie, and how a brush lies along them.
+//! Placement of strokes, and of brushes along them.
 
-/// Where a stroke lies on its spine. WGSL twins: the constants of these names.
+/// The placement of a stroke on its spine. WGSL twins: the constants of these names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(u32)]
 pub enum Placement {
-    /// Half of the width to each side (Equation 2).
+    /// Half of the width on each side (Equation 2).
     Centred = 0,
     /// All of the width outside (Equation 3).
     Outside = 1,
     /// All of the width inside.
     Inside = 2,
-    /// Contours outside, everything else centred.
+    /// Outside for contours, centered for everything else.
     #[default]
     Automatic = 3,
 }
 
-/// How a brush lies along strokes (section 4). WGSL twins: `OBJECT_SPACE` and
+/// The parameterization of brushes along strokes (section 4). WGSL twins: `OBJECT_SPACE` and
 /// `SCREEN_SPACE`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(u32)]
 pub enum Parameterization {
-    /// From a random start along the edge: coherent in animation, broken at
-    /// every vertex.
+    /// From a random start along each edge: coherent in animation, broken at every vertex.
     #[default]
     ObjectSpace = 0,
-    /// By the place on the screen: whole in a still picture, whatever the mesh.
+    /// By position on the screen: unbroken in a still picture on any mesh.
     ScreenSpace = 1,
 }

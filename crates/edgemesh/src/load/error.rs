@@ -1,4 +1,4 @@
-//! Why an input could not be loaded.
+//! Errors of loading.
 
 use std::io;
 use std::path::PathBuf;
@@ -10,43 +10,44 @@ use crate::format::edge_mesh_file::FileError;
 use crate::format::read::ReadError;
 use crate::report::Report;
 
-/// Why an input could not be loaded.
+/// An input could not be loaded.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LoadError {
-    /// A model cannot be read.
+    /// The model cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// An edge mesh file cannot be read.
+    /// The edge mesh file is damaged or of an unsupported version.
     #[error("{file}: {reason}")]
     EdgeMeshFile {
         /// The file.
         file: String,
-        /// What is wrong with it.
+        /// The defect.
         reason: FileError,
     },
-    /// The operating system does not hand out an edge mesh file.
+    /// The operating system cannot read the edge mesh file.
     #[error("{}: cannot be read: {reason}", path.display())]
     Io {
         /// The file.
         path: PathBuf,
-        /// What the operating system said.
+        /// The error of the operating system.
         reason: io::Error,
     },
-    /// A file of marks cannot be read.
+    /// The file of marks cannot be read.
     #[error(transparent)]
     Marks(#[from] MarksError),
-    /// Standard input was named without a format: a stream's format is not detected.
-    #[error("the format of standard input is not detected; give it")]
+    /// Standard input needs [`LoadOptions::format`](super::LoadOptions::format), because the format
+    /// of a stream is not detected.
+    #[error("standard input needs a format, because the format of a stream is not detected")]
     FormatNeeded,
-    /// Welding or marks were asked for an edge mesh.
-    #[error("{file}: an edge mesh is welded already; welding and marks are for models")]
+    /// The options ask for welding or marks, but the input is an edge mesh.
+    #[error("{file}: welding and marks apply to models only; an edge mesh is already welded")]
     ModelsOnly {
         /// The edge mesh.
         file: String,
     },
-    /// There are warnings, and [`LoadOptions::is_strict`](super::LoadOptions::is_strict)
-    /// makes them errors. The text has a line for each kind of warning.
+    /// There are warnings, which [`LoadOptions::is_strict`](super::LoadOptions::is_strict) turns
+    /// into errors. The message has a line for each kind of warning.
     #[error("{}", report.warning_lines(file, "").join("\n"))]
     Warnings {
         /// The file.
@@ -54,7 +55,7 @@ pub enum LoadError {
         /// The warnings.
         report: Report,
     },
-    /// The [`Progress`](super::Progress) ended the work.
-    #[error("it was canceled")]
+    /// [`Progress::begin`](super::Progress::begin) canceled the work.
+    #[error("canceled")]
     Canceled,
 }

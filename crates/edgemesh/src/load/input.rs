@@ -1,4 +1,4 @@
-//! From files, or standard input, to edge meshes.
+//! Loads files, or standard input, as edge meshes.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -8,10 +8,10 @@ use edgemesh_models::TORUS_KNOT;
 use glam::DVec3;
 
 use super::error::LoadError;
-use super::loaded::{Loaded, ModelSource};
+use super::loaded_mesh::{LoadedMesh, ModelSource};
 use super::marks::{SideMarks, read_marks, side_file};
 use super::options::{InputFormat, LoadOptions};
-use super::progress::{Progress, Running, Stage};
+use super::progress::{Progress, Stage, StageGuard};
 use crate::build::{BuildOptions, box_of, build_with_file_vertices, reclassify};
 use crate::edge_mesh::{EdgeMesh, MeshFrame};
 use crate::format::edge_mesh_file::{HEADER_BYTES, is_edge_mesh, parse, stated_length};
@@ -19,15 +19,15 @@ use crate::format::read::{Format, read_model_as, read_model_stream};
 use crate::model::Model;
 use crate::report::Report;
 
-/// The path that stands for the embedded model, a torus knot.
+/// The path of the embedded model, a torus knot.
 pub const DEMO: &str = "demo:";
 
-/// The path that stands for standard input.
+/// The path of standard input.
 pub const STANDARD_INPUT: &str = "-";
 
 /// An input before it is built.
 enum Input {
-    /// With its file, if it comes from one.
+    /// With its path, if it comes from a file.
     Model(Box<Model>, Report, Option<PathBuf>),
     Stored(Box<EdgeMesh>, String, Report),
 }
@@ -36,30 +36,30 @@ enum Input {
 /// [`STANDARD_INPUT`].
 ///
 /// # Errors
-/// [`LoadError`], if the input or its marks cannot be read, an option does not apply to it,
-/// there is a warning and the options are strict, or `progress` cancels.
+/// Fails if the input or its marks cannot be read, if an option does not apply to it, if strict
+/// options meet a warning, or if `progress` cancels.
 pub fn load(
     path: &Path,
     options: &LoadOptions,
     progress: &dyn Progress,
-) -> Result<Loaded, LoadError> {
-    // Marks that are wrong are reported before a long read.
+) -> Result<LoadedMesh, LoadError> {
+    // Malformed marks are reported before a long read.
     let build = options.build_options(given_marks(options)?);
     let input = read(path, options, progress)?;
     finish(input, options, &build, progress)
 }
 
-/// Reads several inputs that lie in one scene, in one frame: that of all of them, unless
-/// `keeps_coordinates` asks for the numbers of the files.
+/// Loads the inputs of one scene with a common frame. It fits all of them, or is the identity if
+/// `keeps_coordinates`, so that the meshes have the numbers of their files.
 ///
 /// # Errors
-/// As [`load`], for the first one that fails.
+/// As [`load`], for the first input that fails.
 pub fn load_scene(
     paths: &[PathBuf],
     options: &LoadOptions,
     keeps_coordinates: bool,
     progress: &dyn Progress,
-) -> Result<Vec<Loaded>, LoadError> {
+) -> Result<Vec<LoadedMesh>, LoadError> {
     let inputs: Vec<Input> =
         paths.iter().map(|path| read(path, options, progress)).collect::<Result<_, _>>()?;
     let frame = match keeps_coordinates {
@@ -75,7 +75,7 @@ fn given_marks(options: &LoadOptions) -> Result<SideMarks, LoadError> {
 }
 
 fn read(path: &Path, options: &LoadOptions, progress: &dyn Progress) -> Result<Input, LoadError> {
-    let _running = Running::begin(progress, Stage::Reading(path))?;
+    let _running = StageGuard::begin(progress, Stage::Reading(path))?;
     if path == Path::new(STANDARD_INPUT) {
         return read_standard_input(options);
     }
@@ -126,10 +126,10 @@ fn finish(
     options: &LoadOptions,
     build: &BuildOptions,
     progress: &dyn Progress,
-) -> Result<Loaded, LoadError> {
+) -> Result<LoadedMesh, LoadError> {
     let loaded = match input {
         Input::Model(model, mut report, path) => {
-            let _running = Running::begin(progress, Stage::Building(&model.name))?;
+            let _running = StageGuard::begin(progress, Stage::Building(&model.name))?;
             let mut build = build.clone();
             let side = path.as_deref().map(side_file).filter(|side| side.is_file());
             if let Some(side) = side.filter(|_| options.marks.is_none()) {
@@ -138,7 +138,7 @@ fn finish(
             }
             let (mesh, file_vertices) = build_with_file_vertices(&model, &build, &mut report);
             let source = path.map(|path| ModelSource { path, file_vertices });
-            Loaded { source, ..Loaded::new(model.name, mesh, report) }
+            LoadedMesh { source, ..LoadedMesh::new(model.name, mesh, report) }
         }
         Input::Stored(mut mesh, name, report) => {
             if let Some(frame) = build.frame {
@@ -147,7 +147,7 @@ fn finish(
             if options.has_crease_angles() {
                 reclassify(&mut mesh, build);
             }
-            Loaded::new(name, *mesh, report)
+            LoadedMesh::new(name, *mesh, report)
         }
     };
     if options.is_strict && !loaded.report.warnings().is_empty() {
@@ -160,10 +160,10 @@ fn unreadable(path: &Path, reason: io::Error) -> LoadError {
     LoadError::Io { path: path.to_owned(), reason }
 }
 
-/// The bytes of an edge mesh: those of its stated length and one more, by which one that
-/// goes on is known; of anything else only the header.
+/// Reads an edge mesh up to its stated length and one byte more, which reveals excess bytes; reads
+/// only the header of anything else.
 ///
-/// The memory grows with what is read, not with what is stated.
+/// Memory grows with the bytes read, not with the stated length.
 fn read_edge_mesh(mut stream: impl Read) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     stream.by_ref().take(HEADER_BYTES).read_to_end(&mut bytes)?;
@@ -174,7 +174,7 @@ fn read_edge_mesh(mut stream: impl Read) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The frame that all inputs share.
+/// The common frame of all inputs.
 fn frame_of(inputs: &[Input]) -> MeshFrame {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for input in inputs {
@@ -187,8 +187,8 @@ fn frame_of(inputs: &[Input]) -> MeshFrame {
     MeshFrame::of_box(low, high)
 }
 
-/// Whether the file at `path` begins as an edge mesh does. Pipes are not read, since what is
-/// read from them is gone.
+/// Whether the file at `path` begins like an edge mesh. Pipes are not read, because their bytes
+/// could not be read again.
 fn is_edge_mesh_file(path: &Path) -> bool {
     let is_file = path.metadata().is_ok_and(|metadata| metadata.is_file());
     let mut head = [0; 8];

@@ -1,6 +1,5 @@
-//! Side files of marked edges: a pair of vertices a line, counted from 1 in the order of
-//! the model's file; behind `-` a pair whose edge is not marked, though the model has a
-//! line there; `#` begins a comment.
+//! Side files of marked edges. Each line has a pair of vertices, counted from 1 in the order of the
+//! model file; `-` before a pair removes the mark that the model has there; `#` begins a comment.
 //!
 //! `MODEL.marks` beside a model is read with it.
 
@@ -10,36 +9,36 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-/// Why a side file could not be read.
+/// A side file could not be read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MarksError {
-    /// The operating system does not hand it out, or it is not UTF-8.
+    /// The operating system cannot read the file, or it is not UTF-8.
     #[error("{}: cannot be read: {reason}", path.display())]
     Io {
         /// The side file.
         path: PathBuf,
-        /// What the operating system said.
+        /// The error of the operating system.
         reason: io::Error,
     },
-    /// A line of it is wrong.
+    /// A line is malformed.
     #[error("{}:{line}: {what}", path.display())]
     Line {
         /// The side file.
         path: PathBuf,
         /// The line, counted from 1.
         line: usize,
-        /// What is wrong with it.
+        /// The defect.
         what: String,
     },
 }
 
-/// The marks of a side file, as pairs of vertices counted from 0.
+/// The marks of a side file, as pairs of vertices of the model file, counted from 0.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct SideMarks {
     /// Pairs whose edges are marked.
     pub marked: Vec<[u32; 2]>,
-    /// Pairs whose edges are not.
+    /// Pairs whose edges are not marked, although the model marks them.
     pub unmarked: Vec<[u32; 2]>,
 }
 
@@ -51,10 +50,10 @@ pub fn side_file(model: &Path) -> PathBuf {
     name.into()
 }
 
-/// Reads a side file.
+/// Reads the side file at `path`.
 ///
 /// # Errors
-/// [`MarksError`], if it cannot be read, or for the first line that is wrong.
+/// Fails if the file cannot be read, or at the first malformed line.
 pub fn read_marks(path: &Path) -> Result<SideMarks, MarksError> {
     let text = std::fs::read_to_string(path)
         .map_err(|reason| MarksError::Io { path: path.to_owned(), reason })?;
@@ -65,11 +64,11 @@ pub fn read_marks(path: &Path) -> Result<SideMarks, MarksError> {
     })
 }
 
-/// The text of a side file.
+/// The text of a side file with `marks`.
 #[must_use]
 pub fn marks_text(marks: &SideMarks) -> String {
     let mut text =
-        "# marked edges: pairs of vertices, counted from 1; - takes a mark away\n".to_owned();
+        "# marked edges: pairs of vertices, counted from 1; - removes a mark\n".to_owned();
     for (sign, pairs) in [("", &marks.marked), ("- ", &marks.unmarked)] {
         for [a, b] in pairs {
             let _ = writeln!(text, "{sign}{} {}", u64::from(*a) + 1, u64::from(*b) + 1);
@@ -91,7 +90,10 @@ fn parse_marks(text: &str) -> Result<SideMarks, (usize, String)> {
             [] => {}
             [a, b] => pairs.push([vertex(line, a)?, vertex(line, b)?]),
             _ => {
-                let what = format!("a mark needs two vertices, as '3 8'; this has {}", words.len());
+                let what = format!(
+                    "a mark needs two vertices, such as '3 8'; this line has {}",
+                    words.len()
+                );
                 return Err((line + 1, what));
             }
         }
@@ -102,7 +104,9 @@ fn parse_marks(text: &str) -> Result<SideMarks, (usize, String)> {
 fn vertex(line: usize, word: &str) -> Result<u32, (usize, String)> {
     match word.parse::<u32>() {
         Ok(vertex) if vertex > 0 => Ok(vertex - 1),
-        _ => Err((line + 1, format!("'{word}' is no vertex: vertices are counted from 1"))),
+        _ => {
+            Err((line + 1, format!("'{word}' is not a vertex number; vertices are counted from 1")))
+        }
     }
 }
 
@@ -117,10 +121,10 @@ mod tests {
             (&marks.marked[..], &marks.unmarked[..]),
             (&[[0, 1], [6, 2]][..], &[[3, 4]][..])
         );
-        assert_eq!(parse_marks(&marks_text(&marks)), Ok(marks), "it is written as it is read");
+        assert_eq!(parse_marks(&marks_text(&marks)), Ok(marks), "written text is read back");
         for (text, line, part) in [
-            ("1 2\n3", 2, "this has 1"),
-            ("1 2 3", 1, "this has 3"),
+            ("1 2\n3", 2, "line has 1"),
+            ("1 2 3", 1, "line has 3"),
             ("\n0 1", 2, "counted from 1"),
             ("1 x", 1, "'x'"),
         ] {

@@ -1,8 +1,8 @@
-//! Loads models and edge meshes: reads a file, builds its edge mesh, takes the marks
-//! beside it.
+//! Loads models and edge meshes: reads a file, builds its edge mesh, and applies the marks beside
+//! it.
 //!
 //! ```text
-//!   model --read--> Model --build--> EdgeMesh + Report = Loaded
+//!   model --read--> Model --build--> EdgeMesh + Report = LoadedMesh
 //!                      marks ---^          ^
 //!   .edgemesh file ------------------------'
 //! ```
@@ -17,13 +17,14 @@
 
 mod error;
 mod input;
-mod loaded;
-pub mod marks;
+mod loaded_mesh;
+mod marks;
 mod options;
 mod progress;
 
 pub use error::LoadError;
 pub use input::{DEMO, STANDARD_INPUT, load, load_scene};
-pub use loaded::{Loaded, ModelSource};
+pub use loaded_mesh::{LoadedMesh, ModelSource};
+pub use marks::{MarksError, SideMarks, marks_text, read_marks, side_file};
 pub use options::{InputFormat, LoadOptions};
 pub use progress::{NoProgress, Progress, Stage};

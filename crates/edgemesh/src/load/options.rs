@@ -1,4 +1,4 @@
-//! How an input is read and built.
+//! Options of loading.
 
 use std::path::PathBuf;
 
@@ -6,28 +6,26 @@ use super::marks::SideMarks;
 use crate::build::{BuildOptions, Welding};
 use crate::format::read::Format;
 
-/// How an input is read and built.
+/// Options for reading and building an input.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadOptions {
-    /// The format. Default: detected from the content, then from the name; standard input
-    /// needs one.
+    /// The format. Default: detected from the content, then from the name; standard input needs
+    /// a format.
     pub format: Option<InputFormat>,
-    /// Which vertices of a model become one. Default: [`Welding::Exact`]; an edge mesh is
-    /// welded already and fails to load if any is given.
+    /// The vertices of a model that become one. Default: [`Welding::Exact`]. An edge mesh is
+    /// already welded and fails to load with this option.
     pub welding: Option<Welding>,
-    /// A file of marks. Default: the one beside the model
-    /// ([`side_file`](super::marks::side_file)), if it exists; an edge mesh fails to load if
-    /// any is given.
+    /// The file of marks. Default: [`side_file`](super::side_file) of the model, if it exists. An
+    /// edge mesh fails to load with this option.
     pub marks: Option<PathBuf>,
-    /// Whether warnings are errors. Default: no.
+    /// Whether warnings are errors. Default: false.
     pub is_strict: bool,
-    /// Convex edges whose faces turn by more than this are ridges, in radians. Default: that
-    /// of [`BuildOptions`]; an edge mesh keeps the creases of its file.
+    /// The angle between the faces of a convex edge above which it is a ridge, in radians.
+    /// Default: that of [`BuildOptions`]; an edge mesh keeps the creases of its file.
     pub ridge_angle_rad: Option<f64>,
-    /// Concave edges whose faces turn by more than this are valleys, in radians. Default: as
-    /// for ridges.
+    /// As `ridge_angle_rad`, for concave edges and valleys.
     pub valley_angle_rad: Option<f64>,
-    /// Whether the fill is built, which only shading needs. Default: yes.
+    /// Whether the fill is built, which only shading needs. Default: true.
     pub with_fill: bool,
 }
 
@@ -45,8 +43,9 @@ impl Default for LoadOptions {
     }
 }
 
-/// A format of inputs.
+/// The format of an input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum InputFormat {
     /// A model format.
     Model(Format),
@@ -55,7 +54,7 @@ pub enum InputFormat {
 }
 
 impl LoadOptions {
-    /// The angles in radians above which edges are ridges and valleys in models.
+    /// The angles above which edges of models are ridges and valleys, in radians.
     #[must_use]
     pub fn crease_angles_rad(&self) -> [f64; 2] {
         let default = BuildOptions::default();

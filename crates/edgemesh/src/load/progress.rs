@@ -1,4 +1,4 @@
-//! How loading reports its stages, and how it is canceled.
+//! Progress of loading, and its cancellation.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -6,13 +6,13 @@ use std::path::Path;
 
 use super::error::LoadError;
 
-/// A stage of loading. Its text is for messages: `reading bunny.obj`.
+/// A stage of loading, displayed as `reading bunny.obj`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Stage<'a> {
-    /// A file is read.
+    /// Reads the file at a path.
     Reading(&'a Path),
-    /// The edge mesh of the model of a name is built.
+    /// Builds the edge mesh of the model with a name.
     Building(&'a str),
 }
 
@@ -25,12 +25,12 @@ impl fmt::Display for Stage<'_> {
     }
 }
 
-/// Receives the stages of loading. A closure that takes a [`Stage`] is one, too.
+/// Receives the stages of loading; implemented for closures that take a [`Stage`].
 pub trait Progress {
-    /// A stage begins; [`ControlFlow::Break`] ends the work with [`LoadError::Canceled`].
+    /// Called when a stage begins; [`ControlFlow::Break`] cancels with [`LoadError::Canceled`].
     fn begin(&self, stage: Stage) -> ControlFlow<()>;
 
-    /// The stage that began last has ended. Default: nothing happens.
+    /// Called when the last stage ends. Default: does nothing.
     fn end(&self) {}
 }
 
@@ -50,10 +50,10 @@ impl<F: Fn(Stage) -> ControlFlow<()>> Progress for F {
     }
 }
 
-/// A stage under way; it ends when this is dropped.
-pub(super) struct Running<'a>(&'a dyn Progress);
+/// A running stage, which ends on drop.
+pub(super) struct StageGuard<'a>(&'a dyn Progress);
 
-impl<'a> Running<'a> {
+impl<'a> StageGuard<'a> {
     /// Begins a stage.
     ///
     /// # Errors
@@ -66,7 +66,7 @@ impl<'a> Running<'a> {
     }
 }
 
-impl Drop for Running<'_> {
+impl Drop for StageGuard<'_> {
     fn drop(&mut self) {
         self.0.end();
     }

@@ -1,11 +1,9 @@
-//! What surfaces look like, as far as a file says so in colours and pictures.
+//! Materials: colors and pictures of surfaces.
 //!
-//! Colours are *display values*: coded as sRGB, as MTL and VRML files have
-//! them, and as the formulas of Phong and of papers after him are used with
-//! them. What a format keeps in linear light is coded where it is read.
+//! Colors are *display values*, coded as sRGB, as in MTL and VRML files and in the formulas of
+//! Phong and later papers. Readers convert the linear values of other formats.
 //!
-//! Pictures stay as they are: nothing here decodes them, and one in a file of
-//! its own is read when somebody asks for its bytes.
+//! Pictures stay encoded. A picture in a separate file is read when its bytes are needed.
 
 use std::fmt;
 use std::fs::File;
@@ -14,54 +12,54 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// The largest picture that is read: 256 MiB.
-pub const MAX_PICTURE_BYTES: u64 = 256 << 20;
+pub(crate) const MAX_PICTURE_BYTES: u64 = 256 << 20;
 
-/// A material by name, with the looks that the file or its library gives it.
-/// Colours are display values, coded as sRGB.
+/// A material, as the file or its material library describes it. Colors are display values, coded
+/// as sRGB.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Material {
-    /// Its name; may be empty.
+    /// The name; may be empty.
     pub name: String,
-    /// Ambient colour, coded as sRGB, 0 to 1 (`Ka`).
+    /// Ambient color, 0 to 1 (`Ka`).
     pub ambient: Option<[f32; 3]>,
-    /// Diffuse or base colour, coded as sRGB, 0 to 1 (`Kd`); a texture is
-    /// multiplied by it.
+    /// Diffuse or base color, 0 to 1 (`Kd`); it is multiplied by the texture.
     pub diffuse: Option<[f32; 3]>,
-    /// Specular colour, coded as sRGB, 0 to 1 (`Ks`).
+    /// Specular color, 0 to 1 (`Ks`).
     pub specular: Option<[f32; 3]>,
     /// Specular exponent (`Ns`).
     pub shininess: Option<f32>,
     /// Opacity, 0 to 1 (`d`, or 1 - `Tr`).
     pub opacity: Option<f32>,
-    /// The picture of the diffuse colour (`map_Kd`), coded as sRGB as well.
+    /// Picture of the diffuse color (`map_Kd`).
     pub diffuse_texture: Option<Texture>,
 }
 
-/// A picture that lies on a surface by its texture coordinates: (0, 0) is its
-/// lower left corner, (1, 1) its upper right one, and it repeats beyond.
+/// A picture on a surface. Texture coordinate (0, 0) is its lower left corner, (1, 1) its upper
+/// right corner; it repeats beyond.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Texture {
-    /// How it is called in messages: the file's name as the model has it, or
-    /// the name of the picture in the model.
+    /// The name in messages: the file name as the model has it, or the name of the picture in
+    /// the model.
     pub name: String,
-    /// Where it is.
+    /// The encoded picture.
     pub source: TextureSource,
 }
 
-/// Where an encoded picture is: a PNG or JPEG file, told by its first bytes.
+/// The place of an encoded picture, PNG or JPEG as its first bytes say.
 #[derive(Clone, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum TextureSource {
-    /// In a file, which was found in the model's folder or below.
+    /// A file in the folder of the model or below.
     File(PathBuf),
-    /// In the model itself.
+    /// Bytes in the model.
     Bytes(Arc<[u8]>),
 }
 
 impl TextureSource {
-    /// The bytes of the encoded picture; a file is read anew in every call.
+    /// Returns the encoded picture; each call reads the file again.
     ///
     /// # Errors
-    /// Where the file cannot be read, or has more than [`MAX_PICTURE_BYTES`].
+    /// Fails if the file cannot be read, or is larger than 256 MiB.
     pub fn encoded(&self) -> io::Result<Arc<[u8]>> {
         let path = match self {
             Self::Bytes(bytes) => return Ok(Arc::clone(bytes)),
@@ -77,7 +75,7 @@ impl TextureSource {
 }
 
 impl fmt::Debug for TextureSource {
-    /// Without the bytes, of which there may be millions.
+    /// Prints the number of bytes instead of the bytes.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::File(path) => formatter.debug_tuple("File").field(path).finish(),

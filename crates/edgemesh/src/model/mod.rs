@@ -1,12 +1,11 @@
-//! What a file says, before anything is made of it.
-//!
-//! - [`polygon_model`]: polygons, lines and their attributes.
-//! - [`material`]: materials and their textures.
-//! - [`rig`]: skins and morph targets.
+//! The content of a model file, before it is built: polygons and lines with their attributes,
+//! materials with their textures, and the rig (skins and morph targets).
 
-pub mod material;
-pub mod polygon_model;
-pub mod rig;
+mod material;
+mod polygon_model;
+mod rig;
 
-pub use self::material::{MAX_PICTURE_BYTES, Material, Texture, TextureSource};
+pub(crate) use self::material::MAX_PICTURE_BYTES;
+pub use self::material::{Material, Texture, TextureSource};
 pub use self::polygon_model::{Attributes, Corner, Model, PolygonRun, Segment, Smoothing};
+pub use self::rig::{Displacement, Influence, NodeTransform, Pose, Rig, RigNode, RigPart, Skin};

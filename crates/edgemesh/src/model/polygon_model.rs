@@ -1,11 +1,10 @@
-//! What a file says, before anything is made of it.
+//! A polygonal model as its file describes it.
 //!
-//! Polygons stay polygons here: the diagonal that cuts a quad is no edge of
-//! the model, and only who still knows the polygon can tell.
+//! Polygons are not cut here: the diagonal of a quad is not an edge of the model, and only the
+//! polygon tells them apart.
 //!
-//! Lists are kept apart and left empty where a file has nothing to put in
-//! them, since a model of triangles alone is the large case: 12 bytes of
-//! corners and 4 of line a triangle.
+//! Each attribute has a list, which stays empty if the file lacks it: large models are mostly bare
+//! triangles, with 12 bytes of corners and 4 of line each.
 
 use crate::index::{NONE, to_u32};
 use crate::model::material::Material;
@@ -15,50 +14,43 @@ use crate::report::Place;
 /// A polygonal model as its file describes it.
 #[derive(Debug, Clone, Default)]
 pub struct Model {
-    /// How the model is called in messages: the path it was read from.
+    /// The name in messages: the path that the model was read from.
     pub name: String,
-    /// Every vertex that the file lists, used or not, in the file's own units.
+    /// All vertices of the file, used or not, in its units.
     pub positions: Vec<[f64; 3]>,
-    /// Red, green and blue, 0 to 1 as the file has them, of each of
-    /// `positions`; empty where the file has no vertex colours.
+    /// Red, green and blue, 0 to 1, of each of `positions`; empty if the file has no vertex
+    /// colors.
     pub colors: Vec<[f32; 3]>,
-    /// Texture coordinates that corners name; (0, 0) is the lower left corner
-    /// of a picture, (1, 1) the upper right one.
+    /// Texture coordinates that corners index; (0, 0) is the lower left corner of a picture,
+    /// (1, 1) the upper right corner.
     pub texcoords: Vec<[f32; 2]>,
-    /// Normals that corners name, of any length.
+    /// Normals that corners index, of any length.
     pub normals: Vec<[f32; 3]>,
     /// Index into `positions` of each corner, polygon by polygon.
     pub corner_positions: Vec<u32>,
-    /// Index into `texcoords` of each corner, or [`NONE`]; empty where no
-    /// corner has any.
+    /// Index into `texcoords` of each corner, or [`NONE`]; empty if no corner has one.
     pub corner_texcoords: Vec<u32>,
-    /// Index into `normals` of each corner, or [`NONE`]; empty where no corner
-    /// has any.
+    /// Index into `normals` of each corner, or [`NONE`]; empty if no corner has one.
     pub corner_normals: Vec<u32>,
-    /// The corner behind the last one of each polygon; empty where all
-    /// polygons are triangles.
+    /// The end of each polygon in the corner lists; empty if all polygons are triangles.
     pub polygon_ends: Vec<u32>,
-    /// The line of each polygon, counted from 1; empty where the format has no
-    /// lines.
+    /// The line of each polygon in the file, counted from 1; empty if the format has no lines.
     pub polygon_lines: Vec<u32>,
-    /// What polygons share, in runs, ascending by first polygon; empty where no
-    /// polygon has any attributes.
+    /// Attributes of polygons, in runs that ascend by first polygon; empty if no polygon has any.
     pub runs: Vec<PolygonRun>,
-    /// Lines that the artist drew, edge by edge.
+    /// Lines that the artist drew.
     pub segments: Vec<Segment>,
-    /// Edges that are never drawn as creases, by the indices of their ends in
-    /// `positions`, each once, the smaller index first; a segment on the same
-    /// edge wins. Empty where the file hides none.
-    pub hidden_edges: Vec<[u32; 2]>,
-    /// Whether the file holds parts that it hides itself: with nothing else in
-    /// it, it is an empty model and no mistake.
+    /// Edges that are never drawn as creases: indices into `positions`, the smaller first, each
+    /// edge once. A segment on the same edge takes precedence.
+    pub suppressed_edges: Vec<[u32; 2]>,
+    /// Whether the file declares parts invisible. A file with nothing else is an empty model and
+    /// not an error.
     pub has_invisible_parts: bool,
     /// Materials in the order of their first use.
     pub materials: Vec<Material>,
     /// Names of groups, objects or nodes in the order of their first use.
     pub groups: Vec<String>,
-    /// What bends the model; `None` where it has neither skins nor morph
-    /// targets. `positions` are those of its rest pose.
+    /// Skins and morph targets, if the model has any; `positions` are those of the rest pose.
     pub rig: Option<Box<Rig>>,
 }
 
@@ -74,30 +66,30 @@ pub struct Corner {
 }
 
 impl Corner {
-    /// A corner with nothing but a position.
+    /// A corner without texture coordinate and normal.
     #[must_use]
     pub const fn at(position: u32) -> Self {
         Self { position, texcoord: NONE, normal: NONE }
     }
 }
 
-/// Attributes of polygons in a row.
+/// Attributes of successive polygons.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PolygonRun {
-    /// The first polygon that has them; the next run ends this one.
+    /// The first polygon; the run ends where the next one begins.
     pub first_polygon: u32,
     /// The attributes.
     pub attributes: Attributes,
 }
 
-/// What polygons share.
+/// Attributes of a polygon.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Attributes {
     /// Index into [`Model::materials`], or [`NONE`].
     pub material: u32,
     /// Index into [`Model::groups`], or [`NONE`].
     pub group: u32,
-    /// Where shading is smooth.
+    /// The edges that are shaded smoothly.
     pub smoothing: Smoothing,
 }
 
@@ -107,30 +99,31 @@ impl Default for Attributes {
     }
 }
 
-/// Which edges of a polygon the file shades smoothly.
+/// The edges of a polygon across which shading is smooth.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub enum Smoothing {
     /// The file does not say.
     #[default]
     Unstated,
-    /// To polygons of the same group; group 0 is off (OBJ `s`).
+    /// Edges to polygons of the same group; group 0 is flat (OBJ `s`).
     Group(u32),
-    /// To polygons whose normals differ by at most this angle in radians
-    /// (VRML `creaseAngle`).
+    /// Edges to polygons whose normals differ by at most this angle in radians (VRML
+    /// `creaseAngle`).
     Angle(f32),
 }
 
 /// A line from one vertex to another that the artist drew.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Segment {
-    /// Its ends, as indices into [`Model::positions`].
+    /// The ends, as indices into [`Model::positions`].
     pub ends: [u32; 2],
-    /// The line of the file; 0 where the format has none.
+    /// The line in the file, counted from 1; 0 if the format has no lines.
     pub line: u32,
 }
 
 impl Model {
-    /// How many polygons there are.
+    /// The number of polygons.
     #[must_use]
     pub const fn polygon_count(&self) -> usize {
         if self.polygon_ends.is_empty() {
@@ -142,11 +135,14 @@ impl Model {
 
     /// Whether every polygon is a triangle.
     #[must_use]
-    pub const fn is_triangles(&self) -> bool {
+    pub(crate) const fn is_triangles(&self) -> bool {
         self.polygon_ends.is_empty()
     }
 
-    /// The corners of a polygon, as a range of the corner lists.
+    /// The range of a polygon in the corner lists.
+    ///
+    /// # Panics
+    /// Panics if the model has fewer polygons, unless all are triangles.
     #[must_use]
     pub fn corner_range(&self, polygon: usize) -> std::ops::Range<usize> {
         match (self.polygon_ends.is_empty(), polygon) {
@@ -158,9 +154,9 @@ impl Model {
         }
     }
 
-    /// The polygon that a corner is of.
+    /// The polygon of a corner.
     #[must_use]
-    pub fn polygon_of(&self, corner: usize) -> usize {
+    pub(crate) fn polygon_of(&self, corner: usize) -> usize {
         if self.polygon_ends.is_empty() {
             corner / 3
         } else {
@@ -168,7 +164,10 @@ impl Model {
         }
     }
 
-    /// One corner with all its indices.
+    /// A corner with all its indices.
+    ///
+    /// # Panics
+    /// Panics if the model has fewer corners.
     #[must_use]
     pub fn corner(&self, corner: usize) -> Corner {
         Corner {
@@ -178,19 +177,18 @@ impl Model {
         }
     }
 
-    /// Where in the file a polygon stands.
+    /// The place of a polygon in the file.
     #[must_use]
-    pub fn polygon_place(&self, polygon: usize) -> Place {
+    pub(crate) fn polygon_place(&self, polygon: usize) -> Place {
         match self.polygon_lines.get(polygon) {
             Some(&line) if line > 0 => Place::Line(line),
             _ => Place::Face(polygon as u64 + 1),
         }
     }
 
-    /// Adds a polygon of at least three corners; `line` is 0 where the format
-    /// has no lines.
+    /// Adds a polygon of at least three corners; `line` is 0 if the format has no lines.
     ///
-    /// The indices are checked behind the reader, not here.
+    /// The indices are not checked here: `firewall` checks those of every reader.
     pub fn push_polygon(&mut self, corners: &[Corner], line: u32) {
         let before = self.corner_positions.len();
         if corners.len() != 3 && self.polygon_ends.is_empty() {
@@ -216,13 +214,13 @@ impl Model {
         }
     }
 
-    /// Gives the polygons that are pushed from now on `attributes`.
+    /// Sets the attributes of all polygons that are pushed from now on.
     pub fn set_attributes(&mut self, attributes: Attributes) {
         self.set_attributes_from(to_u32(self.polygon_count()), attributes);
     }
 
-    /// Gives the polygons from `first_polygon` on, which is at or behind the
-    /// start of the last run, `attributes`.
+    /// Sets the attributes from `first_polygon` on, which is not before the start of the last
+    /// run.
     pub(crate) fn set_attributes_from(&mut self, first_polygon: u32, attributes: Attributes) {
         if self.runs.last().is_some_and(|run| run.first_polygon == first_polygon) {
             self.runs.pop();
@@ -233,9 +231,9 @@ impl Model {
         }
     }
 
-    /// One value for each polygon, made from its attributes.
+    /// Maps the attributes of each polygon to a value.
     #[must_use]
-    pub fn per_polygon<T: Clone>(&self, value: impl Fn(Attributes) -> T) -> Vec<T> {
+    pub(crate) fn per_polygon<T: Clone>(&self, value: impl Fn(Attributes) -> T) -> Vec<T> {
         let mut values = Vec::with_capacity(self.polygon_count());
         let first =
             self.runs.first().map_or(self.polygon_count(), |run| run.first_polygon as usize);
@@ -250,7 +248,7 @@ impl Model {
         values
     }
 
-    /// A model of bare polygons; for tests, benches and generators.
+    /// A model of polygons without attributes.
     #[must_use]
     pub fn from_polygons(positions: &[[f32; 3]], polygons: &[&[u32]]) -> Self {
         let positions = positions.iter().map(|point| point.map(f64::from)).collect();

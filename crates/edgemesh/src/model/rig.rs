@@ -1,4 +1,4 @@
-//! What moves the vertices of a model: nodes, skins and morph targets.
+//! Rigs: nodes, skins and morph targets, which move the vertices of a model.
 //!
 //! Based on: glTF 2.0, sections 3.5.2 (transformations) and 3.7 (meshes, skins,
 //! morph targets).
@@ -8,12 +8,11 @@
 //!                   weights of a part        transforms of nodes
 //! ```
 //!
-//! A rig is data of the file, a [`Pose`] is one moment of it. The model's own
-//! positions are those of the rest pose, so who does not animate never asks for
-//! the rig.
+//! A rig is data of the file; a [`Pose`] is one moment of it. The positions of the model are those
+//! of the rest pose, so a program that does not animate needs no rig.
 //!
-//! Influences are one flat list with the end of each vertex's run, not a fixed
-//! eight a vertex: most vertices hang on one to four joints.
+//! Influences are one flat list with the end of each vertex, not a fixed eight for each vertex:
+//! most vertices have one to four joints.
 
 use std::ops::Range;
 
@@ -21,57 +20,58 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use crate::index::NONE;
 
-/// The nodes of a file, and how the vertices of its model hang on them.
+/// The nodes of a file, and the vertices that follow them.
+///
+/// Methods panic if an index is out of range; rigs from a reader have none.
 #[derive(Debug, Clone, Default)]
 pub struct Rig {
-    /// All nodes of the file, in its own order.
+    /// All nodes, in the order of the file.
     pub nodes: Vec<RigNode>,
-    /// Indices into `nodes`, each node behind its parent.
+    /// Indices into `nodes`, each node after its parent.
     pub node_order: Vec<u32>,
-    /// The skins of the file, in its own order; those that no node has are
-    /// empty.
+    /// All skins, in the order of the file; unused ones are empty.
     pub skins: Vec<Skin>,
-    /// The model's vertices in runs, ascending; together they are all of them.
+    /// All vertices of the model, in ascending ranges.
     pub parts: Vec<RigPart>,
-    /// Each of [`crate::model::Model::positions`] before it is morphed, skinned
-    /// or placed by its node.
+    /// [`Model::positions`](crate::model::Model::positions) before morph targets, skins and nodes
+    /// move them.
     pub positions: Vec<[f64; 3]>,
-    /// The influence behind the last one of each vertex; empty where no vertex
-    /// has any.
+    /// The end of each vertex in `influences`; empty if no vertex has any.
     pub influence_ends: Vec<u32>,
-    /// The joints that each vertex hangs on, vertex by vertex.
+    /// The joints of each vertex, vertex by vertex.
     pub influences: Vec<Influence>,
 }
 
-/// A node: a place that others hang on.
+/// A node of the hierarchy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigNode {
-    /// Index into [`Rig::nodes`], or [`NONE`].
+    /// Index into [`Rig::nodes`], or [`NONE`] for a root.
     pub parent: u32,
-    /// Where it stands in its parent, at rest.
+    /// The transform at rest.
     pub transform: NodeTransform,
 }
 
-/// Where a node stands in its parent.
+/// The transform of a node in its parent.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum NodeTransform {
-    /// As a matrix, which cannot be animated.
+    /// A matrix, which cannot be animated.
     Matrix(DAffine3),
-    /// First scaled, then rotated, then moved.
+    /// Scale, then rotation, then translation.
     Parts {
-        /// How far it is moved.
+        /// Translation, in units of the file.
         translation: DVec3,
-        /// How it is rotated; of unit length.
+        /// Unit quaternion.
         rotation: DQuat,
-        /// How it is scaled; negative mirrors.
+        /// Scale of each axis; negative values mirror.
         scale: DVec3,
     },
 }
 
 impl NodeTransform {
-    /// The transform that takes the node's own coordinates to its parent's.
+    /// The transform from the node to its parent.
     #[must_use]
-    pub fn parent_from_node(&self) -> DAffine3 {
+    pub(crate) fn parent_from_node(&self) -> DAffine3 {
         match *self {
             Self::Matrix(matrix) => matrix,
             Self::Parts { translation, rotation, scale } => {
@@ -84,71 +84,68 @@ impl NodeTransform {
 /// Joints that bend a mesh.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Skin {
-    /// The nodes that are its joints, as indices into [`Rig::nodes`].
+    /// The joints, as indices into [`Rig::nodes`].
     pub joints: Vec<u32>,
-    /// For each joint, the transform that takes the unposed mesh to the joint's
-    /// own coordinates.
+    /// For each joint, the transform from the unposed mesh to the joint.
     pub inverse_binds: Vec<DAffine3>,
 }
 
-/// Vertices in a row that move alike.
+/// Successive vertices with the same node, skin and morph targets.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigPart {
-    /// Which vertices, as indices into [`crate::model::Model::positions`].
+    /// The vertices, as indices into [`Model::positions`](crate::model::Model::positions).
     pub vertices: Range<u32>,
-    /// The node they belong to, as an index into [`Rig::nodes`]; it places them
-    /// only where they have no skin.
+    /// Index into [`Rig::nodes`]; the node moves the vertices only if they have no skin.
     pub node: u32,
     /// Index into [`Rig::skins`], or [`NONE`].
     pub skin: u32,
-    /// What each of `targets` is weighted with at rest.
+    /// The weight of each of `targets` at rest.
     pub weights: Vec<f32>,
-    /// The vertices that each morph target moves.
+    /// The displacements of each morph target.
     pub targets: Vec<Vec<Displacement>>,
 }
 
-/// Where a morph target moves a vertex, before skin and node.
+/// The displacement of a vertex by a morph target, before skin and node.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Displacement {
-    /// Index into [`crate::model::Model::positions`].
+    /// Index into [`Model::positions`](crate::model::Model::positions).
     pub vertex: u32,
-    /// How far, at weight 1.
+    /// Offset at weight 1, in units of the file.
     pub offset: [f32; 3],
 }
 
-/// A joint that a vertex hangs on.
+/// The influence of a joint on a vertex.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Influence {
-    /// Index into [`Skin::joints`] of the part's skin.
+    /// Index into [`Skin::joints`] of the skin of the part.
     pub joint: u32,
-    /// How much; those of a vertex sum to 1.
+    /// Weight, 0 to 1; the weights of a vertex sum to 1.
     pub weight: f32,
 }
 
-/// Where nodes and joints stand at one moment.
+/// The transforms of nodes and joints at one moment.
 #[derive(Debug, Clone, Default)]
 pub struct Pose {
-    /// For each node, world coordinates from its own.
+    /// For each node, the transform to the world.
     pub world_from_node: Vec<DAffine3>,
-    /// For each joint of each skin, world coordinates from the unposed mesh's.
+    /// For each joint of each skin, the transform from the unposed mesh to the world.
     pub world_from_mesh: Vec<Vec<DAffine3>>,
 }
 
 impl Rig {
-    /// Whether anything but rigid nodes moves the vertices.
+    /// Whether skins or morph targets move any vertex.
     #[must_use]
-    pub fn bends(&self) -> bool {
+    pub(crate) fn bends(&self) -> bool {
         self.parts.iter().any(|part| part.skin != NONE || !part.targets.is_empty())
     }
 
-    /// The pose of the file itself.
+    /// The pose of the file.
     #[must_use]
     pub fn rest_pose(&self) -> Pose {
         self.pose(|node| self.nodes[node].transform)
     }
 
-    /// The pose where each node stands in its parent as `transform` says, by
-    /// its index.
+    /// The pose in which the node with an index has the transform `transform(index)`.
     #[must_use]
     pub fn pose(&self, transform: impl Fn(usize) -> NodeTransform) -> Pose {
         let mut world_from_node = vec![DAffine3::IDENTITY; self.nodes.len()];
@@ -168,8 +165,11 @@ impl Rig {
         Pose { world_from_node, world_from_mesh }
     }
 
-    /// The positions of all vertices in `pose`, where the targets of each part
-    /// are weighted as `weights` says, by the part's index.
+    /// The positions of all vertices in `pose`. `weights(index)` are the weights of the morph
+    /// targets of the part with an index; missing ones are 0.
+    ///
+    /// # Panics
+    /// Panics if `pose` is of another rig.
     #[must_use]
     pub fn posed_positions<'a>(
         &self,
@@ -188,9 +188,9 @@ impl Rig {
         positions
     }
 
-    /// What takes a vertex of `part` to world coordinates.
+    /// The transform of a vertex of `part` to the world.
     #[must_use]
-    pub fn vertex_transform(&self, pose: &Pose, part: &RigPart, vertex: u32) -> DAffine3 {
+    pub(crate) fn vertex_transform(&self, pose: &Pose, part: &RigPart, vertex: u32) -> DAffine3 {
         let influences = self.influences_of(vertex);
         if part.skin == NONE || influences.is_empty() {
             return pose.world_from_node[part.node as usize];
@@ -208,7 +208,7 @@ impl Rig {
 
     /// The influences of a vertex.
     #[must_use]
-    pub fn influences_of(&self, vertex: u32) -> &[Influence] {
+    fn influences_of(&self, vertex: u32) -> &[Influence] {
         let vertex = vertex as usize;
         let Some(&end) = self.influence_ends.get(vertex) else { return &[] };
         let start = vertex.checked_sub(1).map_or(0, |before| self.influence_ends[before]);

@@ -1,53 +1,48 @@
-//! What follows a contour: the link that makes chains of them, each in exactly one.
+//! The successor of a contour, which links contours into chains; each contour is in exactly one.
 //!
-//! Idea: a contour has its front face on the left. At its end the surface is a fan
-//! of faces; turning through the front ones, from this contour's own, the first
-//! contour met is the next of the chain. That one is found from no other, so links
-//! are one to one whatever the number of contours at a vertex; and the outside is
-//! on the same side all along. A chain ends only where the surface does.
+//! Idea: a contour has its front face on the left. At its end the surface is a fan of faces.
+//! Turning through the front faces, from the face of this contour on, the first contour is the next
+//! one of the chain. No other contour finds it, so links are one to one for any number of contours
+//! at a vertex, and the outside stays on the same side. A chain ends only where the surface ends.
 //!
 //! ```text
 //!        \ front /             c: the contour that arrives
-//!     e1  \     /  e2          e1: the first edge on the way around, no contour
-//!          \   /               e2: the next one, a contour: c goes on with it
+//!     e1  \     /  e2          e1: the first edge on the way around, not a contour
+//!          \   /               e2: the next edge, a contour, which follows c
 //!   front   \ /   back
 //!  ----c---->o
 //!   back
 //! ```
 //!
-//! Where the winding of two faces clashes, or an edge has more than two faces,
-//! there is no left and right to keep to: the chain is cut there. The chains
-//! themselves are put together in [`super::layer_chain`].
+//! An edge whose winding clashes, or with more than two faces, has no left and right: the chain is
+//! cut there. [`super::layer_chain`] makes the chains.
 //!
-//! It is how a half-edge structure walks the rim of a region, here of the front
-//! faces. Rejected: joining the edges that meet at a vertex where they are just two;
-//! on rough meshes four and more meet at many vertices.
+//! A half-edge structure walks the rim of a region in this way; here the region is the front faces.
+//! Rejected: joining contours at vertices where exactly two meet; on rough meshes four and more
+//! meet at many vertices.
 
-use crate::edge_mesh::EdgeMesh;
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::face_edges::FaceEdges;
+use crate::edge_mesh::{EdgeFlags, EdgeMesh, FaceEdges};
 use crate::index::NONE;
-use crate::view::feature::{Line, LineBits};
+use crate::view::{Line, LineBits};
 
-/// What follows a contour.
+/// The successor of a contour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Successor {
     /// The contour on this record.
     Edge(u32),
-    /// Nothing: the surface ends here.
+    /// None: the surface ends here.
     Boundary,
-    /// Nothing: here the surface has no two sides.
+    /// None: the surface has no left and right here.
     Cut,
 }
 
-/// Edges that chains neither contain nor turn across.
+/// Edges that chains neither contain nor cross.
 const CUTS: EdgeFlags = EdgeFlags::CLASH.union(EdgeFlags::NON_MANIFOLD);
 
-/// What follows the contour on record `edge`; `lines` says what the view makes of
-/// every record.
+/// Finds the successor of the contour on record `edge`; `lines` has an element for each record.
 ///
 /// # Panics
-/// Where there is no such record or line.
+/// Panics if `edge` is out of range or `lines` is too short.
 #[must_use]
 pub fn successor(mesh: &EdgeMesh, faces: &FaceEdges, lines: &[Line], edge: u32) -> Successor {
     let record = &mesh.records[edge as usize];
@@ -57,7 +52,7 @@ pub fn successor(mesh: &EdgeMesh, faces: &FaceEdges, lines: &[Line], edge: u32) 
     let a_faces = lines[edge as usize].bits.contains(LineBits::A_FACES);
     let mut face = if a_faces { record.face_a } else { record.face_b };
     let mut at = edge;
-    // A fan has no more faces than the mesh.
+    // A fan has at most all faces of the mesh.
     for _ in 0..mesh.triangles.len() {
         let sides = faces.sides(face);
         let Some(side) = sides.iter().position(|side| *side == at) else { return Successor::Cut };

@@ -1,22 +1,20 @@
-//! Equation 1 as the paper evaluates it (section 3.2), from one replicated edge vertex
-//! alone.
+//! Equation 1 as the paper evaluates it (section 3.2), from one replicated edge vertex.
 //!
-//! A property test holds it to [`crate::view::feature::classify_edge`], which decides from
-//! one facing bit per face instead.
+//! A property test compares it with [`crate::view::classify_edge`], which decides from one facing
+//! bit for each face.
 
 use glam::{Vec3, Vec4};
 
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::record::EdgeVertex;
+use crate::edge_mesh::{EdgeFlags, EdgeVertex};
 
-/// Equation 1 as the paper evaluates it, from one edge vertex alone.
+/// Evaluates Equation 1 for one edge vertex.
 ///
-/// Returns whether the edge is a contour, and [`EdgeFlags::RIDGE`] or
-/// [`EdgeFlags::VALLEY`] by the cosines of the thresholds, which are angles
-/// between the face normals. Boundary edges (`v3 = v0`) are neither.
+/// Returns whether the edge is a contour, and [`EdgeFlags::RIDGE`] or [`EdgeFlags::VALLEY`] by the
+/// cosines of the thresholds, which are angles between the face normals. Boundary edges (`v3 = v0`)
+/// are neither.
 ///
-/// The printed `-cos(theta)` takes theta as the internal angle; with theta = 150
-/// degrees that is the cosine of 30 degrees, which is what goes in here.
+/// The paper prints `-cos(theta)` with the internal angle theta: 150 degrees there are 30 degrees
+/// here.
 #[must_use]
 pub fn equation_1(
     vertex: &EdgeVertex,

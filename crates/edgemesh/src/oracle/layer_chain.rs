@@ -1,41 +1,37 @@
-//! Links the edges that one layer of a view draws into chains: contours as
-//! [`super::contour_chain`] finds them, everything else as the preprocessor chained
-//! it, as far as the layer has it.
+//! Links the drawn edges of a layer into chains: contours by [`super::contour_chain`], other edges
+//! by the chains of the mesh, as far as the layer has them.
 //!
-//! An edge of several classes is in the layer of the strongest that is drawn. A
-//! ridge that is a contour in this view is a link of the contour, and its chain of
-//! ridges has a hole there: each drawn edge is in exactly one chain.
+//! An edge of several classes is in the layer of the strongest drawn class. A ridge that is a
+//! contour in this view belongs to the chain of the contour and leaves a gap in the chain of
+//! ridges: each drawn edge is in exactly one chain.
 //!
 //! ```text
 //!   ridges   a--b--c--d        c is a contour too:
 //!   drawn    a--b  |  d        two chains of ridges, and the contour through c
 //! ```
 //!
-//! What is linked is an element with a successor; how it was found no longer
-//! matters. A chain without an open end begins at its smallest edge, so that the
-//! same view always cuts it at the same place.
+//! Linking needs only elements and their successors. A chain without an open end begins at its
+//! smallest edge, so that the same view always cuts it at the same place.
 
 use super::contour_chain::{Successor, successor};
-use crate::edge_mesh::EdgeMesh;
-use crate::edge_mesh::face_edges::FaceEdges;
-use crate::edge_mesh::static_links::StaticLinks;
+use crate::edge_mesh::{EdgeMesh, FaceEdges, StaticLinks};
 use crate::index::{NONE, to_u32};
-use crate::view::feature::{Line, LineBits};
+use crate::view::{Line, LineBits};
 
 /// An edge in the direction of its chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Element {
     /// Index of the record.
     pub edge: u32,
-    /// Whether the chain runs from its `v1` to its `v0`.
+    /// Whether the chain runs from `v1` of the record to `v0`.
     pub is_reversed: bool,
 }
 
 impl Element {
-    /// Where it begins and where it ends.
+    /// The vertices at its start and its end.
     ///
     /// # Panics
-    /// Where the mesh has no such record.
+    /// Panics if `mesh` does not have the record.
     #[must_use]
     pub fn ends(self, mesh: &EdgeMesh) -> [u32; 2] {
         let record = &mesh.records[self.edge as usize];
@@ -43,27 +39,27 @@ impl Element {
     }
 }
 
-/// Edges that follow each other.
+/// A chain of successive edges.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LayerChain {
-    /// In the order of the line; of contours the front faces lie on the left.
+    /// The edges in the order of the chain; contours have their front faces on the left.
     pub elements: Vec<Element>,
-    /// Whether the last is followed by the first.
+    /// Whether the first element follows the last.
     pub is_closed: bool,
 }
 
-/// What the chains of a view are made from.
+/// The input of the chains of a view.
 #[derive(Debug, Clone, Copy)]
 pub struct LayerLinks<'a> {
     /// The mesh.
     pub mesh: &'a EdgeMesh,
-    /// The edges of its faces.
+    /// The edges of the faces of `mesh`.
     pub faces: &'a FaceEdges,
-    /// Its chains.
+    /// The chains of `mesh`.
     pub links: &'a StaticLinks,
-    /// What the view makes of every record, those that their own solid hides kept.
+    /// Every record in the view, with those hidden by their own solid.
     pub lines: &'a [Line],
-    /// Whether contours are in a layer as such; else an edge is what else it is.
+    /// Whether contours are drawn; otherwise only the other classes of an edge count.
     pub draws_contours: bool,
 }
 
@@ -71,7 +67,7 @@ impl LayerLinks<'_> {
     /// The chains of one layer, in the order of their first edges.
     ///
     /// # Panics
-    /// Where there is not one line a record.
+    /// Panics if `lines` does not have an element for each record.
     #[must_use]
     pub fn chains(&self, layer: u32) -> Vec<LayerChain> {
         let count = self.mesh.records.len();
@@ -98,7 +94,7 @@ impl LayerLinks<'_> {
             (!elements.is_empty()).then_some(LayerChain { elements, is_closed })
         };
         let heads = members.iter().filter(|edge| !is_followed[**edge as usize]);
-        // Then what is left are loops, met first at their smallest edge.
+        // The remaining chains are loops, whose smallest edge comes first.
         let mut chains: Vec<LayerChain> =
             heads.chain(&members).filter_map(|&edge| walk(edge)).collect();
         chains.sort_unstable_by_key(|chain| chain.elements[0].edge);
@@ -140,12 +136,11 @@ mod tests {
 
     use super::*;
     use crate::build::{BuildOptions, build_edge_mesh};
-    use crate::edge_mesh::edge_flags::EdgeFlags;
-    use crate::edge_mesh::edge_words::edge_words;
-    use crate::line::class::{ClassTable, LineClass};
+    use crate::edge_mesh::{EdgeFlags, edge_words};
+    use crate::line::{ClassTable, LineClass};
     use crate::model::Model;
     use crate::report::Report;
-    use crate::view::feature_counts::classify_lines;
+    use crate::view::classify_lines;
 
     /// The chains of each class in a layer of its own.
     fn chains_of(

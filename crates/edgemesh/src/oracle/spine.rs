@@ -1,14 +1,13 @@
 //! The spine: an edge projected to the screen, clipped before the divide.
 //!
-//! The paper projects first and notes (section 6) that an edge that crosses the
-//! eye plane then has no finite ends, and that clipping at the near plane would
-//! mend it. That is done here, in clip space, where the clip parameter is exact;
-//! the sides of the picture are clipped too, far outside of it, so that an edge
-//! that grazes the eye does not get coordinates that 32 bits cannot hold.
+//! The paper projects first, and notes (section 6) that an edge across the eye plane then has no
+//! finite ends, which clipping at the near plane would solve. Here edges are clipped in clip space,
+//! where the clip parameter is exact. They are also clipped at the sides, far outside of the
+//! picture, so that the coordinates of an edge close to the eye fit into 32 bits.
 //!
-//! Screen positions are in pixels from the middle of the picture, y up. The
-//! paper's equations leave out the divide and the viewport's scale; without
-//! them strokes skew on pictures that are not square.
+//! Screen positions are in pixels from the middle of the picture, y up. The equations of the paper
+//! leave out the divide and the scale of the viewport, without which strokes skew on pictures that
+//! are not square.
 //!
 //! ```text
 //!            p      left of the edge
@@ -20,38 +19,37 @@
 
 use glam::{Vec2, Vec4};
 
-use crate::view::projection::to_pixels;
+use crate::view::to_pixels;
 
-/// An edge shorter than this on the screen, in pixels, has no direction; it is
-/// seen along its length and not drawn.
+/// The least length of an edge on the screen, in pixels. A shorter edge has no direction, because
+/// the eye looks along it, and is not drawn.
 pub const MIN_LENGTH_PX: f32 = 1e-4;
 
 /// An edge on the screen.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Spine {
-    /// Start, in pixels.
+    /// Start, in pixels from the middle of the picture.
     pub s0: Vec2,
-    /// End, in pixels.
+    /// End, in pixels from the middle of the picture.
     pub s1: Vec2,
     /// Depth at the start.
     pub z0: f32,
     /// Depth at the end.
     pub z1: f32,
-    /// Unit perpendicular, to the left of `s0 -> s1`; zero where nothing is to
-    /// be drawn.
+    /// Unit perpendicular, to the left of `s0 -> s1`; zero if nothing is drawn.
     pub p: Vec2,
-    /// Where on the edge the start lies: 0 unless it was clipped.
+    /// Parameter of the start on the edge: 0 unless it was clipped.
     pub t0: f32,
-    /// Where on the edge the end lies: 1 unless it was clipped.
+    /// Parameter of the end on the edge: 1 unless it was clipped.
     pub t1: f32,
 }
 
 /// Clips the segment from `c0` to `c1`, in clip space with depth 1 at the near plane, against
 /// the near plane and the guard band: left, right, bottom and top, at w = 1.
 ///
-/// Returns the parameters of what is left, `t0 <= t1`, or `t0 > t1` if nothing is.
+/// Returns the parameters of the remaining part, `t0 <= t1`; `t0 > t1` if nothing remains.
 #[must_use]
-pub fn clip_segment(c0: Vec4, c1: Vec4, band: Vec4) -> Vec2 {
+fn clip_segment(c0: Vec4, c1: Vec4, band: Vec4) -> Vec2 {
     let mut range = Vec2::new(0.0, 1.0);
     range = clip_by_plane(range, c0.w - c0.z, c1.w - c1.z);
     range = clip_by_plane(range, band.y * c0.w - c0.x, band.y * c1.w - c1.x);
@@ -60,8 +58,7 @@ pub fn clip_segment(c0: Vec4, c1: Vec4, band: Vec4) -> Vec2 {
     clip_by_plane(range, c0.y - band.z * c0.w, c1.y - band.z * c1.w)
 }
 
-/// Narrows `range` to where the distance, `d0` at 0 and `d1` at 1, is not
-/// negative.
+/// Narrows `range` to the part where the distance, `d0` at 0 and `d1` at 1, is not negative.
 fn clip_by_plane(range: Vec2, d0: f32, d1: f32) -> Vec2 {
     if d0 < 0.0 && d1 < 0.0 {
         return Vec2::new(1.0, 0.0);
@@ -76,8 +73,8 @@ fn clip_by_plane(range: Vec2, d0: f32, d1: f32) -> Vec2 {
     range
 }
 
-/// Projects the edge from `c0` to `c1` (clip space) to a picture of
-/// `viewport_px` pixels; `band` as in [`clip_segment`].
+/// Projects the edge from `c0` to `c1`, in clip space with depth 1 at the near plane, to a picture
+/// of `viewport_px` pixels. `band` is the guard band: left, right, bottom and top, at w = 1.
 #[must_use]
 pub fn project_spine(c0: Vec4, c1: Vec4, viewport_px: Vec2, band: Vec4) -> Spine {
     let range = clip_segment(c0, c1, band);
@@ -99,25 +96,24 @@ pub fn project_spine(c0: Vec4, c1: Vec4, viewport_px: Vec2, band: Vec4) -> Spine
     spine
 }
 
-/// The point at `t`, exact at both ends.
+/// Interpolates linearly from `c0` at 0 to `c1` at 1, exact at both ends.
 #[must_use]
 pub fn lerp(c0: Vec4, c1: Vec4, t: f32) -> Vec4 {
     c0 * (1.0 - t) + c1 * t
 }
 
-/// The unit direction m in which a normal points on the screen: `clip` is the
-/// vertex, `normal_clip` the normal taken to clip space as a direction. Zero
-/// where the normal points along the line of sight.
+/// The unit direction m of a normal on the screen; zero if the normal points along the line of
+/// sight. `clip` is the vertex in clip space, `normal_clip` the normal in clip space, as a
+/// direction.
 ///
-/// The paper takes `normalize(MVP [v + n] - s)`; this is its limit for short
-/// normals, so that it does not depend on the model's size and never crosses
-/// the eye plane.
+/// The paper uses `normalize(MVP [v + n] - s)`. This is its limit for short normals, which does not
+/// depend on the size of the model and never crosses the eye plane.
 #[must_use]
 pub fn screen_normal(clip: Vec4, normal_clip: Vec4, viewport_px: Vec2) -> Vec2 {
     let moved =
         normal_clip.truncate().truncate() * clip.w - clip.truncate().truncate() * normal_clip.w;
     let scaled = moved * viewport_px;
-    // Divided by the larger part first: the square of a tiny vector is zero.
+    // Divided by the larger part first, because the square of a tiny vector is zero.
     let largest = scaled.x.abs().max(scaled.y.abs());
     if largest <= 0.0 {
         return Vec2::ZERO;
@@ -129,7 +125,7 @@ pub fn screen_normal(clip: Vec4, normal_clip: Vec4, viewport_px: Vec2) -> Vec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::projection::{GUARD_BAND, WHOLE_BAND};
+    use crate::view::{GUARD_BAND, WHOLE_BAND};
 
     const VIEWPORT: Vec2 = Vec2::new(200.0, 100.0);
 

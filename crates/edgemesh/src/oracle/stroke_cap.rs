@@ -1,9 +1,8 @@
-//! Start and finish caps (paper, Equations 4 and 5), and the half disks that its
-//! section 6 puts in their place.
+//! Start and finish caps (paper, Equations 4 and 5), and half disks in their place (section 6).
 //!
-//! A cap is the triangle between the end of the spine, the end of the quad and
-//! the tip of the projected vertex normal m. The edges that meet at a vertex
-//! know nothing of each other, but all know m, so their caps meet there:
+//! A cap is the triangle between the end of the spine, the end of the quad and the tip of the
+//! projected vertex normal m. Edges at a vertex do not know each other, but all of them know m, so
+//! their caps meet there:
 //!
 //! ```text
 //!          m                the gap between two quads is filled by
@@ -12,13 +11,13 @@
 //!    |_____s_____|
 //! ```
 //!
-//! Equation 5 as printed takes the side of m1 while the half quad takes the side
-//! of m0; where those differ the cap would lie across its own quad. A cap
-//! follows its quad here: `outside` is given, and m is turned to that side.
+//! As printed, Equation 5 uses the side of m1 and the half quad the side of m0; if these differ,
+//! the cap would lie across its quad. Here the cap follows its quad: `outside` is given, and m is
+//! turned to that side.
 //!
-//! A gap is only on the convex side of a bend; where m leans back over the quad,
-//! two quads overlap. The paper's winding by j makes such a cap a back face, and it
-//! is left out: it would only lay its ink on that of its own quad.
+//! Only the convex side of a bend has a gap; where m leans back over the quad, two quads overlap.
+//! The winding by j in the paper makes such a cap a back face. It is left out, because it would
+//! only add ink over its quad.
 //!
 //! WGSL twin: `shaders/common/stroke_cap.wgsl`.
 
@@ -27,22 +26,22 @@ use std::cmp::Ordering;
 use glam::Vec2;
 
 use super::stroke_quad::stroke_sign;
-use crate::line::kind::DISK_STEPS;
+use crate::line::DISK_STEPS;
 
-/// The paper's corner number j for corner `i` (0 to 2): the triangle is walked
-/// backward where `outside` is -1, so that it always winds the same way.
+/// The corner number j of the paper for corner `i` (0 to 2): reversed if `outside` is -1, so that
+/// the triangle always has the same winding.
 #[must_use]
-pub fn cap_corner(outside: f32, i: u32) -> u32 {
+pub(super) fn cap_corner(outside: f32, i: u32) -> u32 {
     if outside > 0.0 { i } else { 2 - i }
 }
 
 /// Corner `j` of the cap at the end `s` of a spine with perpendicular `p`.
 ///
-/// `m` is the projected vertex normal, of unit length or zero; the cap reaches
-/// `reach_px` far: the width of a half quad, or half the width of a full one.
-/// Equation 4 with s0 and m0, Equation 5 with s1 and m1.
+/// `m` is the projected vertex normal, of unit length or zero. `reach_px` is the reach of the cap:
+/// the width of a half quad, or half the width of a full quad. Equation 4 with s0 and m0, Equation
+/// 5 with s1 and m1.
 #[must_use]
-pub fn stroke_cap(s: Vec2, p: Vec2, m: Vec2, outside: f32, reach_px: f32, j: u32) -> Vec2 {
+pub(super) fn stroke_cap(s: Vec2, p: Vec2, m: Vec2, outside: f32, reach_px: f32, j: u32) -> Vec2 {
     match j {
         0 => s,
         1 => s + p * (outside * reach_px),
@@ -50,28 +49,28 @@ pub fn stroke_cap(s: Vec2, p: Vec2, m: Vec2, outside: f32, reach_px: f32, j: u32
     }
 }
 
-/// Whether a cap fills a gap: whether `m`, turned to the side `outside`, leans out
-/// beyond the end of the quad. `forward` is +1 at the finish and -1 at the start.
+/// Whether a cap fills a gap: `m`, turned to the side `outside`, leans out beyond the end of the
+/// quad. `forward` is +1 at the finish and -1 at the start.
 #[must_use]
-pub fn cap_fills_gap(p: Vec2, m: Vec2, outside: f32, forward: f32) -> bool {
+pub(super) fn cap_fills_gap(p: Vec2, m: Vec2, outside: f32, forward: f32) -> bool {
     let beyond = Vec2::new(p.y, -p.x) * forward;
     m.dot(beyond) * stroke_sign(m.dot(p)) * outside > 0.0
 }
 
-/// Where step `k` (0 to [`DISK_STEPS`]) of the half disk lies, from the end of
-/// the spine: from the left rim (the side of p) around the end to the right one.
+/// The offset of step `k` (0 to [`DISK_STEPS`]) of the half disk from the end of the spine. The
+/// steps go from the left rim (the side of p) around the end to the right rim.
 ///
-/// `forward` is +1 at the finish and -1 at the start. `left_px` and `right_px`
-/// are how far the quad reaches to each side; one of them is 0 for a half quad,
-/// which then has a quarter disk, enough for turns of up to 90 degrees.
+/// `forward` is +1 at the finish and -1 at the start. `left_px` and `right_px` are the reach of the
+/// quad on each side. One of them is 0 for a half quad, which gets a quarter disk, enough for turns
+/// of up to 90 degrees.
 #[must_use]
-pub fn half_disk(p: Vec2, forward: f32, left_px: f32, right_px: f32, k: u32) -> Vec2 {
+pub(super) fn half_disk(p: Vec2, forward: f32, left_px: f32, right_px: f32, k: u32) -> Vec2 {
     #[expect(clippy::cast_precision_loss, reason = "at most DISK_STEPS")]
     let angle = std::f32::consts::PI * k as f32 / DISK_STEPS as f32;
     let beyond = Vec2::new(p.y, -p.x) * forward;
     let radius_px = match (2 * k).cmp(&DISK_STEPS) {
         Ordering::Less => left_px,
-        // Both radii end here; a half quad's one must not be cut off.
+        // Both radii meet here; that of a half quad must not be cut off.
         Ordering::Equal => left_px.max(right_px),
         Ordering::Greater => right_px,
     };

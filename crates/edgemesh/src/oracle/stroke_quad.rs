@@ -8,21 +8,20 @@
 //!   0 ---------------- 1    s - p
 //! ```
 //!
-//! The paper's quad is two units thick and scaled to taste; here widths are in
-//! pixels. A half quad is as wide as the whole quad of the same stroke, so that
-//! contours and creases of one style look equally heavy.
+//! The quad of the paper is two units thick and scaled to taste; here widths are in pixels. A half
+//! quad is as wide as the full quad of the same stroke, so that contours and creases of a style
+//! look equally heavy.
 //!
 //! WGSL twin: `shaders/common/stroke_quad.wgsl`.
 
 use glam::Vec2;
 
-use crate::line::placement::Placement;
+use crate::line::Placement;
 
-/// How far the near side (the paper's corners 0 and 1) and the far side (2 and
-/// 3) of a stroke `width_px` wide lie from the spine along p, on the side
-/// `outside` (+1 is the side of p, -1 the other).
+/// The offsets of the near side (the paper's corners 0 and 1) and the far side (2 and 3) of a
+/// stroke from the spine along p. `outside` is +1 for the side of p, -1 for the other side.
 #[must_use]
-pub fn quad_offsets(placement: Placement, outside: f32, width_px: f32) -> Vec2 {
+pub(super) fn quad_offsets(placement: Placement, outside: f32, width_px: f32) -> Vec2 {
     match placement {
         Placement::Centred | Placement::Automatic => Vec2::new(-0.5, 0.5) * width_px,
         Placement::Outside => Vec2::new(0.0, outside * width_px),
@@ -30,9 +29,9 @@ pub fn quad_offsets(placement: Placement, outside: f32, width_px: f32) -> Vec2 {
     }
 }
 
-/// The paper's sign: -1 for a negative argument and +1 for any other.
+/// The sign of the paper: -1 for a negative argument, +1 for any other.
 #[must_use]
-pub fn stroke_sign(value: f32) -> f32 {
+pub(super) fn stroke_sign(value: f32) -> f32 {
     if value < 0.0 { -1.0 } else { 1.0 }
 }
 

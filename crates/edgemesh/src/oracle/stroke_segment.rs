@@ -1,27 +1,24 @@
-//! An edge as a stroke on the screen: what all of its vertices have in common.
+//! An edge as a stroke on the screen: the values that its vertices share.
 //!
-//! The outside of a contour is the side of the spine where its front face is
-//! not, which one facing bit tells for sure. The paper asks the projected vertex
-//! normal instead (Equation 3), which errs on rough meshes; it is asked here
-//! only where there is no front face to ask.
+//! The outside of a contour is the side of the spine without its front face, which a facing bit
+//! tells exactly. The paper uses the projected vertex normal (Equation 3), which errs on rough
+//! meshes; here it serves only strokes without a front face.
 //!
-//! A stroke lies over the faces beside its edge, which can rise toward the eye
-//! under it. So its sides take the depth of those faces ([`rise_toward_eye`])
-//! where that is nearer than the edge's own, and are not swallowed however wide
-//! they are. Only outside of a contour there is no face; and over the surface that
-//! a contour bounds, which goes on rising behind those faces, strokes ask at the
-//! edge whether they are visible (`shaders/stroke_over_surface.wgsl`).
+//! A stroke lies over the faces beside its edge, which can rise toward the eye under it. So its
+//! sides take the depth of those faces (`rise_toward_eye`) where that is nearer than the depth of
+//! the edge, and the faces do not hide them, however wide they are. Outside of a contour there is
+//! no face. Over the surface that a contour bounds, which rises further behind those faces, strokes
+//! are visible where their edge is (`shaders/stroke_over_surface.wgsl`).
 //!
-//! The brush is laid on by one of the paper's two parameterizations (section 4).
-//! In object space u begins at the edge's random scalar and grows with the length
-//! on the screen; in screen space it is the place on the screen, right or up,
-//! from the object's origin. Either way in units of the brush's own length at
-//! this width, so that its aspect is kept, and turned with the outside, so that
-//! strokes wind around a silhouette in one direction. Across, v runs from 0 on
+//! The brush has one of the two parameterizations of the paper (section 4). In object space, u
+//! begins at the random scalar of the edge and grows with the length on the screen; in screen
+//! space, it is the position on the screen, right or up, from the origin of the object. In both
+//! cases u is in lengths of the brush at this width, which keeps its aspect, and is reversed with
+//! the outside, so that strokes run around a silhouette in one direction. Across, v runs from 0 on
 //! the outside to 1 on the inside.
 //!
-//! A cap of a full quad repeats the column at its end. Along a half quad u maps
-//! directly to the inside and is stretched over caps and quad on the outside:
+//! A cap of a full quad repeats the column at its end. Along a half quad, u maps directly to the
+//! inside and is stretched over caps and quad on the outside:
 //!
 //! ```text
 //!   u0 . - - a - - . - - - b - - - . - - c - - . u1       (Figure 9)
@@ -36,17 +33,15 @@ use glam::{Vec2, Vec4};
 use super::spine::{MIN_LENGTH_PX, Spine, lerp, project_spine, screen_normal};
 use super::stroke_cap::{cap_fills_gap, stroke_cap};
 use super::stroke_quad::{quad_offsets, stroke_sign};
-use crate::line::kind::LineKind;
-use crate::line::placement::{Parameterization, Placement};
-use crate::view::feature::LineBits;
-use crate::view::projection::to_pixels;
+use crate::line::{LineKind, Parameterization, Placement};
+use crate::view::{LineBits, to_pixels};
 
-/// A narrow face that looks at the eye by no more than this cosine, 87 degrees
-/// off, is seen edge on and lifts no stroke.
+/// The cosine between normal and line of sight up to which a narrow face is seen edge on and lifts
+/// no stroke: 87 degrees.
 pub const EDGE_ON_FACING: f32 = 0.05;
 
-/// A face that looks at the eye by this cosine or more, 78 degrees off, lifts the
-/// strokes along it in full.
+/// The cosine between normal and line of sight from which a face lifts the strokes along it fully:
+/// 78 degrees.
 pub const LIFTED_FACING: f32 = 0.2;
 
 /// An edge in clip space.
@@ -58,91 +53,88 @@ pub struct ClipEdge {
     pub c1: Vec4,
     /// Third vertex of face A.
     pub c2: Vec4,
-    /// Third vertex of face B; equal to `c0` where there is none.
+    /// Third vertex of face B; `c0` without a face B.
     pub c3: Vec4,
-    /// Vertex normal at the start, taken to clip space as a direction.
+    /// Vertex normal at the start, in clip space, as a direction.
     pub n0: Vec4,
-    /// Vertex normal at the end, likewise.
+    /// Vertex normal at the end, in clip space, as a direction.
     pub n1: Vec4,
-    /// How squarely faces A and B look at the eye, or away from it: the cosine
-    /// of the angle between normal and line of sight, without its sign.
+    /// For faces A and B, the absolute cosine of the angle between normal and line of sight.
     pub facing: Vec2,
-    /// How far from the eye start and end are, along the line of sight.
+    /// Distances of start and end from the eye, along the direction of sight.
     pub distance: Vec2,
-    /// The random scalar.
+    /// The random scalar of the edge, 0 to 1.
     pub r: f32,
 }
 
-/// What all strokes of a draw share.
+/// The parameters that all strokes of a draw share.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StrokeShape {
-    /// Size of the picture.
+    /// Size of the picture, in pixels.
     pub viewport_px: Vec2,
-    /// The object's origin on the screen, from the middle.
+    /// The origin of the object on the screen, in pixels from the middle of the picture.
     pub origin_px: Vec2,
-    /// The distances where strokes begin to fade and where nothing is left of
-    /// them; equal for never.
+    /// The distances at which strokes begin to fade and vanish; equal for strokes that never fade.
     pub fade: Vec2,
-    /// Width of a stroke.
+    /// Width of a stroke, in pixels or units of the world.
     pub width: f32,
-    /// Pixels that a unit of the world has at w = 1.
+    /// Pixels per unit of the world at w = 1.
     pub px_per_unit: f32,
-    /// Length of the brush texture over its height.
+    /// Length of the brush texture divided by its height.
     pub brush_aspect: f32,
-    /// -1 where the object is seen as in a mirror, else 1.
+    /// -1 if the transform of the object mirrors, otherwise 1.
     pub mirror: f32,
-    /// What is drawn.
+    /// The kind of line.
     pub kind: LineKind,
-    /// Where on the spine.
+    /// The placement on the spine.
     pub placement: Placement,
-    /// How the brush lies along it.
+    /// The parameterization of the brush.
     pub parameterization: Parameterization,
-    /// Whether the width is in units of the world, else in pixels.
+    /// Whether the width is in units of the world instead of pixels.
     pub is_world_width: bool,
-    /// Where edges are clipped at the sides: left, right, bottom, top, at w = 1.
+    /// The guard band: left, right, bottom and top, at w = 1.
     pub guard_band: Vec4,
 }
 
-/// A stroke on the screen. Its near side has the paper's corners 0 and 1, its far
-/// side corners 2 and 3.
+/// A stroke on the screen. Its near side has the paper's corners 0 and 1, its far side corners 2
+/// and 3.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Segment {
     /// The projected edge.
     pub spine: Spine,
-    /// False where there is nothing to draw.
+    /// Whether anything is drawn.
     pub is_drawn: bool,
-    /// Projected normal at the start.
+    /// Projected vertex normal at the start, of unit length or zero.
     pub m0: Vec2,
-    /// Projected normal at the end.
+    /// Projected vertex normal at the end, of unit length or zero.
     pub m1: Vec2,
-    /// +1 where the outside of a contour is the side of p, -1 where it is the
-    /// other; 0 for what is no contour.
+    /// The outside of a contour: +1 for the side of p, -1 for the other side; 0 for other lines.
     pub outside: f32,
-    /// How far the near side lies along p, at start and end.
+    /// Offset of the near side along p, at start and end, in pixels.
     pub near_px: Vec2,
-    /// How far the far side does.
+    /// Offset of the far side along p, at start and end, in pixels.
     pub far_px: Vec2,
-    /// How much nearer to the eye than the spine the near side lies.
+    /// Depth of the near side above that of the spine, toward the eye.
     pub near_rise: f32,
-    /// How much nearer the far side does.
+    /// Depth of the far side above that of the spine, toward the eye.
     pub far_rise: f32,
-    /// On which side the caps are, at start and end.
+    /// The side of the caps at start and end: +1 is the side of p.
     pub cap_side: Vec2,
-    /// u along the spine and the near side.
+    /// u of the spine and the near side, at start and end.
     pub u: Vec2,
-    /// u at the far corners.
+    /// u of the far side, at start and end.
     pub u_far: Vec2,
-    /// v on the near side.
+    /// v of the near side.
     pub v_near: f32,
-    /// v on the far side.
+    /// v of the far side.
     pub v_far: f32,
-    /// v on the spine.
+    /// v of the spine.
     pub v_spine: f32,
-    /// What is left of the stroke after fading, at start and end.
+    /// Opacity after fading, 0 to 1, at start and end.
     pub opacity: Vec2,
 }
 
-/// The stroke along `edge`.
+/// Computes the stroke along `edge`.
 #[must_use]
 pub fn stroke_segment(edge: &ClipEdge, shape: &StrokeShape, bits: LineBits) -> Segment {
     let spine = project_spine(edge.c0, edge.c1, shape.viewport_px, shape.guard_band);
@@ -188,10 +180,10 @@ pub fn stroke_segment(edge: &ClipEdge, shape: &StrokeShape, bits: LineBits) -> S
     segment
 }
 
-/// +1 where the outside is the side of p, else -1.
+/// +1 if the outside is the side of p, otherwise -1.
 fn outside_of(segment: &Segment, shape: &StrokeShape, bits: LineBits) -> f32 {
     if bits.contains(LineBits::CONTOUR) {
-        // p lies left of the edge, and so does face A where it looks at the eye.
+        // p points left of the edge, where face A lies if it looks at the eye.
         let side = if bits.contains(LineBits::A_FACES) { -1.0 } else { 1.0 };
         return side * shape.mirror;
     }
@@ -211,11 +203,11 @@ pub(super) fn width_at(clip: Vec4, shape: &StrokeShape) -> f32 {
     if !shape.is_world_width {
         return shape.width;
     }
-    // At the eye a width has no bound; more than the picture is not seen.
+    // Close to the eye the width is unbounded; more than the picture is never seen.
     (shape.width * shape.px_per_unit / clip.w).min(shape.viewport_px.y)
 }
 
-/// What is left of a stroke at a distance from the eye.
+/// The opacity of a stroke at a distance from the eye, after fading.
 pub(super) fn opacity_at(distance: f32, shape: &StrokeShape) -> f32 {
     let [start, end] = shape.fade.to_array();
     if start >= end {
@@ -224,9 +216,8 @@ pub(super) fn opacity_at(distance: f32, shape: &StrokeShape) -> f32 {
     ((end - distance) / (end - start)).clamp(0.0, 1.0)
 }
 
-/// u at start and end (section 4). The paper's w is the line width times the sign
-/// of the outside; to keep the brush's aspect, lengths are divided by the width
-/// and not multiplied.
+/// u at start and end (section 4). The paper's w is the line width times the sign of the outside.
+/// To keep the aspect of the brush, lengths are divided by the width, not multiplied.
 pub(super) fn stroke_u(
     spine: &Spine,
     shape: &StrokeShape,
@@ -248,8 +239,7 @@ pub(super) fn stroke_u(
     }
 }
 
-/// u at the far corners of a half quad whose brush is stretched over its caps as
-/// well (Figure 9).
+/// u at the far corners of a half quad, whose brush is stretched over its caps (Figure 9).
 fn stretched_u(segment: &Segment) -> Vec2 {
     let spine = &segment.spine;
     let cap = |m, far_px, is_cut, forward| {
@@ -262,7 +252,7 @@ fn stretched_u(segment: &Segment) -> Vec2 {
     segment.u.x + run * Vec2::new(a, a + b) / (a + b + c)
 }
 
-/// From the rim of the quad to the tip of its cap, where it has one.
+/// The length from the rim of the quad to the tip of its cap; 0 without a cap.
 fn cap_length(p: Vec2, m: Vec2, far_px: f32, forward: f32) -> f32 {
     let side = stroke_sign(far_px);
     if !cap_fills_gap(p, m, side, forward) {
@@ -272,8 +262,8 @@ fn cap_length(p: Vec2, m: Vec2, far_px: f32, forward: f32) -> f32 {
     (tip - p * far_px).length()
 }
 
-/// How much nearer than the edge, in depth, the side of a stroke must lie that is
-/// `side_px` along p at start and end: as much as the higher of the two faces.
+/// The rise of a side of a stroke toward the eye, in depth: that of the higher of the two faces.
+/// `side_px` is its offset along p at start and end.
 fn quad_rise(edge: &ClipEdge, spine: &Spine, viewport_px: Vec2, side_px: Vec2) -> f32 {
     let side = stroke_sign(side_px.x + side_px.y);
     let reach_px = side_px.abs().max_element();
@@ -285,8 +275,8 @@ fn quad_rise(edge: &ClipEdge, spine: &Spine, viewport_px: Vec2, side_px: Vec2) -
     rise(edge.c2, edge.facing.x).max(rise(edge.c3, edge.facing.y))
 }
 
-/// A point of the face for its third vertex: the vertex itself, or, where it
-/// lies behind the near plane, one halfway from the edge's middle to that plane.
+/// A point of a face in front of the near plane: its third vertex `apex`, or, if that lies behind
+/// the plane, the point halfway from the middle of the edge to the plane.
 fn in_front(middle: Vec4, apex: Vec4) -> Vec4 {
     let middle_distance = middle.w - middle.z;
     let apex_distance = apex.w - apex.z;
@@ -296,15 +286,14 @@ fn in_front(middle: Vec4, apex: Vec4) -> Vec4 {
     lerp(middle, apex, 0.5 * middle_distance / (middle_distance - apex_distance))
 }
 
-/// How much nearer than the edge the face with the point `apex` lies,
-/// `reach_px` away from the edge on the side `side` (+1 is the side of p).
+/// The rise of a face toward the eye above the edge, in depth, `reach_px` away from the edge on the
+/// side `side` (+1 is the side of p).
 ///
-/// `apex` is a point of the face in front of the near plane. Depth is linear on
-/// the screen, so the face's plane gives it exactly; past `apex` it stays what
-/// it was there. Zero where the face falls away or lies on the other side, less
-/// where it is a narrow wall seen edge on (`facing`, see [`ClipEdge::facing`]).
+/// `apex` is a point of the face in front of the near plane. Depth is linear on the screen, so the
+/// plane of the face gives it exactly; past `apex` it stays constant. Zero if the face falls away
+/// or lies on the other side; reduced if it is a narrow wall seen edge on ([`ClipEdge::facing`]).
 #[must_use]
-pub fn rise_toward_eye(
+fn rise_toward_eye(
     spine: &Spine,
     apex: Vec4,
     facing: f32,
@@ -328,9 +317,9 @@ pub fn rise_toward_eye(
     (rise * (reach_px / distance_px).min(1.0) * share).max(0.0)
 }
 
-/// How much of a face's rise counts: all of it where the face is seen well or is
-/// wide. A face that is both edge on and as narrow as the stroke is a wall: it
-/// would lift the rim up to its far end, and a hidden edge through what hides it.
+/// The fraction of the rise of a face that counts: 1 if the face is wide or turned to the eye. A
+/// face seen edge on and as narrow as the stroke is a wall: it would lift the rim to its far end,
+/// and a hidden edge through the surface that hides it.
 fn lift_share(facing: f32, reaches_wide: f32) -> f32 {
     let seen = (facing - EDGE_ON_FACING) / (LIFTED_FACING - EDGE_ON_FACING);
     let wide = 0.5 * reaches_wide - 1.0;

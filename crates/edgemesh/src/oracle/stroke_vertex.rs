@@ -5,18 +5,16 @@
 //!      . |  3 ----------------- 2   | .
 //!    5---4  .                   .   7--8        caps: 4 to 6 and 7 to 9
 //!           0 ----------------- 1               half disks: 4 to 13 and 14 to 23,
-//!                                               first their middle
+//!                                               the middle first
 //! ```
 //!
-//! Fins are Card and Mitchell's (Listing 1): the quad stands on the edge, its far
-//! side pushed out along the vertex normals, by a thickness that grows with the
-//! distance so that it looks the same. Seen along its normals a fin has no width,
-//! as they say themselves.
+//! Fins are those of Card and Mitchell (Listing 1): a quad on the edge with its far side pushed out
+//! along the vertex normals, by a thickness that grows with the distance so that it looks constant.
+//! Seen along its normals a fin has no width, as they note.
 //!
-//! Rejected: their test of face normals against the line of sight to each vertex;
-//! two ends of one edge can then disagree. Fins stand on the edges that
-//! [`crate::view::feature`] finds; boundaries are always among them, which is what the
-//! negated second normal is for there.
+//! Rejected: their test of face normals against the line of sight to each vertex, in which the two
+//! ends of an edge can disagree. Fins stand on the edges that [`crate::view::classify_edge`] draws.
+//! These include all boundaries, as the negated second normal does in their method.
 //!
 //! WGSL twin: `shaders/common/stroke_vertex.wgsl`.
 
@@ -28,43 +26,42 @@ use super::stroke_quad::stroke_sign;
 use super::stroke_segment::{
     ClipEdge, Segment, StrokeShape, opacity_at, stroke_segment, stroke_u, width_at,
 };
-use crate::line::kind::{CAP_VERTICES, DISK_STEPS, DISK_VERTICES, LineKind};
-use crate::view::feature::LineBits;
+use crate::line::{CAP_VERTICES, DISK_STEPS, DISK_VERTICES, LineKind};
+use crate::view::LineBits;
 
-/// Where vertices go that must not be seen: behind the near plane, as in the
-/// paper's section 3.2.
-pub const BEHIND: Vec3 = Vec3::new(0.0, 0.0, -1.0);
+/// The position of culled vertices, behind the near plane (paper, section 3.2).
+const BEHIND: Vec3 = Vec3::new(0.0, 0.0, -1.0);
 
-/// So far outside of a contour nothing of its own surface is left, whatever sample
-/// of the pixel is asked; and one pixel more, by which the fill is pushed back, so
-/// that an edge does not escape what hides it closely.
+/// The distance of the visibility test of a contour from its edge, in pixels. So far outside, no
+/// sample of the pixel shows the surface of the contour; one pixel more, by which the fill is
+/// pushed back, keeps edges hidden by what lies closely before them.
 pub const FOOT_PX: f32 = 2.5;
 
 /// A vertex for the rasterizer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StrokeVertex {
-    /// Of the clip volume, with w = 1, so that everything is linear on the screen.
+    /// Position in clip space with w = 1, so that interpolation is linear on the screen.
     pub position: Vec3,
-    /// Along the brush.
+    /// Coordinate along the brush, in lengths of the brush.
     pub u: f32,
-    /// Across the brush, 0 outside to 1 inside.
+    /// Coordinate across the brush, 0 outside to 1 inside.
     pub v: f32,
-    /// What is left of the stroke after fading.
+    /// Opacity after fading, 0 to 1.
     pub opacity: f32,
-    /// Where to ask whether a contour is visible: [`FOOT_PX`] beside it, off the
-    /// surface, in pixels from the middle of the picture; with the depth of the
-    /// edge there.
+    /// The point that decides whether a contour is visible: [`FOOT_PX`] beside it, off the surface,
+    /// in pixels from the middle of the picture, with the depth of the edge.
     pub foot: Vec3,
-    /// How far the vertex lies over the surface that a contour bounds, in pixels;
-    /// negative off it, 0 for what is no contour.
+    /// Distance over the surface that a contour bounds, in pixels; negative off the surface, 0 for
+    /// other lines.
     pub over_px: f32,
 }
 
-/// A vertex where nothing is drawn. WGSL twin: `culled_vertex`.
+/// A culled vertex. WGSL twin: `culled_vertex`.
 const CULLED: StrokeVertex =
     StrokeVertex { position: BEHIND, u: 0.0, v: 0.0, opacity: 0.0, foot: Vec3::ZERO, over_px: 0.0 };
 
-/// Vertex `corner` of the stroke along `edge`.
+/// Computes vertex `corner` of the stroke along `edge`; `corner` is below
+/// [`LineKind::vertex_count`].
 #[must_use]
 pub fn stroke_vertex(
     edge: &ClipEdge,
@@ -78,7 +75,7 @@ pub fn stroke_vertex(
     segment_vertex(&stroke_segment(edge, shape, bits), shape, corner)
 }
 
-/// Vertex `corner` of a stroke.
+/// Computes vertex `corner` of a stroke.
 #[must_use]
 pub fn segment_vertex(segment: &Segment, shape: &StrokeShape, corner: u32) -> StrokeVertex {
     let spine = &segment.spine;
@@ -117,8 +114,8 @@ fn cap_vertex(segment: &Segment, shape: &StrokeShape, is_end: bool, i: u32) -> S
     let side = of_end(segment.cap_side, is_end);
     let (m, forward) = if is_end { (segment.m1, 1.0) } else { (segment.m0, -1.0) };
     let j = cap_corner(side, i);
-    // A cap that is left out has no area. Sent behind the near plane, it would cost
-    // rasterizers their fast path for all that is drawn with it.
+    // A cap that is left out has no area. Behind the near plane it would take rasterizers off their
+    // fast path for the whole draw.
     if j == 0 || !cap_fills_gap(segment.spine.p, m, side, forward) {
         return at_end(segment, shape, is_end, Vec2::ZERO, 0.0, segment.v_spine);
     }
@@ -185,7 +182,7 @@ fn fin_vertex(edge: &ClipEdge, shape: &StrokeShape, corner: u32) -> StrokeVertex
     let [start, end] = [spine.t0, spine.t1].map(|t| lerp(edge.c0, edge.c1, t));
     let tip = |foot: Vec4, t: f32| foot + lerp(edge.n0, edge.n1, t) * fin_height(foot, shape);
     let (start_tip, end_tip) = (tip(start, spine.t0), tip(end, spine.t1));
-    // A fin that reaches behind the near plane has no place on the screen.
+    // A fin that reaches behind the near plane has no position on the screen.
     if [start_tip, end_tip].iter().any(|tip| tip.w - tip.z <= 0.0) {
         return CULLED;
     }
@@ -203,7 +200,7 @@ fn fin_vertex(edge: &ClipEdge, shape: &StrokeShape, corner: u32) -> StrokeVertex
     }
 }
 
-/// How far a fin stands out, in units of the world.
+/// The height of a fin, in units of the world.
 fn fin_height(clip: Vec4, shape: &StrokeShape) -> f32 {
     if shape.is_world_width {
         return shape.width;
@@ -214,7 +211,7 @@ fn fin_height(clip: Vec4, shape: &StrokeShape) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::line::placement::{Parameterization, Placement};
+    use crate::line::{Parameterization, Placement};
 
     const SHAPE: StrokeShape = StrokeShape {
         viewport_px: Vec2::new(200.0, 100.0),
@@ -228,7 +225,7 @@ mod tests {
         placement: Placement::Automatic,
         parameterization: Parameterization::ObjectSpace,
         is_world_width: false,
-        guard_band: crate::view::projection::WHOLE_BAND,
+        guard_band: crate::view::WHOLE_BAND,
     };
 
     fn edge() -> ClipEdge {
@@ -263,12 +260,12 @@ mod tests {
         assert_eq!(rim(&mirrored, LineBits::CONTOUR), [40.0, -4.0]);
         let inside = StrokeShape { placement: Placement::Inside, ..SHAPE };
         assert_eq!(rim(&inside, LineBits::CONTOUR), [40.0, -4.0]);
-        let centred = StrokeShape { placement: Placement::Centred, ..SHAPE };
-        assert_eq!(rim(&centred, LineBits::CONTOUR), [40.0, 2.0]);
+        let centered = StrokeShape { placement: Placement::Centred, ..SHAPE };
+        assert_eq!(rim(&centered, LineBits::CONTOUR), [40.0, 2.0]);
     }
 
     #[test]
-    fn a_crease_is_centred_and_its_brush_starts_at_r() {
+    fn a_crease_is_centered_and_its_brush_starts_at_r() {
         let corners = [0, 1, 2, 3].map(|corner| vertex(&SHAPE, LineBits::empty(), corner));
         assert_eq!(corners.map(pixels), [[0., -2.], [40., -2.], [40., 2.], [0., 2.]]);
         // The normal points up: the upper rim is the outside, v = 0.

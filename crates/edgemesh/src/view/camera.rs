@@ -1,9 +1,8 @@
-//! The camera: where the eye is, and the matrix that takes the world to the clip
-//! volume.
+//! The camera: the eye, and the matrix from the world to clip space.
 //!
-//! Depth is reversed (1 at the near plane, 0 at the far one): with a 32-bit
-//! float buffer that spreads the precision evenly over the distance. Everything
-//! is worked out in 64 bits and rounded once.
+//! Depth is reversed, 1 at the near plane and 0 at the far plane: in a 32-bit float buffer this
+//! spreads the precision evenly over the distance. Everything is computed in 64 bits and rounded
+//! once.
 
 use glam::dcamera::rh::proj::directx;
 use glam::dcamera::rh::view::look_to_mat4;
@@ -12,37 +11,36 @@ use thiserror::Error;
 
 use crate::edge_mesh::Bounds;
 
-/// The direction from the model to the eye where none is given.
+/// The default direction from the model to the eye.
 pub const DEFAULT_DIRECTION: DVec3 = DVec3::new(1.0, 0.6, 1.2);
 
-/// The distance of the default eye in bounding radii: the whole bounding sphere
-/// is then in the picture.
+/// The default distance of the eye, in bounding radii; the picture then holds the whole bounding
+/// sphere.
 pub const DEFAULT_DISTANCE_RADII: f64 = 3.0;
 
-/// The default vertical field of view: 40 degrees.
+/// The default vertical field of view, in degrees.
 pub const DEFAULT_FOV_Y_DEG: f64 = 40.0;
 
-/// The near plane is never closer than this many bounding radii.
+/// The least distance of the near plane, in bounding radii.
 const MIN_NEAR_RADII: f64 = 1e-4;
 
 /// A camera in the units of the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
-    /// The eye; in orthographic views only its direction from the target and
-    /// its distance count.
+    /// The eye. An orthographic view uses only its direction and distance from the target.
     pub eye: DVec3,
-    /// The point looked at.
+    /// The point in the middle of the picture.
     pub target: DVec3,
     /// The direction that points up in the picture.
     pub up: DVec3,
-    /// Vertical field of view in radians; in orthographic views it gives the
-    /// height of the picture, 2 d tan(fov / 2) at distance d.
+    /// Vertical field of view in radians. An orthographic picture is 2 d tan(fov / 2) high, where
+    /// d is the distance from the eye to the target.
     pub fov_y_rad: f64,
-    /// Whether lines of sight are parallel.
+    /// Whether the projection is orthographic.
     pub is_orthographic: bool,
 }
 
-/// Why a camera sees nothing.
+/// A camera has no view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum CameraError {
@@ -54,25 +52,24 @@ pub enum CameraError {
     UpAlongSight,
 }
 
-/// What one view needs on the GPU and in the oracle.
+/// A view, as the GPU and the oracle need it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
     /// Takes world positions to clip space; depth 1 near, 0 far.
     pub clip_from_world: Mat4,
     /// The eye with w = 1, or the direction to the viewer with w = 0.
     pub eye: Vec4,
-    /// The distance of a point (with w = 1) from the eye along the direction of
-    /// sight is its product with this.
+    /// The dot product with a point (w = 1) is its distance from the eye along the direction of
+    /// sight.
     pub distance: Vec4,
 }
 
 impl View {
-    /// The view of a program that has its own camera: `clip_from_world` with depth 1 at the
-    /// near plane and 0 at the far one, and the eye with w = 1, or the direction to the viewer
-    /// with w = 0.
+    /// The view of a program with another camera: `clip_from_world` with depth 1 at the near plane
+    /// and 0 at the far plane, and the eye with w = 1 or the direction to the viewer with w = 0.
     #[must_use]
     pub fn from_matrix(clip_from_world: Mat4, eye: Vec4) -> Self {
-        // In perspective w is the distance along the line of sight, times a constant.
+        // In perspective, w is a multiple of the distance along the direction of sight.
         let forward = match eye.w {
             0.0 => -eye.truncate(),
             _ => clip_from_world.row(3).truncate(),
@@ -84,8 +81,8 @@ impl View {
 }
 
 impl Camera {
-    /// The view that every command uses where none is given: from the direction
-    /// (1, 0.6, 1.2), at 3 bounding radii, up +Y, 40 degrees.
+    /// The default camera of all commands: from the direction (1, 0.6, 1.2), at 3 bounding radii,
+    /// with +Y up and a field of view of 40 degrees.
     #[must_use]
     pub fn default_view(bounds: &Bounds) -> Self {
         let target = bounds.center();
@@ -99,25 +96,25 @@ impl Camera {
         }
     }
 
-    /// The view of a picture `aspect` times as wide as high, with near and far
-    /// planes around the bounding sphere of `bounds`.
+    /// The view of a picture `aspect` times as wide as high, with near and far planes around the
+    /// bounding sphere of `bounds`.
     #[must_use]
     pub fn view(&self, bounds: &Bounds, aspect: f64) -> View {
         let radius = usable_radius(bounds);
         let forward = (self.target - self.eye).try_normalize().unwrap_or(DVec3::NEG_Z);
-        // Looking straight up or down leaves no direction for up; any will do.
+        // Looking along `up` leaves the roll open; any other direction will do.
         let up = match forward.cross(self.up).try_normalize() {
             Some(_) => self.up,
             None => forward.any_orthonormal_vector(),
         };
         let view_from_world = look_to_mat4(self.eye, forward, up);
         let middle = (bounds.center() - self.eye).dot(forward);
-        // A little air, so that rounding cuts nothing off at the sphere itself.
+        // With a margin, so that rounding does not cut the sphere.
         let (near, far) = (middle - 1.01 * radius, middle + 1.01 * radius);
         let clip_from_view = if self.is_orthographic {
             let half_height = (self.target - self.eye).length() * (self.fov_y_rad / 2.0).tan();
             let half_width = half_height * aspect;
-            // Near and far change places: that reverses the depth.
+            // Swapping near and far reverses the depth.
             directx::orthographic(-half_width, half_width, -half_height, half_height, far, near)
         } else {
             let near = near.max(MIN_NEAR_RADII * radius);

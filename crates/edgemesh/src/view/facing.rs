@@ -1,11 +1,11 @@
-//! Which side of a face the eye is on (paper, section 3.2, Equation 1).
+//! Facing: the side of a face that the eye is on (paper, section 3.2, Equation 1).
 //!
-//! One bit a face, worked out once: if each edge asked for itself, two edges of
-//! one face could disagree in the last bit and a contour would not close.
+//! One bit for each face, computed once: computed for each edge, two edges of a face could disagree
+//! in the last bit, and a contour would not close.
 //!
-//! As printed a face is a back face when n . (eye - v0) < 0, so that zero counts
-//! as front. Here zero counts as back, everywhere: a cube seen exactly from the
-//! front then draws its front outline, once.
+//! In the paper a face is a back face if n . (eye - v0) < 0, so zero counts as front. Here zero
+//! counts as back everywhere: a cube seen exactly from the front then draws its front outline,
+//! once.
 //!
 //! WGSL twin: `shaders/common/facing.wgsl`.
 
@@ -15,8 +15,7 @@ use crate::edge_mesh::FacePlane;
 
 /// Whether the face looks at the eye: n . (eye.xyz - eye.w p) > 0.
 ///
-/// `eye` is the eye-point with w = 1, or, where lines of sight are parallel, the
-/// direction to the viewer with w = 0.
+/// `eye` is the eye with w = 1, or in orthographic views the direction to the viewer with w = 0.
 #[must_use]
 pub fn faces_eye(plane: &FacePlane, eye: Vec4) -> bool {
     let [nx, ny, nz, _] = plane.normal;

@@ -1,67 +1,65 @@
 //! Which edges are features of a view (paper, section 3.2, Equation 1).
 //!
-//! The indexed layout decides from facing bits and static flags
-//! ([`classify_edge`]); the paper's replicated layout decides from the edge
-//! vertex alone ([`equation_1`](crate::oracle::equation_1)). A property test holds them to each other.
-//! Which of the classes of an edge counts, and in which layer it is drawn, says a
-//! [`ClassTable`].
+//! The indexed layout decides from facing bits and static flags ([`classify_edge`]), the replicated
+//! layout of the paper from the edge vertex alone ([`equation_1`](crate::oracle::equation_1)); a
+//! property test compares the two. A [`ClassTable`] decides which class of an edge counts, and its
+//! layer.
 //!
 //! WGSL twin of [`classify_edge`]: `shaders/common/feature.wgsl`.
 
 use glam::{Vec3, Vec4};
 
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::edge_word::{EdgeWord, STEPS_PER_DEGREE};
-use crate::line::class::{ClassTable, LineClass, NO_LAYER};
+use crate::edge_mesh::{EdgeFlags, EdgeWord, STEPS_PER_DEGREE};
+use crate::line::{ClassTable, LineClass, NO_LAYER};
 
 bitflags::bitflags! {
-    /// What a view says of an edge. The first three bits sit where the live list
-    /// of the GPU carries them, above the edge's index.
+    /// The state of an edge in a view. The first three bits are those of the live list of the
+    /// GPU, above the index of the edge.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
     pub struct LineBits: u32 {
         /// Exactly one of the two faces looks at the eye.
         const CONTOUR = 1 << 31;
-        /// Face A looks at the eye. For a contour this says which side is the
-        /// outside: a front face lies left of its own direction of traversal.
+        /// Face A looks at the eye. For a contour this tells the outside: a front face lies left
+        /// of its direction of traversal.
         const A_FACES = 1 << 30;
-        /// The solid that the edge is on hides it from an eye outside.
+        /// The solid of the edge hides it from an eye outside.
         const BEHIND_SOLID = 1 << 29;
-        /// The edge is drawn: a contour, or of a class that always is.
+        /// The edge is drawn: a contour, or of a class that is always drawn.
         const DRAWN = 1 << 28;
     }
 }
 
-/// From this many steps on, one degree, an edge is a groove: flatter ones could be
-/// concave by rounding alone, most of all at 16 bits.
+/// The least crease angle of a groove, in steps: one degree. Flatter edges could be concave by
+/// rounding alone, most of all at 16 bits.
 pub const LEAST_GROOVE_STEPS: u32 = STEPS_PER_DEGREE;
 
-/// Up to this many steps, 150 degrees, an edge is a groove. Beyond it is a fold; in
-/// many meshes that is a face turned over, behind which nothing hides it.
+/// The largest crease angle of a groove, in steps: 150 degrees. Sharper edges are folds; in many
+/// meshes these are faces turned over, which nothing hides.
 pub const MOST_GROOVE_STEPS: u32 = 150 * STEPS_PER_DEGREE;
 
-/// The faces of an edge as a view sees them.
+/// The facing of the faces of an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct EdgeFaces {
-    /// Whether there is a second face; else `b_faces` is unused.
+    /// Whether there is a second face; otherwise `b_faces` is unused.
     pub has_b: bool,
     /// Whether face A looks at the eye.
     pub a_faces: bool,
-    /// Whether face B does.
+    /// Whether face B looks at the eye.
     pub b_faces: bool,
 }
 
-/// What a view makes of an edge.
+/// An edge in a view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Line {
     /// Contour, facing, and whether it is drawn.
     pub bits: LineBits,
-    /// The layer it belongs to, or [`NO_LAYER`].
+    /// The layer that draws the edge, or [`NO_LAYER`].
     pub layer: u32,
 }
 
-/// The bits of the classes that an edge is of in every view.
+/// The bits of the classes of an edge that no view changes.
 #[must_use]
-pub fn static_classes(word: EdgeWord, table: &ClassTable) -> u32 {
+pub(crate) fn static_classes(word: EdgeWord, table: &ClassTable) -> u32 {
     let flags = word.flags();
     let is_crease = |steps: u32, is_concave: bool| {
         word.is_concave() == is_concave && word.crease_steps() >= steps
@@ -75,16 +73,15 @@ pub fn static_classes(word: EdgeWord, table: &ClassTable) -> u32 {
     bits.fold(0, |classes, bit| classes | bit)
 }
 
-/// Decides what a view makes of one edge.
+/// Classifies an edge in a view.
 ///
-/// Pairs of a non-manifold edge are drawn in every view and are no contours.
+/// Pairs of a non-manifold edge are drawn in every view and are never contours.
 ///
-/// An edge of a solid with both faces turned away from an eye outside of it is
-/// hidden by the solid itself, and is not drawn unless the table keeps it. So is a
-/// contour in a groove: a line of sight beside it would meet the back face first, and
-/// be inside of the solid already. Left to the depth test such edges would show at
-/// their ends, where their width reaches past the faces in front; and on rough
-/// meshes every other contour is one.
+/// A solid hides its edges whose faces both look away from an eye outside of it; they are not
+/// drawn unless the table keeps them. It also hides contours in its grooves: a line of sight beside
+/// such a contour would meet the back face first, and so be inside of the solid already. With the
+/// depth test alone these edges would show at their ends, where their width reaches past the faces
+/// in front. On rough meshes they are half of all contours.
 #[must_use]
 pub fn classify_edge(
     word: EdgeWord,
@@ -95,7 +92,7 @@ pub fn classify_edge(
     let flags = word.flags();
     let b_faces = faces.b_faces != flags.contains(EdgeFlags::CLASH);
     let is_manifold = faces.has_b && !flags.contains(EdgeFlags::NON_MANIFOLD);
-    // Contour where exactly one of the two faces looks at the eye.
+    // A contour has exactly one face that looks at the eye.
     let is_contour = is_manifold && faces.a_faces != b_faces;
     let classes = (static_classes(word, table) | u32::from(is_contour)) & table.drawn;
     let is_turned_away = !faces.a_faces && !b_faces;
@@ -118,8 +115,8 @@ fn is_groove(word: EdgeWord) -> bool {
     word.is_concave() && range.contains(&word.crease_steps())
 }
 
-/// Whether the eye lies outside of the box from `min` to `max`, and so outside of
-/// every solid in it; a viewer at infinity (w = 0) does.
+/// Whether the eye lies outside of the box from `min` to `max`, and so outside of every solid in
+/// it. A viewer at infinity (w = 0) always does.
 #[must_use]
 pub fn eye_is_outside(eye: Vec4, min: Vec3, max: Vec3) -> bool {
     let eye_point = eye.truncate();

@@ -1,28 +1,24 @@
-//! Which edges of a mesh are features of a view, all at once, and how many of each class.
+//! Classifies all edges of a mesh in a view, and counts the features of each class.
 
 use std::ops::{Index, IndexMut};
 
 use glam::Vec4;
 use serde::{Serialize, Serializer};
 
-use crate::edge_mesh::EdgeMesh;
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::edge_word::EdgeWord;
-use crate::edge_mesh::edge_words::edge_words;
-use crate::edge_mesh::record::EdgeRecord;
+use crate::edge_mesh::{EdgeFlags, EdgeMesh, EdgeRecord, EdgeWord, edge_words};
 use crate::index::NONE;
-use crate::line::class::{ClassTable, LineClass};
+use crate::line::{ClassTable, LineClass};
 use crate::view::facing::faces_eye;
 use crate::view::feature::{EdgeFaces, Line, LineBits, classify_edge, eye_is_outside};
 
-/// How many edges are of each class in a view; an edge can be of several. Edges that more
-/// than two faces share are of none.
+/// The number of edges of each class in a view. An edge can be of several classes; edges of more
+/// than two faces are not counted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct FeatureCounts(pub [u32; LineClass::COUNT]);
 
 impl FeatureCounts {
-    /// The classes in the order of reports.
-    pub const IN_REPORTS: [LineClass; LineClass::COUNT] = [
+    /// The classes in the order of JSON.
+    pub(crate) const IN_REPORTS: [LineClass; LineClass::COUNT] = [
         LineClass::Contour,
         LineClass::Ridge,
         LineClass::Valley,
@@ -53,14 +49,13 @@ impl Serialize for FeatureCounts {
     }
 }
 
-/// One facing bit a face: whether it faces `eye` (w = 1), or the direction to
-/// the viewer (w = 0).
+/// Whether each face looks at `eye` (w = 1), or at the viewer in that direction (w = 0).
 #[must_use]
 pub fn facing_bits(mesh: &EdgeMesh, eye: Vec4) -> Vec<bool> {
     mesh.face_planes.iter().map(|plane| faces_eye(plane, eye)).collect()
 }
 
-/// What a view makes of every record, in order; all classes in one layer.
+/// Classifies all records of a mesh, in order, with all classes in one layer.
 #[must_use]
 pub fn classify_edges(mesh: &EdgeMesh, eye: Vec4) -> Vec<LineBits> {
     let words = edge_words(mesh);
@@ -69,7 +64,9 @@ pub fn classify_edges(mesh: &EdgeMesh, eye: Vec4) -> Vec<LineBits> {
     lines.into_iter().map(|line| line.bits).collect()
 }
 
-/// What a view makes of every record with its word, in order.
+/// Classifies all records of a mesh by their words, in order.
+///
+/// `eye` has w = 1, or is the direction to the viewer with w = 0.
 #[must_use]
 pub fn classify_lines(
     mesh: &EdgeMesh,
@@ -90,7 +87,7 @@ pub fn classify_lines(
         .collect()
 }
 
-/// Counts the feature edges of a view, class by class.
+/// Counts the feature edges of each class, seen by `eye` (w = 1), or from that direction (w = 0).
 #[must_use]
 pub fn count_features(mesh: &EdgeMesh, eye: Vec4) -> FeatureCounts {
     let mut counts = FeatureCounts::default();

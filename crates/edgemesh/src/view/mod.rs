@@ -1,13 +1,20 @@
-//! What one view makes of an edge mesh, on the CPU.
-//!
-//! - [`camera`]: the eye and the clip-space matrix, the same for every command.
-//! - [`projection`]: from clip space to pixels.
-//! - [`facing`]: which side of a face the eye is on.
-//! - [`feature`]: which edges are features of the view.
-//! - [`feature_counts`]: how many of each class there are.
+//! One view of an edge mesh, on the CPU: the camera, which faces look at the eye, and which edges
+//! are features.
 
-pub mod camera;
-pub mod facing;
-pub mod feature;
-pub mod feature_counts;
-pub mod projection;
+mod camera;
+mod facing;
+mod feature;
+mod feature_counts;
+mod projection;
+
+pub use self::camera::{
+    Camera, CameraError, DEFAULT_DIRECTION, DEFAULT_DISTANCE_RADII, DEFAULT_FOV_Y_DEG, View,
+};
+pub use self::facing::faces_eye;
+pub use self::feature::{
+    EdgeFaces, LEAST_GROOVE_STEPS, Line, LineBits, MOST_GROOVE_STEPS, classify_edge, eye_is_outside,
+};
+pub use self::feature_counts::{
+    FeatureCounts, classify_edges, classify_lines, count_features, facing_bits,
+};
+pub use self::projection::{GUARD_BAND, WHOLE_BAND, to_pixels};

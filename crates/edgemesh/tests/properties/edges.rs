@@ -1,16 +1,12 @@
-//! Edges counted again by plain maps, and what must not depend on order.
+//! Edges, counted again with plain maps, and independence of order.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use edgemesh::build::BuildOptions;
-use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_mesh::edge_flags::EdgeFlags;
-use edgemesh::edge_mesh::record::EdgeRecord;
-use edgemesh::edge_mesh::replicate::replicate;
-use edgemesh::edge_mesh::topology::EdgeCounts;
+use edgemesh::edge_mesh::{EdgeCounts, EdgeFlags, EdgeMesh, EdgeRecord, replicate};
 use edgemesh::index::NONE;
 use edgemesh::report::{RepairKind, WarningCode};
-use edgemesh::view::{feature, feature_counts};
+use edgemesh::view::{LineBits, classify_edges};
 use proptest::prelude::*;
 
 use crate::config;
@@ -30,11 +26,11 @@ fn place(position: [f32; 3]) -> Place {
     position.map(key)
 }
 
-/// What a mesh of triangles is, worked out in the plainest way.
+/// A mesh of triangles, computed in the plainest way.
 struct Naive {
     /// Triangles with three different places.
     proper: Vec<[Place; 3]>,
-    /// Those without the ones that repeat another.
+    /// `proper` without triangles that repeat another.
     unique: Vec<[Place; 3]>,
     degenerate: usize,
     places: usize,
@@ -60,7 +56,7 @@ impl Naive {
     }
 }
 
-/// The same triangle, smallest corner first.
+/// The triangle with its smallest corner first.
 fn cyclic([a, b, c]: [Place; 3]) -> [Place; 3] {
     [[a, b, c], [b, c, a], [c, a, b]].into_iter().min().unwrap()
 }
@@ -229,7 +225,7 @@ proptest! {
             ])), "{:?}", vertex);
             prop_assert!((0.0..1.0).contains(&vertex.r), "{:?}", vertex);
         }
-        let bits = feature_counts::classify_edges(&built, eye.into());
+        let bits = classify_edges(&built, eye.into());
         prop_assert_eq!(bits.len(), built.records.len());
     }
 
@@ -267,8 +263,8 @@ fn reordered(mesh: &Mesh, seed: u64) -> Mesh {
 
 /// The flags of each edge and whether it is a contour, by its ends.
 fn classes(mesh: &EdgeMesh, eye: [f32; 4]) -> BTreeMap<(Place, Place), (EdgeFlags, bool)> {
-    let bits = feature_counts::classify_edges(mesh, eye.into());
-    let is_contour = |bits: feature::LineBits| bits.contains(feature::LineBits::CONTOUR);
+    let bits = classify_edges(mesh, eye.into());
+    let is_contour = |bits: LineBits| bits.contains(LineBits::CONTOUR);
     mesh.records
         .iter()
         .zip(bits)

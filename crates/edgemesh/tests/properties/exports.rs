@@ -1,27 +1,24 @@
-//! What is written reads back as the edge mesh that it is from: by the small
-//! reader of [`gltf_edges`](crate::gltf_edges), by the readers of this crate, and
-//! by a reader of JSON.
+//! Exported files give back their edge mesh: with the small reader of
+//! [`gltf_edges`](crate::gltf_edges), with the readers of this crate, and with a reader of JSON.
 
 #![expect(clippy::missing_assert_message, reason = "each compares a part of a file with the mesh")]
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_mesh::edge_flags::{EdgeFlags, class_names};
+use edgemesh::edge_mesh::{EdgeFlags, EdgeMesh, class_names};
 use edgemesh::format::export::{ExportFormat, to_bytes};
 use edgemesh::format::read::{Format, read_model_bytes};
 use edgemesh::index::NONE;
 use edgemesh::model::{Attributes, Model, Segment};
 use edgemesh::report::Report;
-use edgemesh::view::feature::LineBits;
-use edgemesh::view::feature_counts::classify_edges;
+use edgemesh::view::{LineBits, classify_edges};
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 use serde_json::Value;
 
 use crate::config;
-use crate::gltf_edges::{Decoded, Edge, decode, edge};
+use crate::gltf_edges::{DecodedFile, Edge, decode, edge};
 use crate::meshes::{
     Mesh, closed_mesh, moebius_strip, one_sided_mesh, oriented_mesh, sheet, soup, torus,
 };
@@ -36,7 +33,7 @@ fn export(mesh: &EdgeMesh, format: ExportFormat) -> Vec<u8> {
     to_bytes(mesh, NAME, format).unwrap()
 }
 
-/// Meshes that differ in what their edges are.
+/// Meshes with edges of different kinds.
 fn samples() -> Vec<(&'static str, Model)> {
     let cube: Vec<[f32; 3]> =
         (0..8_u8).map(|k| [k & 1, k >> 1 & 1, k >> 2].map(f32::from)).collect();
@@ -115,15 +112,15 @@ fn hard_edges(mesh: &EdgeMesh) -> [BTreeMap<Edge, Vec<String>>; 2] {
     flags.map(|flags| flags.into_iter().map(|(edge, flags)| (edge, words(flags))).collect())
 }
 
-/// The unit normal of a face, worked out again.
+/// The unit normal of a face, computed again.
 fn normal(mesh: &EdgeMesh, face: u32) -> DVec3 {
     let [a, b, c] = mesh.triangles[face as usize]
         .map(|vertex| Vec3::from(mesh.positions[vertex as usize]).as_dvec3());
     (b - a).cross(c - a).normalize_or_zero()
 }
 
-/// Asserts that a file says of each edge what the mesh does.
-fn check_gltf(mesh: &EdgeMesh, decoded: &Decoded) {
+/// Asserts that a file describes each edge as the mesh does.
+fn check_gltf(mesh: &EdgeMesh, decoded: &DecodedFile) {
     let [hard, lines] = hard_edges(mesh);
     assert_eq!(decoded.name, NAME);
     assert_eq!(decoded.hard, hard);
@@ -140,7 +137,7 @@ fn check_gltf(mesh: &EdgeMesh, decoded: &Decoded) {
 }
 
 /// Edges of two faces that are not hard are silhouettes, unless flat.
-fn check_silhouettes(mesh: &EdgeMesh, decoded: &Decoded) {
+fn check_silhouettes(mesh: &EdgeMesh, decoded: &DecodedFile) {
     let mut seen = 0;
     for record in &mesh.records {
         if record.flags.intersects(EdgeFlags::ALWAYS_DRAWN) {
@@ -152,7 +149,7 @@ fn check_silhouettes(mesh: &EdgeMesh, decoded: &Decoded) {
         let sign = if record.flags.contains(EdgeFlags::CLASH) { -1.0 } else { 1.0 };
         let [a, b] = [normal(mesh, record.face_a), normal(mesh, record.face_b) * sign];
         if a == DVec3::ZERO || b == DVec3::ZERO {
-            continue; // The plane of a neighbour, or none.
+            continue; // The plane of a neighbor, or none.
         }
         match found {
             None => assert!(a.distance(b) < 2e-6, "{a} and {b} are not flat"),
@@ -351,6 +348,7 @@ fn positions_in(bytes: &[u8], format: ExportFormat) -> Vec<[f64; 3]> {
             let json: Value = serde_json::from_slice(bytes).unwrap();
             serde_json::from_value(json["positions"].clone()).unwrap()
         }
+        other => panic!("{other:?} has no reader here"),
     }
 }
 
@@ -366,7 +364,7 @@ fn contours(mesh: &EdgeMesh, eye: Vec3) -> BTreeSet<Edge> {
 }
 
 /// The silhouette edges of a file that are drawn from an eye.
-fn drawn(decoded: &Decoded, eye: Vec3) -> BTreeSet<Edge> {
+fn drawn(decoded: &DecodedFile, eye: Vec3) -> BTreeSet<Edge> {
     let is_drawn = |(edge, normals): &(&Edge, &[[f32; 3]; 2])| {
         let to_eye = eye - Vec3::from(edge[0].map(f32::from_bits));
         let [a, b] = normals.map(|normal| Vec3::from(normal).dot(to_eye) > 0.0);

@@ -15,7 +15,7 @@ fn any_mesh() -> impl Strategy<Value = Mesh> {
 proptest! {
     #![proptest_config(config(512))]
 
-    /// What is written is read: the mesh, its report, its name.
+    /// A written file gives back the mesh, its report and its name.
     #[test]
     fn files_give_back_what_was_built(mesh in any_mesh(), name in ".{0,9}") {
         let (built, report) = mesh.build_with(&BuildOptions::default());
@@ -26,7 +26,7 @@ proptest! {
         prop_assert_eq!((stored.name.as_ref(), stored.report()), (name.as_str(), &report));
     }
 
-    /// A sound header does not make a file.
+    /// A sound header alone is not a file.
     #[test]
     fn other_bytes_are_refused(count in 0..4_u32, content in vec(any::<u8>(), 0..200)) {
         let length = 56 + content.len() as u64;

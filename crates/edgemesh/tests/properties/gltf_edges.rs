@@ -1,8 +1,7 @@
-//! A small reader of glTF with `EXT_mesh_primitive_edge_visibility`, written
-//! from the two specifications and from nothing in the writer.
+//! A small reader of glTF with `EXT_mesh_primitive_edge_visibility`, written from the two
+//! specifications alone, not from the writer.
 //!
-//! It takes nothing for granted: each rule of the extension is asserted, so that
-//! a file which breaks one fails wherever it is read.
+//! It asserts each rule of the extension, so that a file that breaks one fails in every test.
 
 #![expect(clippy::missing_assert_message, reason = "each is a rule of the specifications")]
 
@@ -22,19 +21,19 @@ pub(crate) fn edge(ends: [[f32; 3]; 2]) -> Edge {
     [a.min(b), a.max(b)]
 }
 
-/// What a file says of its one mesh.
+/// The mesh of a file.
 #[derive(Debug, Default, PartialEq)]
-pub(crate) struct Decoded {
+pub(crate) struct DecodedFile {
     pub(crate) name: String,
     /// In units of their node.
     pub(crate) positions: Vec<[f32; 3]>,
     pub(crate) normals: Vec<[f32; 3]>,
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// Lines that are no edge of a triangle.
+    /// Lines that are not edges of a triangle.
     pub(crate) lines: BTreeSet<Edge>,
     /// Hard edges with the words that `extras` have for them.
     pub(crate) hard: BTreeMap<Edge, Vec<String>>,
-    /// Those of them that are in line strings.
+    /// Hard edges in line strings.
     pub(crate) in_strings: BTreeSet<Edge>,
     /// Silhouette edges with two normals: of the triangle that lists the edge,
     /// and of the one across.
@@ -50,7 +49,7 @@ struct File {
 }
 
 /// Reads JSON with its data inside, or a binary file.
-pub(crate) fn decode(bytes: &[u8]) -> Decoded {
+pub(crate) fn decode(bytes: &[u8]) -> DecodedFile {
     let file = if bytes.starts_with(b"glTF") { open_glb(bytes) } else { open_gltf(bytes) };
     assert_eq!(file.json["asset"]["version"], "2.0");
     assert!(file.json["asset"]["generator"].as_str().unwrap().starts_with("Edgemesh "));
@@ -61,11 +60,11 @@ pub(crate) fn decode(bytes: &[u8]) -> Decoded {
         assert_eq!(children, &serde_json::json!([1]));
         &file.json["nodes"][1]
     });
-    let mut decoded = Decoded {
+    let mut decoded = DecodedFile {
         name: root["name"].as_str().unwrap().into(),
         translation: vector(root, "translation", 0.0),
         scale: vector(node, "scale", 1.0),
-        ..Decoded::default()
+        ..DecodedFile::default()
     };
     if !std::ptr::eq(root, node) {
         let within = vector(node, "translation", 0.0);
@@ -149,7 +148,7 @@ impl File {
         vectors.into_iter().map(|vector| vector.map(f32::from_bits)).collect()
     }
 
-    fn read_primitive(&self, primitive: &Value, decoded: &mut Decoded) {
+    fn read_primitive(&self, primitive: &Value, decoded: &mut DecodedFile) {
         let position = &primitive["attributes"]["POSITION"];
         decoded.positions = self.vectors(position);
         self.check_box(position, &decoded.positions);
@@ -183,7 +182,7 @@ impl File {
         }
     }
 
-    fn read_edges(&self, extension: &Value, decoded: &mut Decoded) {
+    fn read_edges(&self, extension: &Value, decoded: &mut DecodedFile) {
         assert!(extension.get("visibility").or(extension.get("lineStrings")).is_some());
         for strings in extension.get("lineStrings").and_then(Value::as_array).into_iter().flatten()
         {
@@ -233,7 +232,7 @@ impl File {
         (0..count).map(value).collect()
     }
 
-    fn read_strings(&self, strings: &Value, decoded: &mut Decoded) {
+    fn read_strings(&self, strings: &Value, decoded: &mut DecodedFile) {
         let (component, indices) = self.read::<1>(&strings["indices"], "SCALAR");
         let restart = if component == 5123 { 0xffff } else { 0xffff_ffff };
         let mut classes = words(&strings["extras"]).into_iter();
@@ -251,7 +250,7 @@ impl File {
     }
 }
 
-impl Decoded {
+impl DecodedFile {
     fn edge(&self, ends: [u32; 2]) -> Edge {
         edge(ends.map(|end| self.positions[end as usize]))
     }

@@ -3,10 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use edgemesh::build::{BuildOptions, Welding};
-use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_mesh::edge_flags::{CHAIN_CLASSES, EdgeFlags, chain_class_of};
-use edgemesh::edge_mesh::record::EdgeRecord;
-use edgemesh::edge_mesh::replicate::{Quantization, replicate_16};
+use edgemesh::edge_mesh::{
+    CHAIN_CLASSES, EdgeFlags, EdgeMesh, EdgeRecord, Quantization, chain_class_of, replicate_16,
+};
 use edgemesh::index::NONE;
 use edgemesh::report::{RepairKind, Report};
 use glam::{DVec3, Vec3};

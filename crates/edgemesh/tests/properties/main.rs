@@ -1,14 +1,14 @@
-//! Properties that hold for every mesh, tried on random ones.
+//! Properties of every mesh, tested on random ones.
 //!
 //! - `edges`: each edge once, counted again by plain maps; Euler's formula;
 //!   order and winding do not matter.
 //! - `linked`: chains, fans, welding, frames, threads.
-//! - `files`: what is written is read again.
+//! - `files`: written files are read back.
 //! - `views`: contours and creases under flips, scales and the paper's Equation 1.
-//! - `exports`: what is written reads back as the edge mesh that it is from.
+//! - `exports`: exported files give back their edge mesh.
 //! - `readers`: the same polygons and materials as two other OBJ parsers.
-//! - `readers_ply_stl`: the same polygons as other PLY and STL parsers, and what
-//!   sound, broken and cut files give.
+//! - `readers_ply_stl`: the same polygons as other PLY and STL parsers; sound, broken and cut
+//!   files.
 //! - `readers_gltf`: sound and broken glTF files of other projects.
 //!
 //! `PROPTEST_CASES` (256 for the usual count) makes runs longer,

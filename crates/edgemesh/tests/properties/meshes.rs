@@ -1,5 +1,5 @@
-//! Generators of meshes: random triangle soups, where everything collides, and
-//! spheres, tori, height fields and Möbius strips, bent by noise.
+//! Generators of meshes: random triangle soups full of collisions, and spheres, tori, height fields
+//! and Möbius strips, bent by noise.
 
 use std::f64::consts::TAU;
 
@@ -241,7 +241,7 @@ pub(crate) fn oriented_mesh() -> impl Strategy<Value = Mesh> {
     prop_oneof![2 => closed_mesh(), 1 => sheet]
 }
 
-/// Strips that have no second side.
+/// Strips with one side.
 pub(crate) fn one_sided_mesh() -> impl Strategy<Value = Mesh> {
     shaken((7..20_u32).prop_map(moebius_strip))
 }

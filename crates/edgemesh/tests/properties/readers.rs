@@ -138,9 +138,9 @@ fn obj_rs_reads_the_same_polygons() {
 
 /// A cursor over a result that `rapidobj` has stored: lists of little-endian numbers, each
 /// after its count in 64 bits.
-struct Stored<'a>(&'a [u8]);
+struct StoredCursor<'a>(&'a [u8]);
 
-impl Stored<'_> {
+impl StoredCursor<'_> {
     fn bytes(&mut self, count: usize) -> &[u8] {
         let (bytes, rest) = self.0.split_at(count);
         self.0 = rest;
@@ -162,7 +162,7 @@ impl Stored<'_> {
 /// coordinates, normals, the number of shapes; then the name of the shape, its corners of
 /// three indices, and the number of corners of each face in a byte.
 fn by_rapidobj(bytes: &[u8]) -> Polygons {
-    let mut stored = Stored(&bytes[1..]);
+    let mut stored = StoredCursor(&bytes[1..]);
     let positions: Vec<f32> = stored.list(1).into_iter().map(f32::from_le_bytes).collect();
     let unused = [stored.list(1).len(), stored.list(1).len()];
     assert_eq!(unused, [0, 0], "texture coordinates and normals");

@@ -1,5 +1,5 @@
-//! glTF files of others, sound and broken: those that are sound load, the broken
-//! ones are told, and none makes the reader panic.
+//! Sound and broken glTF files of other projects: sound files load, broken files are reported, and
+//! the reader never panics.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -16,7 +16,7 @@ const REFUSED: [(&str, ReadErrorKind, &str); 4] = [
     ("meshoptimizer/pirate.glb", ReadErrorKind::Extension, "it requires meshopt"),
 ];
 
-/// The vertices and faces of some: skinned, morphed, sparse, of many nodes.
+/// Vertices and faces of some files: skinned, morphed, sparse, with many nodes.
 const COUNTS: [(&str, usize, usize); 4] = [
     ("bevy/Fox.glb", 1728, 576),
     ("raylib/robot.glb", 7218, 3238),
@@ -24,15 +24,14 @@ const COUNTS: [(&str, usize, usize); 4] = [
     ("gltf-transform/functions/many-cubes.gltf", 12_024, 6012),
 ];
 
-/// Sound files whose pictures the corpus leaves out, which is all that is said of
-/// them.
+/// Sound files whose pictures are not in the corpus, which is their only warning.
 const WITHOUT_PICTURES: [&str; 3] = [
     "blender-io/02_suzanne/02_suzanne.gltf",
     "tinygltf/CubeImageUriSpaces/CubeImageUriMultipleSpaces.gltf",
     "tinygltf/CubeImageUriSpaces/CubeImageUriSpaces.gltf",
 ];
 
-/// Broken files of other projects, and what they give.
+/// Broken files of other projects, and their outcome.
 const BROKEN: [(&str, &str); 14] = [
     ("assimp/BoxBadNormals-glTF-Binary/BoxBadNormals.glb", "ok"),
     ("assimp/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb", "warn(nonfinite syntax)"),
@@ -56,7 +55,7 @@ const JUDGED_OTHERWISE: [(&str, &str); 2] = [
     ("base/data/node/valid.gltf", "its vertices hang on joints without any weight"),
 ];
 
-/// At how many places each file is cut.
+/// The number of places at which each file is cut.
 const CUTS: usize = 40;
 
 /// `EDGEMESH_SHARED`, else `../shared` beside the workspace: the folder of its
@@ -111,7 +110,7 @@ fn sound_files_load_without_a_word() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// What is wrong with the model of a sound file.
+/// The defect of the model of a sound file, if any.
 fn judge_sound(name: &str, model: &Model, report: &Report) -> Option<String> {
     let warnings: Vec<WarningCode> = report.warnings().iter().map(|told| told.code).collect();
     let expected: &[WarningCode] = if name.contains("gpu_instancing") {

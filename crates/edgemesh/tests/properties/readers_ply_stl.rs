@@ -1,6 +1,5 @@
-//! PLY and STL files: the same polygons as `ply-rs-bw` and `stl_io` read, on
-//! files of others and on random meshes that those crates write; and what
-//! sound, broken and cut files give.
+//! PLY and STL files: the same polygons as `ply-rs-bw` and `stl_io`, for files of other projects
+//! and for random meshes that those crates write; outcomes of sound, broken and cut files.
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -46,7 +45,7 @@ const SOUND: [(&str, usize, usize); 21] = [
     ("stl/trimesh/unit_cube.STL", 3 * 12, 12),
 ];
 
-/// Sound files that break a rule harmlessly: in how many lines, and how.
+/// Sound files that break a rule harmlessly, with the number of lines and the message.
 const WARNED: [(&str, usize, &str); 2] = [
     ("ply/assimp/Wuson.ply", 1, "a header line without 'comment'"),
     ("ply/trimesh/fuze_ascii.ply", 1000, "faces with more values than are announced"),
@@ -62,10 +61,10 @@ const POINT_CLOUDS: [(&str, &str); 3] = [
 /// Rows of EXPECT.tsv for these formats.
 const EXPECTED: usize = 11;
 
-/// Into how many pieces a file is cut at least, each read from the start on.
+/// The least number of lengths to which a file is cut.
 const CUTS: usize = 60;
 
-/// The folder of the files of others; `None` is said, with what is left out.
+/// The folder of files of other projects; without it, reports the tests that are left out.
 fn files_of_others(left_out: &str) -> Option<PathBuf> {
     let folder = corpus();
     if folder.is_none() {
@@ -114,7 +113,7 @@ fn every_sound_file_loads() {
     assert_eq!(sound_files(&corpus).len(), SOUND.len() + POINT_CLOUDS.len(), "a file is not named");
 }
 
-/// Holds what reading a file gives against a row of EXPECT.tsv.
+/// Compares the outcome of reading a file with a row of EXPECT.tsv.
 fn check(expected: &str, read: &Result<(Model, Report), ReadError>) -> Result<(), String> {
     let mut words = expected.split([' ', '(', ')']);
     let (verdict, code) = (words.next().unwrap_or_default(), words.next().unwrap_or_default());
@@ -235,8 +234,7 @@ fn by_stl_io(bytes: &[u8]) -> Option<Polygons> {
     Some(mesh.faces.iter().map(|face| face.vertices.iter().map(position).collect()).collect())
 }
 
-/// Compares the sound files of a format and asserts that `minimum` of them
-/// could be.
+/// Compares the sound files of a format, and asserts that at least `minimum` were compared.
 fn compare_all(format: Format, minimum: usize, read: impl Fn(&[u8]) -> Option<Polygons>) {
     let name = format.name();
     let Some(corpus) = files_of_others(&format!("{minimum} comparisons of {name} files")) else {

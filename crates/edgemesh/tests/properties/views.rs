@@ -1,18 +1,13 @@
-//! Contours and creases: what they must do under flips, scales and other eyes,
-//! and the paper's Equation 1 against the facing bits.
+//! Contours and creases under flips, scales and other eyes; Equation 1 of the paper against the
+//! facing bits.
 
 use std::collections::BTreeMap;
 
 use edgemesh::build::BuildOptions;
-use edgemesh::edge_mesh::edge_flags::EdgeFlags;
-use edgemesh::edge_mesh::record::EdgeRecord;
-use edgemesh::edge_mesh::replicate::replicate;
-use edgemesh::edge_mesh::{Bounds, EdgeMesh};
+use edgemesh::edge_mesh::{Bounds, EdgeFlags, EdgeMesh, EdgeRecord, replicate};
 use edgemesh::index::NONE;
 use edgemesh::oracle::equation_1::equation_1;
-use edgemesh::view::camera::Camera;
-use edgemesh::view::feature::LineBits;
-use edgemesh::view::feature_counts::classify_edges;
+use edgemesh::view::{Camera, LineBits, classify_edges};
 use glam::{DVec3, Vec3, Vec4};
 use proptest::prelude::*;
 
@@ -50,7 +45,7 @@ fn contours(mesh: &EdgeMesh, eye: Vec4) -> BTreeMap<Ends, bool> {
 struct Plane {
     normal: DVec3,
     point: DVec3,
-    /// How far 32 bits may turn the normal.
+    /// The largest angle by which 32 bits turn the normal, in radians.
     rounding: f64,
 }
 
@@ -128,7 +123,7 @@ proptest! {
     }
 
     #[test]
-    fn solid_edges_are_those_of_closed_components_that_look_outwards(
+    fn solid_edges_are_those_of_closed_components_that_look_outward(
         (solid, hollow) in (closed_mesh(), closed_mesh()),
         sheet in oriented_mesh().prop_map(|mesh| mesh.triangulated().without_face(0)),
     ) {

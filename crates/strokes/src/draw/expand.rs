@@ -12,7 +12,7 @@
 //! Rejected: room for every edge, 200 bytes each; reading the counts on the CPU, which would
 //! wait for the GPU in every frame.
 
-use edgemesh::line::kind::LineKind;
+use edgemesh::line::LineKind;
 use edgemesh_shaders::ShaderError;
 
 use crate::draw::stroke_layouts::StrokeLayouts;

@@ -25,8 +25,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh::index::to_u32;
-use edgemesh::line::class::ClassTable;
-use edgemesh::line::kind::LineKind;
+use edgemesh::line::{ClassTable, LineKind};
 use edgemesh_shaders::ShaderError;
 use wgpu::{CompareFunction, StencilFaceState, StencilOperation};
 
@@ -54,9 +53,9 @@ pub struct StrokeUniform {
     pub brush_aspect: f32,
     /// A [`LineKind`].
     pub kind: u32,
-    /// A [`edgemesh::line::placement::Placement`].
+    /// A [`edgemesh::line::Placement`].
     pub placement: u32,
-    /// A [`edgemesh::line::placement::Parameterization`].
+    /// A [`edgemesh::line::Parameterization`].
     pub parameterization: u32,
     /// 1 if the width is in units of the world.
     pub is_world_width: u32,

@@ -1,6 +1,6 @@
 //! Index buffers of strokes, which all meshes share.
 
-use edgemesh::line::kind::LineKind;
+use edgemesh::line::LineKind;
 use wgpu::util::DeviceExt as _;
 
 /// The key of an index buffer, which all meshes share.

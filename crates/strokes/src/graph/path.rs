@@ -27,7 +27,7 @@ pub struct LinkStyleUniform {
     pub layer: u32,
     /// A [`crate::style::drawing_style::Visibility`].
     pub visibility: u32,
-    /// A [`edgemesh::line::placement::Placement`].
+    /// A [`edgemesh::line::Placement`].
     pub placement: u32,
     /// 1 if the width is in units of the world.
     pub is_world_width: u32,

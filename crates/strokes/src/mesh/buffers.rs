@@ -19,11 +19,10 @@ use std::cell::Cell;
 use std::sync::Arc;
 
 use bytemuck::Pod;
-use edgemesh::edge_mesh::edge_words::edge_words;
-use edgemesh::edge_mesh::normal_cone::NormalCone;
-use edgemesh::edge_mesh::record::{EdgeVertex, EdgeVertex16, FinVertex};
-use edgemesh::edge_mesh::replicate::{Quantization, fins, replicate, replicate_16};
-use edgemesh::edge_mesh::{Bounds, EdgeMesh, FacePlane};
+use edgemesh::edge_mesh::{
+    Bounds, EdgeMesh, EdgeVertex, EdgeVertex16, FacePlane, FinVertex, NormalCone, Quantization,
+    edge_words, fins, replicate, replicate_16,
+};
 use edgemesh::index::{MAX_INDEX, NONE, to_u32};
 use glam::Vec3;
 use rayon::prelude::*;

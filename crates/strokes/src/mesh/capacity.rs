@@ -4,7 +4,7 @@
 //! that no view allocates. A view that needs more draws the rest straight from its list.
 
 use edgemesh::index::to_u32;
-use edgemesh::line::kind::LineKind;
+use edgemesh::line::LineKind;
 
 /// One edge in this many can be expanded at once; in small meshes every edge can.
 const EDGES_PER_EXPANDED: usize = 16;

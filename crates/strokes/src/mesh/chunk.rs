@@ -12,9 +12,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use edgemesh::edge_mesh::edge_word::EdgeWord;
-use edgemesh::edge_mesh::record::EdgeRecord;
-use edgemesh::edge_mesh::{EdgeMesh, FacePlane};
+use edgemesh::edge_mesh::{EdgeMesh, EdgeRecord, EdgeWord, FacePlane};
 use edgemesh::index::{NONE, to_u32};
 
 use crate::mesh::layout::{EDGES_PER_RUN, PackedRecord};
@@ -207,7 +205,7 @@ impl<'a> Cutter<'a> {
 #[cfg(test)]
 mod tests {
     use edgemesh::build::{BuildOptions, build_edge_mesh};
-    use edgemesh::edge_mesh::edge_words::edge_words;
+    use edgemesh::edge_mesh::edge_words;
     use edgemesh::model::Model;
     use edgemesh::report::Report;
 

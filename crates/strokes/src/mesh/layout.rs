@@ -1,7 +1,7 @@
 //! How edges lie in memory on the GPU.
 
 use bytemuck::{Pod, Zeroable};
-use edgemesh::edge_mesh::edge_word::EdgeWord;
+use edgemesh::edge_mesh::EdgeWord;
 use edgemesh_shaders::{ShaderError, ShaderSource};
 
 use crate::gpu::shader::shader_module;

@@ -23,10 +23,7 @@
 
 use std::ops::Range;
 
-use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_mesh::edge_flags::EdgeFlags;
-use edgemesh::edge_mesh::face_edges::FaceEdges;
-use edgemesh::edge_mesh::static_links::StaticLinks;
+use edgemesh::edge_mesh::{EdgeFlags, EdgeMesh, FaceEdges, StaticLinks};
 use edgemesh::index::{NONE, to_u32};
 
 /// The walk ends at the end of the surface. WGSL twin: the constant of this name.

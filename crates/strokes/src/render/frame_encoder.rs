@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use edgemesh::index::to_u32;
-use edgemesh::line::kind::LineKind;
+use edgemesh::line::LineKind;
 
 use crate::draw::coverage::CHANNELS;
 use crate::draw::fill::{FillKind, FillPipeline};

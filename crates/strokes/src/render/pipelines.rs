@@ -5,8 +5,7 @@ use std::collections::hash_map::Entry;
 use std::sync::Arc;
 
 use edgemesh::index::to_u32;
-use edgemesh::line::class::ClassTable;
-use edgemesh::line::kind::LineKind;
+use edgemesh::line::{ClassTable, LineKind};
 use edgemesh_shaders::ShaderError;
 
 use crate::draw::coverage::CoveragePipeline;

@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use edgemesh::line::class::{ClassTable, LineClass};
-use edgemesh::line::kind::LineKind;
+use edgemesh::line::{ClassTable, LineClass, LineKind};
 
 use crate::draw::expand::ExpandPipeline;
 use crate::draw::fill::FillKind;

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use edgemesh::view::camera::View;
+use edgemesh::view::View;
 
 use crate::draw::targets::Targets;
 use crate::gpu::device::Gpu;

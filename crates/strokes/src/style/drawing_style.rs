@@ -11,10 +11,8 @@
 //!                                    '--> silhouettes, past a stencil
 //! ```
 
-use edgemesh::edge_mesh::edge_word::threshold_steps;
-use edgemesh::line::class::{ClassTable, LineClass};
-use edgemesh::line::kind::LineKind;
-use edgemesh::line::placement::{Parameterization, Placement};
+use edgemesh::edge_mesh::threshold_steps;
+use edgemesh::line::{ClassTable, LineClass, LineKind, Parameterization, Placement};
 
 use crate::style::brush::Brush;
 use crate::style::link_style::{LinkStyle, MITRE_LIMIT};

@@ -11,7 +11,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use edgemesh::index::to_u32;
-use edgemesh::line::class::ClassTable;
+use edgemesh::line::ClassTable;
 use edgemesh_shaders::ShaderError;
 
 use crate::gpu::bind::{

@@ -1,12 +1,9 @@
 //! The uniform of a view, the same in every pass, and the uniform of an object in a view.
 
 use bytemuck::{Pod, Zeroable};
-use edgemesh::edge_mesh::Bounds;
-use edgemesh::edge_mesh::replicate::Quantization;
+use edgemesh::edge_mesh::{Bounds, Quantization};
 use edgemesh::index::to_u32;
-use edgemesh::view::camera::View;
-use edgemesh::view::feature::eye_is_outside;
-use edgemesh::view::projection::to_pixels;
+use edgemesh::view::{View, eye_is_outside, to_pixels};
 use glam::{DMat3, DMat4, Mat4, Vec4};
 
 use crate::gpu::bind::{bind_buffers, uniform_buffer, uniform_entry};
@@ -260,7 +257,7 @@ impl FrameBinding {
 
 #[cfg(test)]
 mod tests {
-    use edgemesh::view::camera::Camera;
+    use edgemesh::view::Camera;
     use glam::DVec3;
     use glam::dcamera::rh::proj::directx;
     use glam::dcamera::rh::view::look_to_mat4;

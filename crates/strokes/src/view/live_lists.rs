@@ -12,9 +12,8 @@
 //! | expanded vertices | up to 480 per stroke, for one edge in 16, per stroke set |
 
 use bytemuck::{Pod, Zeroable};
-use edgemesh::line::class::LineClass;
-use edgemesh::line::kind::LineKind;
-use edgemesh::view::feature_counts::FeatureCounts;
+use edgemesh::line::{LineClass, LineKind};
+use edgemesh::view::FeatureCounts;
 use wgpu::BufferUsages;
 
 use crate::mesh::buffers::RUN_STATE_BYTES;

@@ -5,8 +5,7 @@
 //! clipped where the whole picture clips them, so strokes begin, end and measure their length
 //! alike in all tiles.
 
-use edgemesh::view::camera::View;
-use edgemesh::view::projection::GUARD_BAND;
+use edgemesh::view::{GUARD_BAND, View};
 use glam::{DMat4, DVec2, Vec2};
 
 /// A tile of a picture, or the whole. Sizes must not be zero.
@@ -74,8 +73,7 @@ impl Tile {
 #[cfg(test)]
 mod tests {
     use edgemesh::edge_mesh::Bounds;
-    use edgemesh::view::camera::Camera;
-    use edgemesh::view::projection::to_pixels;
+    use edgemesh::view::{Camera, to_pixels};
     use glam::Vec4;
 
     use super::*;

@@ -5,8 +5,7 @@
 //! style and technique.
 
 use edgemesh::edge_mesh::Bounds;
-use edgemesh::view::camera::View;
-use edgemesh::view::projection::to_pixels;
+use edgemesh::view::{View, to_pixels};
 use glam::{Mat4, Vec2, Vec3, Vec4};
 
 use crate::gpu::bind::uniform_buffer;

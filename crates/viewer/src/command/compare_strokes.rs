@@ -6,10 +6,9 @@ use clap::Args;
 use edgemesh::arguments::InputArguments;
 use edgemesh::command::{Failure, TerminalProgress, print_warnings};
 use edgemesh::format::whole_file::write_file;
-use edgemesh::line::class::LineClass;
-use edgemesh::line::placement::Parameterization;
-use edgemesh::load::Loaded;
-use edgemesh::view::camera::Camera;
+use edgemesh::line::{LineClass, Parameterization};
+use edgemesh::load::LoadedMesh;
+use edgemesh::view::Camera;
 use edgemesh_brushes::BRUSH_NAMES;
 use glam::Vec2;
 use image::{Rgba, RgbaImage, imageops};
@@ -82,7 +81,7 @@ fn parse_width(text: &str) -> Result<f32, String> {
 /// One brush on one model, in all parameterizations.
 struct Comparison<'a> {
     command: &'a CompareStrokesCommand,
-    model: &'a Loaded,
+    model: &'a LoadedMesh,
     brush: String,
     brush_aspect: f32,
     /// In the order of [`Way::ALL`].

@@ -14,8 +14,7 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
-use edgemesh::command::manual::{CompletionsCommand, ManCommand};
-use edgemesh::command::{Failure, MessageOptions, run};
+use edgemesh::command::{CompletionsCommand, Failure, ManCommand, MessageOptions, run};
 
 use crate::arguments::PictureArguments;
 #[cfg(feature = "window")]

@@ -18,7 +18,7 @@ pub mod samples;
 use std::f64::consts::TAU;
 
 use edgemesh::edge_mesh::Bounds;
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use glam::DQuat;
 
 /// How a brush is mapped along strokes.

@@ -4,13 +4,10 @@
 //! In the paper's two, u comes from the CPU twin of the stroke shader; along linked strokes,
 //! from the ribbons that the GPU made.
 
-use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_mesh::record::edge_random;
-use edgemesh::line::kind::LineKind;
-use edgemesh::line::placement::{Parameterization, Placement};
+use edgemesh::edge_mesh::{EdgeMesh, edge_random};
+use edgemesh::line::{LineKind, Parameterization, Placement};
 use edgemesh::oracle::stroke_segment::{ClipEdge, StrokeShape, stroke_segment};
-use edgemesh::view::camera::View;
-use edgemesh::view::feature::LineBits;
+use edgemesh::view::{LineBits, View};
 use glam::{Vec2, Vec3, Vec4};
 use strokes::{Element, GraphReadback, Ribbon};
 
@@ -161,7 +158,7 @@ impl FrameSource<'_> {
 
     fn shape(&self, parameterization: Parameterization) -> StrokeShape {
         let origin = self.view.clip_from_world * Vec4::W;
-        let origin_px = edgemesh::view::projection::to_pixels(origin, self.viewport_px);
+        let origin_px = edgemesh::view::to_pixels(origin, self.viewport_px);
         StrokeShape {
             viewport_px: self.viewport_px,
             origin_px: if origin.w > f32::EPSILON { origin_px } else { Vec2::ZERO },
@@ -175,7 +172,7 @@ impl FrameSource<'_> {
             placement: Placement::Automatic,
             parameterization,
             is_world_width: false,
-            guard_band: edgemesh::view::projection::WHOLE_BAND,
+            guard_band: edgemesh::view::WHOLE_BAND,
         }
     }
 }

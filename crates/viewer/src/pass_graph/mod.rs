@@ -36,7 +36,7 @@ mod stroke_style;
 pub mod surface;
 pub(crate) mod textures;
 
-use edgemesh::view::camera::View;
+use edgemesh::view::View;
 use strokes::{
     DetectionStage, DrawingStyle, DrawnObject, FrameUniform, Gpu, Layout, MeshInstance, PASS_NAMES,
     Surroundings, Tally, Targets, Tile, TimedPasses, ViewState,

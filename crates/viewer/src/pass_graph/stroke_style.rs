@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 
 use edgemesh::edge_mesh::MeshFrame;
-use edgemesh::line::class::LineClass;
-use edgemesh::line::kind::LineKind;
+use edgemesh::line::{LineClass, LineKind};
 use strokes::{Brush, DrawingStyle, Layer, StrokeStyle, Width};
 
 use crate::error::{Error, ImageError};

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use edgemesh::edge_mesh::{Bounds, MeshFrame};
-use edgemesh::view::camera::{Camera, View};
+use edgemesh::view::{Camera, View};
 use image::RgbaImage;
 use strokes::{
     DetectionStage, Gpu, GpuTimer, GraphReadback, Layout, PendingRead, ResourceError, Tally,

@@ -15,7 +15,7 @@
 //! Rejected: drawing large and cutting with a viewport, since a viewport may not be
 //! larger than a texture either.
 
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use image::RgbaImage;
 use strokes::{Gpu, Targets, Tile};
 

@@ -5,7 +5,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use edgemesh::format::whole_file::write_file;
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use glam::DQuat;
 use image::RgbaImage;
 

@@ -1,7 +1,7 @@
 //! Light and clip planes.
 
 use edgemesh::edge_mesh::{Bounds, MeshFrame};
-use edgemesh::view::camera::View;
+use edgemesh::view::View;
 use glam::{DVec3, Vec3};
 use strokes::{MAX_CLIP_PLANES, Surroundings};
 
@@ -112,7 +112,7 @@ fn numbers_of<const N: usize>(text: &str) -> Option<[f64; N]> {
 
 #[cfg(test)]
 mod tests {
-    use edgemesh::view::camera::Camera;
+    use edgemesh::view::Camera;
 
     use super::*;
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use edgemesh::build::BuildOptions;
 use edgemesh::edge_mesh::{Bounds, MeshFrame};
-use edgemesh::load::{LoadOptions, Loaded, Progress, load_scene};
+use edgemesh::load::{LoadOptions, LoadedMesh, Progress, load_scene};
 use glam::DMat4;
 
 use crate::error::Error;
@@ -14,7 +14,7 @@ use crate::scene::scene_file::SceneObject;
 #[derive(Debug, Clone)]
 pub struct Scene {
     /// The models, each with its name and its report.
-    pub models: Vec<Loaded>,
+    pub models: Vec<LoadedMesh>,
     /// The objects; a model can be in several.
     pub objects: Vec<PlacedObject>,
     /// The box around all objects.
@@ -69,7 +69,7 @@ impl Scene {
 
     /// A scene with each model once, without transforms. All must be in one frame.
     #[must_use]
-    pub fn of(models: Vec<Loaded>) -> Self {
+    pub fn of(models: Vec<LoadedMesh>) -> Self {
         let in_place =
             |model| PlacedObject { model, override_index: 0, world_from_object: DMat4::IDENTITY };
         let objects = (0..models.len()).map(in_place).collect();
@@ -78,7 +78,7 @@ impl Scene {
 
     /// A scene of models in one frame, in their places.
     #[must_use]
-    pub fn placed(models: Vec<Loaded>, objects: Vec<PlacedObject>) -> Self {
+    pub fn placed(models: Vec<LoadedMesh>, objects: Vec<PlacedObject>) -> Self {
         let boxes = objects.iter().filter_map(|object| {
             let mesh = &models[object.model].mesh;
             let has_vertices = !mesh.positions.is_empty();

@@ -3,7 +3,7 @@
 //! The variable `classes` of a pass of `strokes` selects what it draws. Setting a variable of
 //! a class, as in `--set ridge.width=4`, splits the pass that draws the class.
 
-use edgemesh::line::class::LineClass;
+use edgemesh::line::LineClass;
 
 use super::core_view::{LineSelection, Visibility, classes_text};
 use super::mistake::Mistakes;

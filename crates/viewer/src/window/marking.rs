@@ -9,11 +9,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use edgemesh::build::{BuildOptions, set_marks};
-use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::edge_mesh::edge_flags::EdgeFlags;
+use edgemesh::edge_mesh::{EdgeFlags, EdgeMesh};
 use edgemesh::format::whole_file::write_file;
-use edgemesh::load::LoadError;
-use edgemesh::load::marks::{SideMarks, marks_text, read_marks, side_file};
+use edgemesh::load::{LoadError, SideMarks, marks_text, read_marks, side_file};
 use glam::{DVec2, DVec3};
 
 use super::navigation::Canvas;

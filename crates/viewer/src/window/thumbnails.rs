@@ -4,7 +4,7 @@
 use std::sync::mpsc::Sender;
 
 use edgemesh::load::{DEMO, LoadOptions, NoProgress};
-use edgemesh::view::camera::Camera;
+use edgemesh::view::Camera;
 use image::RgbaImage;
 use strokes::Gpu;
 

@@ -2,7 +2,7 @@
 //! numbers that the window draws with.
 
 use edgemesh::edge_mesh::{Bounds, MeshFrame};
-use edgemesh::view::camera::{
+use edgemesh::view::{
     Camera, CameraError, DEFAULT_DIRECTION, DEFAULT_DISTANCE_RADII, DEFAULT_FOV_Y_DEG,
 };
 use glam::DVec3;

@@ -10,8 +10,7 @@ use super::materials::StoredMaterial;
 use super::numbers::of_counts;
 use super::section::Tag;
 use super::stored::StoredMesh;
-use crate::edge_mesh::Chain;
-use crate::edge_mesh::record::EdgeRecord;
+use crate::edge_mesh::{Chain, EdgeRecord};
 use crate::index::NONE;
 use crate::report::Place;
 
@@ -195,12 +194,12 @@ fn chain_fault(chain: &Chain, links: usize) -> Option<String> {
 mod tests {
     use super::*;
     use crate::build::{BuildOptions, reclassify};
-    use crate::edge_mesh::replicate::{replicate, replicate_16};
+    use crate::edge_mesh::{replicate, replicate_16};
     use crate::format::edge_mesh_file::draft::{Draft, seal};
     use crate::format::edge_mesh_file::samples::samples;
     use crate::format::edge_mesh_file::{Layout, parse, to_bytes};
     use crate::index::to_u32;
-    use crate::view::feature_counts::count_features;
+    use crate::view::count_features;
 
     /// The error of the file of one triangle after a change, with a correct checksum.
     fn error(change: impl FnOnce(&mut Draft)) -> String {

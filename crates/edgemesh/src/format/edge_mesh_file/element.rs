@@ -8,8 +8,9 @@ use std::borrow::Cow;
 use bytemuck::Pod;
 
 use super::materials::StoredMaterial;
-use crate::edge_mesh::record::{EdgeRecord, EdgeVertex, EdgeVertex16};
-use crate::edge_mesh::{Chain, ChainLink, FacePlane, FillRun, FillVertex};
+use crate::edge_mesh::{
+    Chain, ChainLink, EdgeRecord, EdgeVertex, EdgeVertex16, FacePlane, FillRun, FillVertex,
+};
 
 /// An element of a section: numbers of one size, perhaps followed by single bytes.
 pub(super) trait Element: Pod {
@@ -81,7 +82,7 @@ fn reverse_numbers<T: Element>(bytes: &mut [u8]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edge_mesh::edge_flags::EdgeFlags;
+    use crate::edge_mesh::EdgeFlags;
 
     #[test]
     fn lists_are_little_endian_wherever_they_lie() {

@@ -6,6 +6,7 @@ use crate::report::Place;
 
 /// The kind of a [`FileError`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum FileErrorKind {
     /// Not an edge mesh file.
     Magic,
@@ -32,6 +33,7 @@ pub enum FileErrorKind {
 
 /// An edge mesh file could not be read or written.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct FileError {
     /// What kind of error it is.
     pub kind: FileErrorKind,

@@ -88,6 +88,7 @@ pub(crate) fn is_edge_mesh(head: &[u8]) -> bool {
 /// The bytes of a file with correct magic, version, length and checksum, padded to at
 /// least a header. Tests and fuzzers need this to pass the first checks.
 #[must_use]
+#[doc(hidden)]
 pub fn with_checksum(bytes: &[u8]) -> Vec<u8> {
     let mut sealed = bytes.to_vec();
     sealed.resize(sealed.len().max(TABLE_START), 0);

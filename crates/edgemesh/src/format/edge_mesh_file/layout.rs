@@ -2,6 +2,7 @@
 
 /// A layout of the edge records in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Layout {
     /// Indexed edge records, 20 bytes an edge; every file has them.
     Indexed,

@@ -75,7 +75,7 @@
 //!   the lower left corner of its picture.
 //! - Classes, from bit 0: boundary, ridge, valley, marked, material,
 //!   non-manifold, diagonal, clash, solid, smoothing
-//!   ([`crate::edge_mesh::edge_flags::EdgeFlags`]).
+//!   ([`crate::edge_mesh::EdgeFlags`]).
 //! - `RF32`: v0, v1, v2, v3, n0, n1 (3 f32 each), the random scalar (f32), and
 //!   a u32 of the corner 0 to 3 in bits 0 and 1 and the classes from bit 8.
 //! - `RI16`: v0, v1, v2, v3, n0, n1 (3 i16 each), a byte of the corner in bits

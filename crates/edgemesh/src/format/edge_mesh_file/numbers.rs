@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 
-use crate::edge_mesh::topology::EdgeCounts;
-use crate::edge_mesh::{MeshCounts, MeshFrame, SourceCounts};
+use crate::edge_mesh::{EdgeCounts, MeshCounts, MeshFrame, SourceCounts};
 
 /// The origin and the scale of a frame.
 pub(super) fn of_frame(frame: &MeshFrame) -> [f64; 4] {

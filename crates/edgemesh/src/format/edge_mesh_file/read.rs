@@ -83,12 +83,9 @@ fn materials(sections: &Sections, names: Vec<MaterialNames>) -> Result<Vec<Mater
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edge_mesh::edge_flags::EdgeFlags;
-    use crate::edge_mesh::record::EdgeRecord;
-    use crate::edge_mesh::topology::EdgeCounts;
     use crate::edge_mesh::{
-        Chain, ChainLink, Chains, EdgeMesh, FacePlane, FillMesh, FillVertex, MeshCounts, MeshFrame,
-        SourceCounts,
+        Chain, ChainLink, Chains, EdgeCounts, EdgeFlags, EdgeMesh, EdgeRecord, FacePlane, FillMesh,
+        FillVertex, MeshCounts, MeshFrame, SourceCounts,
     };
     use crate::format::edge_mesh_file::draft::{Draft, TRIANGLE};
     use crate::format::edge_mesh_file::samples::{samples, sheet, textured};

@@ -6,10 +6,9 @@
 use std::borrow::Cow;
 
 use super::layout::Layout;
-use crate::edge_mesh::record::{EdgeRecord, EdgeVertex, EdgeVertex16};
 use crate::edge_mesh::{
-    Bounds, Chain, ChainLink, Chains, EdgeMesh, FacePlane, FillMesh, FillRun, FillVertex,
-    MeshCounts, MeshFrame,
+    Bounds, Chain, ChainLink, Chains, EdgeMesh, EdgeRecord, EdgeVertex, EdgeVertex16, FacePlane,
+    FillMesh, FillRun, FillVertex, MeshCounts, MeshFrame,
 };
 use crate::model::Material;
 use crate::report::Report;
@@ -19,6 +18,7 @@ use crate::report::Report;
 /// On a little-endian machine, aligned lists are views of the file's bytes. Other lists,
 /// materials and groups are copies.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct StoredMesh<'a> {
     /// The name of the model in messages: the path it was read from.
     pub name: Cow<'a, str>,
@@ -54,10 +54,10 @@ pub struct StoredMesh<'a> {
     pub bounds: Bounds,
     /// As [`EdgeMesh::counts`].
     pub counts: MeshCounts,
-    /// The result of [`replicate`](crate::edge_mesh::replicate::replicate), if it is in
+    /// The result of [`replicate`](crate::edge_mesh::replicate), if it is in
     /// the file.
     pub replicated_f32: Option<Cow<'a, [EdgeVertex]>>,
-    /// The result of [`replicate_16`](crate::edge_mesh::replicate::replicate_16), if it is
+    /// The result of [`replicate_16`](crate::edge_mesh::replicate_16), if it is
     /// in the file.
     pub replicated_i16: Option<Cow<'a, [EdgeVertex16]>>,
     pub(super) report: Cow<'a, Report>,

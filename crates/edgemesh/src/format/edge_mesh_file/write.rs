@@ -13,8 +13,7 @@ use super::meta::to_json;
 use super::numbers::{of_counts, of_frame};
 use super::section::{ALIGNMENT, ENTRY_BYTES, Section, Tag};
 use super::stored::StoredMesh;
-use crate::edge_mesh::EdgeMesh;
-use crate::edge_mesh::replicate::{replicate, replicate_16};
+use crate::edge_mesh::{EdgeMesh, replicate, replicate_16};
 use crate::index::to_u32;
 use crate::report::Report;
 
@@ -135,7 +134,7 @@ fn assemble(contents: &[SectionContent<'_>]) -> Result<Vec<u8>, FileError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edge_mesh::edge_flags::EdgeFlags;
+    use crate::edge_mesh::EdgeFlags;
     use crate::format::edge_mesh_file::parse;
     use crate::format::edge_mesh_file::samples::{Sample, samples, sheet, textured, triangle};
     use crate::model::{Texture, TextureSource};

@@ -1,8 +1,6 @@
 //! The edges and chains of a mesh, from its records.
 
-use crate::edge_mesh::edge_flags::EdgeFlags;
-use crate::edge_mesh::record::EdgeRecord;
-use crate::edge_mesh::{Chain, ChainLink, EdgeMesh};
+use crate::edge_mesh::{Chain, ChainLink, EdgeFlags, EdgeMesh, EdgeRecord};
 
 /// The records of each edge: one, or several for an edge of more than two faces. Lines
 /// without a face come last.

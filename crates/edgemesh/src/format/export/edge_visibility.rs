@@ -24,10 +24,9 @@
 use glam::{Vec3, Vec4Swizzles as _};
 
 use super::edge_records::{edges, hard_classes, link_ends, welded_ends};
-use crate::edge_mesh::edge_flags::{CHAIN_CLASSES, EdgeFlags, chain_class_of};
-use crate::edge_mesh::face_edges::side_on;
-use crate::edge_mesh::record::EdgeRecord;
-use crate::edge_mesh::{ChainLink, EdgeMesh};
+use crate::edge_mesh::{
+    CHAIN_CLASSES, ChainLink, EdgeFlags, EdgeMesh, EdgeRecord, chain_class_of, side_on,
+};
 use crate::index::NONE;
 
 const SILHOUETTE: u8 = 1;

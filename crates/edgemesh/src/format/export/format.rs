@@ -5,6 +5,7 @@ use std::path::Path;
 
 /// A format that edge meshes are exported to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ExportFormat {
     /// glTF 2.0 in one binary file.
     Glb,

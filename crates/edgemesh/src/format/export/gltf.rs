@@ -14,7 +14,7 @@
 //! ```
 //!
 //! The classes of hard edges, which the extension does not have, are in `extras`: runs of
-//! a count and the words of [`class_names`](crate::edge_mesh::edge_flags::class_names), in the
+//! a count and the words of [`class_names`](crate::edge_mesh::class_names), in the
 //! order of the edges. The extension is used but not required: a program without it shows
 //! the mesh without its edges.
 //!
@@ -30,8 +30,7 @@ use serde_json::{Value, json};
 
 use super::edge_visibility::{ClassRun, EdgeVisibility, LineStrings};
 use super::lines::LineFormatter;
-use crate::edge_mesh::edge_flags::class_names;
-use crate::edge_mesh::{Bounds, EdgeMesh, MeshFrame};
+use crate::edge_mesh::{Bounds, EdgeMesh, MeshFrame, class_names};
 use crate::index::NONE;
 
 const EXTENSION: &str = "EXT_mesh_primitive_edge_visibility";

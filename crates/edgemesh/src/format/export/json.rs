@@ -40,9 +40,7 @@ use serde_json::{Value, json};
 use super::edge_records::chain_vertices;
 use super::file_number::{FileNumber, in_file, length_in_file};
 use super::lines::LineFormatter;
-use crate::edge_mesh::edge_flags::class_names;
-use crate::edge_mesh::record::EdgeRecord;
-use crate::edge_mesh::{Chain, EdgeMesh};
+use crate::edge_mesh::{Chain, EdgeMesh, EdgeRecord, class_names};
 use crate::index::{NONE, to_u32};
 
 /// Writes a mesh without its fill.

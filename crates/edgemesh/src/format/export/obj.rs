@@ -21,8 +21,7 @@ use std::io::{self, Write};
 use super::edge_records::chain_vertices;
 use super::file_number::in_file;
 use super::one_line::one_line;
-use crate::edge_mesh::EdgeMesh;
-use crate::edge_mesh::edge_flags::{CHAIN_CLASSES, class_names};
+use crate::edge_mesh::{CHAIN_CLASSES, EdgeMesh, class_names};
 
 /// Writes a mesh with its chains.
 ///

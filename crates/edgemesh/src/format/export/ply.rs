@@ -15,8 +15,7 @@ use std::io::{self, Write};
 use super::edge_records::{edges, hard_classes};
 use super::file_number::{FileNumber, in_file};
 use super::one_line::one_line;
-use crate::edge_mesh::EdgeMesh;
-use crate::edge_mesh::edge_flags::{CHAIN_CLASSES, EdgeFlags, chain_class_of, class_names};
+use crate::edge_mesh::{CHAIN_CLASSES, EdgeFlags, EdgeMesh, chain_class_of, class_names};
 
 /// The colors of [`CHAIN_CLASSES`].
 const COLORS: [[u8; 3]; 7] = [

@@ -6,6 +6,7 @@ use crate::report::{Place, Report, WarningCode, place_in};
 
 /// The kind of a [`ReadError`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ReadErrorKind {
     /// The operating system reported an error.
     Io,
@@ -59,6 +60,7 @@ impl ReadErrorKind {
 
 /// A model could not be read. Displayed as `model.obj:12: what is wrong`.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ReadError {
     /// What kind of error it is.
     pub kind: ReadErrorKind,

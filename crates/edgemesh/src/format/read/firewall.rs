@@ -1,6 +1,5 @@
-//! Checks the model that a reader returns, whatever its format: indices in range,
-//! finite positions, at least three corners a polygon, counts within the limits.
-//! Readers may check more, and earlier.
+//! Checks the model that any reader returns: indices in range, finite positions, at least three
+//! corners a polygon, counts within the limits. Readers may check more, and earlier.
 
 use super::error::{ReadError, ReadErrorKind};
 use super::source::Source;

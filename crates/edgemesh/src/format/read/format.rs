@@ -5,6 +5,7 @@ use std::path::Path;
 
 /// A model format that is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Format {
     /// Wavefront OBJ, with materials from MTL files beside it.
     Obj,
@@ -37,7 +38,7 @@ impl Format {
         }
     }
 
-    /// The format's name in messages, such as `binary glTF`.
+    /// The name in messages, such as `binary glTF`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {

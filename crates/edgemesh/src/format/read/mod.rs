@@ -35,9 +35,10 @@ use std::path::Path;
 pub use error::{ReadError, ReadErrorKind};
 pub use format::Format;
 use load::{load, load_stream};
-use source::{Source, folder_of};
+use source::Source;
 
 use crate::format::validate;
+use crate::format::whole_file::folder_of;
 use crate::model::Model;
 use crate::report::Report;
 

@@ -22,7 +22,7 @@ mod tests {
 
     #[test]
     fn normals_stay_upright_on_squeezed_and_mirrored_surfaces() {
-        // The plane x + y = 0 is squeezed along y: the normal leans towards y.
+        // The plane x + y = 0 is squeezed along y: the normal leans toward y.
         let squeezed = normal_transform(DMat3::from_diagonal(DVec3::new(1.0, 0.5, 1.0)));
         assert_eq!(squeezed * DVec3::new(1.0, 1.0, 0.0), DVec3::new(0.5, 1.0, 0.0));
         // The normal of a mirrored plane is mirrored too.

@@ -1,49 +1,47 @@
-//! Chiang, Hsueh and Liu: the Sobel operator on the normal map and on the depth map, and
-//! an extra filter that keeps only edges whose depth differs from that of their neighbours
+//! The detector of Chiang, Hsueh and Liu: the Sobel operator on the normal map and on the depth
+//! map, and an extra filter that keeps only edges whose depth differs from that of their neighbors
 //! (section III.C.1).
 //!
-//! Bands of rows are worked on side by side. Of a band, rows with a texel more at either
-//! end are made once: whole numbers of 16 bits for the normal map, which is of bytes, and
-//! floats for the depth map. A line of texels is then three rows, a sum of slices that are
-//! shifted against each other, which the compiler makes vector instructions of:
+//! Bands of rows are processed in parallel. A band converts its rows once, with a texel more at
+//! either end: the bytes of the normal map to 16-bit integers, the depth map to floats. A line of
+//! texels is then a sum of shifted slices of three rows, which the compiler vectorizes:
 //!
 //! ```text
 //! smooth  = above + 2 center + below      x = smooth of the right - smooth of the left
 //! differs = below - above                 y = differs of the left + 2 differs + of the right
 //! ```
 //!
-//! Rejected: a closure a texel as the other detectors have, ten times as slow; the two
-//! passes of a separated kernel over whole images, whose images between do not stay in the
-//! cache.
+//! Rejected: a closure for each texel, as in the other detectors, which is ten times as slow; two
+//! passes of a separated kernel over whole images, whose intermediate images do not fit the cache.
 
 use rayon::prelude::*;
 
 use super::Image;
 use super::depth::distance_of;
 
-/// Which edges there are.
+/// Thresholds of the detector.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChiangOptions {
-    /// T of the normal map, whose channels go from 0 to 1.
+    /// T of the normal map, with channels from 0 to 1.
     pub normal_threshold: f32,
-    /// T of the depth map, from 0 at the near to 1 at the far plane.
+    /// T of the depth map, with depths from 0 at the near plane to 1 at the far plane.
     pub depth_threshold: f32,
-    /// Tz, the sum of the depth's differences below which an edge is dropped; none for no
+    /// Tz, the sum of differences in depth below which an edge is dropped; `None` disables the
     /// extra filter.
     pub extra_threshold: Option<f32>,
-    /// The sum of the derivatives as printed, which misses edges from bright to dark, or
-    /// of their sizes.
+    /// Whether to sum the derivatives as printed, which misses edges from bright to dark, instead
+    /// of their absolute values.
     pub is_as_printed: bool,
 }
 
-/// Rows of a band.
+/// Number of rows in a band.
 const BAND: usize = 16;
-/// Bytes a texel of the normal map.
+/// Bytes of a texel of the normal map.
 const CHANNELS: usize = 4;
 
-/// Where there are edges: 1, or 0. `normals` are the colours of normals with the axes in
-/// the first three channels, `depths` of the depth buffer, with the projection that they
-/// are of (see [`distance_of`]). Both are of one size; else nothing comes back.
+/// Detects edges: 1 at edges, 0 elsewhere; `None` if the images differ in size. `normals` are
+/// colors with a normal in the first three channels, `depths` those of the depth buffer, and
+/// `projection` is theirs, as in [`distance_of`].
 #[must_use]
 pub fn chiang(
     normals: &Image<[u8; CHANNELS]>,
@@ -65,7 +63,7 @@ pub fn chiang(
     Image::new(width, edges)
 }
 
-/// Rows of both maps, from one above to one below, with a texel more at either end.
+/// Rows of both maps, with a row more above and below and a texel more at either end.
 struct Band {
     width: usize,
     normals: Vec<i16>,
@@ -104,7 +102,7 @@ impl Band {
         band
     }
 
-    /// The row above, a row of the band, and the one below.
+    /// The row above, a row of the band, and the row below.
     fn rows<T>(values: &[T], row: usize, length: usize) -> [&[T]; 3] {
         [0, 1, 2].map(|down| &values[(row + down) * length..(row + down + 1) * length])
     }
@@ -126,7 +124,7 @@ impl Band {
             let y = differs(at) + 2 * differs(at + CHANNELS) + differs(at + right);
             *gradient = if options.is_as_printed { x + y } else { x.abs() + y.abs() };
         }
-        // Bytes instead of 0 to 1; the least whole number that reaches the threshold.
+        // In bytes: the least integer that reaches the threshold.
         #[expect(clippy::cast_possible_truncation, reason = "cut to the range of sums")]
         let threshold = (options.normal_threshold * 255.0).ceil().clamp(-4096.0, 4096.0) as i16;
         for (edge, gradient) in edges.iter_mut().zip(gradients.as_chunks::<CHANNELS>().0) {

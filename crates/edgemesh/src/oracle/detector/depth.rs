@@ -1,33 +1,31 @@
-//! Edges as discontinuities of the depth (NPRView thesis, section 3.3.2; Card and
+//! Edges as discontinuities of depth (NPRView thesis, section 3.3.2; Card and
 //! Mitchell, Listing 10).
 
 use super::{CROSS, DIAGONALS, Image, Texel};
 
-/// The distance from the eye along the line of sight that a depth stands for (Equation
-/// 3.11, for any projection): at a distance d, clip z is x d + y and w is z d + w.
+/// The distance from the eye along the direction of sight (Equation 3.11, for any projection). At a
+/// distance d, the projection gives clip z = x d + y and w = z d + w.
 #[must_use]
 pub fn distance_of(depth: f32, [x, y, z, w]: [f32; 4]) -> f32 {
     (y - depth * w) / (depth * z - x)
 }
 
-/// Equation 3.12: the largest difference to a neighbour. There is an edge where it is
-/// above a threshold.
+/// Equation 3.12: the largest difference to a neighbor. An edge is above a threshold.
 #[must_use]
 pub fn delta(distances: &Image<f32>, at: Texel) -> f32 {
     let deltas = distances.around(at, CROSS).map(|other| (distances.at(at) - other).abs());
     deltas.into_iter().fold(0.0, f32::max)
 }
 
-/// Equation 3.13: the size of the Laplacian. There is an edge where it is above a
-/// threshold.
+/// Equation 3.13: the absolute Laplacian. An edge is above a threshold.
 #[must_use]
 pub fn laplacian(distances: &Image<f32>, at: Texel) -> f32 {
     let sum: f32 = distances.around(at, CROSS).iter().sum();
     (sum - 4.0 * distances.at(at)).abs()
 }
 
-/// Listing 10: the sum of the differences to the four diagonal neighbours. There is an
-/// edge where it reaches a threshold.
+/// Listing 10: the sum of the differences to the four diagonal neighbors. An edge reaches a
+/// threshold.
 #[must_use]
 pub fn five_taps(depths: &Image<f32>, at: Texel) -> f32 {
     depths.around(at, DIAGONALS).map(|other| (depths.at(at) - other).abs()).iter().sum()

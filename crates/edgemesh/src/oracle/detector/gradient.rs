@@ -8,9 +8,9 @@ use super::{INTENSITY, Image, Texel};
 /// The gradient of each channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gradient {
-    /// To the right.
+    /// Derivative to the right.
     pub x: Vec4,
-    /// Down.
+    /// Derivative downward.
     pub y: Vec4,
 }
 
@@ -26,17 +26,17 @@ pub fn sobel(image: &Image<Vec4>, [column, row]: Texel) -> Gradient {
     gradient
 }
 
-/// How large a gradient is.
+/// The norm of a gradient.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Magnitude {
-    /// Equation 3.1.
+    /// Equation 3.1: the Euclidean norm.
     Root,
-    /// Equation 3.2: the sum of the sizes.
+    /// Equation 3.2: the sum of absolute values.
     Sum,
 }
 
 impl Magnitude {
-    /// The size of a gradient.
+    /// The norm of `gradient`.
     #[must_use]
     pub fn of(self, gradient: Vec2) -> f32 {
         match self {
@@ -46,14 +46,14 @@ impl Magnitude {
     }
 }
 
-/// The gradient of the intensity of colours. Its orientation is Equation 3.3.
+/// The gradient of the intensity of colors. Its orientation is Equation 3.3.
 #[must_use]
 pub fn of_intensity(gradient: &Gradient) -> Vec2 {
     let of = |channels: Vec4| channels.truncate().dot(INTENSITY);
     Vec2::new(of(gradient.x), of(gradient.y))
 }
 
-/// The gradient of the first of the three channels of colour where it is largest.
+/// The largest gradient of the three color channels; the first one of equal gradients.
 #[must_use]
 pub fn of_largest_channel(gradient: &Gradient, magnitude: Magnitude) -> Vec2 {
     let channel = |at: usize| Vec2::new(gradient.x[at], gradient.y[at]);

@@ -1,11 +1,11 @@
-//! Texels in rows, and what is measured at each.
+//! Images for detectors.
 
 use rayon::prelude::*;
 
-/// Column and row, from the upper left; what is outside of an image is its rim.
+/// Column and row, from the upper left. Outside of an image, the nearest texel counts.
 pub type Texel = [isize; 2];
 
-/// Texels in rows from the upper left.
+/// An image of texels in rows, from the upper left.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Image<T> {
     width: usize,
@@ -13,7 +13,8 @@ pub struct Image<T> {
 }
 
 impl<T: Copy + Sync> Image<T> {
-    /// An image of whole rows of `width` texels, at least one; nothing for other counts.
+    /// An image with rows of `width` texels; `None` unless there is at least one row and all are
+    /// whole.
     #[must_use]
     pub fn new(width: usize, texels: Vec<T>) -> Option<Self> {
         let is_whole = width > 0 && !texels.is_empty() && texels.len().is_multiple_of(width);
@@ -32,24 +33,24 @@ impl<T: Copy + Sync> Image<T> {
         &self.texels
     }
 
-    /// The texels of a row, or of the nearest one.
+    /// The texels of a row, or of the nearest row.
     pub(super) fn row(&self, row: isize) -> &[T] {
         let start = inside(row, self.size()[1]) * self.width;
         &self.texels[start..start + self.width]
     }
 
-    /// The texel, or the nearest one.
+    /// The texel, or the nearest texel.
     #[must_use]
     pub fn at(&self, [column, row]: Texel) -> T {
         self.row(row)[inside(column, self.width)]
     }
 
-    /// The texel and those around it by steps, or the nearest ones.
+    /// The texels at steps from a texel, or the nearest texels.
     pub(super) fn around<const N: usize>(&self, at: Texel, steps: [Texel; N]) -> [T; N] {
         steps.map(|[x, y]| self.at([at[0] + x, at[1] + y]))
     }
 
-    /// An image of what `measure` says of each texel; rows are measured side by side.
+    /// An image with the value of `measure` at each texel; rows are computed in parallel.
     pub fn measured<U: Copy + Send + Sync>(&self, measure: impl Fn(Texel) -> U + Sync) -> Image<U> {
         let texels = (0..self.texels.len()).into_par_iter().with_min_len(self.width);
         let texels = texels.map(|index| {
@@ -60,7 +61,7 @@ impl<T: Copy + Sync> Image<T> {
     }
 }
 
-/// The nearest index of `count`.
+/// Clamps an index to 0 to `count - 1`.
 fn inside(index: isize, count: usize) -> usize {
     usize::try_from(index).unwrap_or(0).min(count - 1)
 }

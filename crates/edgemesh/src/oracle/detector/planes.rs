@@ -1,31 +1,31 @@
-//! Edges where a neighbour leaves the plane through a texel: none on planes, however
-//! steep they are seen. In no paper; Figure 3.11 of the thesis shows what it is for.
+//! Edges where a neighbor leaves the plane through a texel: none on planes at any angle. Not from a
+//! paper; Figure 3.11 of the thesis shows the problem that it solves.
 
 use glam::{Mat4, Vec2, Vec3, Vec4};
 
 use super::depth::distance_of;
 use super::{CROSS, Image, Texel};
 
-/// What the view of an image is.
+/// The view of an image.
 #[derive(Debug, Clone, Copy)]
 pub struct ImageView {
-    /// Size of the image.
+    /// Size of the image, in pixels.
     pub viewport_px: Vec2,
-    /// Pixels that a unit of the world has at w = 1.
+    /// Pixels per unit of the world at w = 1.
     pub px_per_unit: f32,
-    /// At a distance d along the line of sight, clip z is x d + y, and w is z d + w.
+    /// At a distance d along the direction of sight, clip z = x d + y and w = z d + w.
     pub projection: [f32; 4],
-    /// Takes points of clip space back to the world.
+    /// The transform from clip space to the world.
     pub world_from_clip: Mat4,
 }
 
-/// What is against the background is an edge by any threshold.
+/// The distance at the background, above every threshold.
 const BACKGROUND_PX: f32 = 1.0e9;
 
-/// How far neighbours are from the plane through a texel, in pixels as large as they are
-/// there. Of a pair the smaller distance counts, of either from the other's plane, so that
-/// both sides of a step are edges and a smooth bend is none. `depths` are of the depth
-/// buffer, 0 for the background; `normals` are of any length, 0 for none.
+/// The distance of neighbors from the plane through a texel, in pixels at its depth. Each pair
+/// counts the smaller of the two distances from the plane of the other, so that both sides of a
+/// step are edges and smooth bends are not. `depths` are those of the depth buffer, 0 for the
+/// background; `normals` have any length, 0 for none.
 #[must_use]
 pub fn plane_distance_px(
     depths: &Image<f32>,
@@ -51,7 +51,7 @@ pub fn plane_distance_px(
     beside.into_iter().fold(0.0, f32::max)
 }
 
-/// The point of the world at a texel, or at the nearest one.
+/// The point of the world at a texel, or at the nearest texel.
 fn world_at(depths: &Image<f32>, view: &ImageView, at: Texel) -> Vec3 {
     let [width, height] = depths.size();
     let last = [width, height].map(|count| count.cast_signed() - 1);

@@ -2,7 +2,7 @@
 
 use super::{CROSS, Image, Texel};
 
-/// Whether a neighbour is of another region.
+/// Whether a neighbor is in another region.
 #[must_use]
 pub fn differ<T: Copy + Sync + PartialEq>(ids: &Image<T>, at: Texel) -> bool {
     ids.around(at, CROSS).into_iter().any(|other| other != ids.at(at))

@@ -1,5 +1,5 @@
-//! Edges as zero crossings of the second derivative: the Laplacian of the Gaussian, and
-//! the decision (NPRView thesis, section 3.2, Equation 3.6).
+//! Edges as zero crossings of the second derivative: the Laplacian of the Gaussian, and the test
+//! for zero crossings (NPRView thesis, section 3.2, Equation 3.6).
 
 use std::f32::consts::PI;
 
@@ -7,18 +7,18 @@ use glam::Vec3;
 
 use super::{CROSS, INTENSITY, Image, Texel};
 
-/// Equation 3.6 at so many texels from the middle; `sigma` is the standard deviation of
-/// the Gaussian in texels.
+/// Equation 3.6 at (`x`, `y`) texels from the middle; `sigma` is the standard deviation of the
+/// Gaussian, in texels.
 #[must_use]
-pub fn weight(x: f32, y: f32, sigma: f32) -> f32 {
+fn weight(x: f32, y: f32, sigma: f32) -> f32 {
     let sigma_2 = sigma * sigma;
     let part = (x * x + y * y) / (2.0 * sigma_2);
     -(1.0 - part) * (-part).exp() / (PI * sigma_2 * sigma_2)
 }
 
-/// The Laplacian of the smoothed intensity. The weights, sampled and cut off at four
-/// standard deviations, do not sum up to nothing, and a constant must give nothing: their
-/// mean is taken off.
+/// The Laplacian of the smoothed intensity; `sigma` is the standard deviation of the Gaussian, in
+/// texels. The weights, sampled and cut off at four standard deviations, do not sum to 0, so their
+/// mean is subtracted: a constant image must give 0.
 #[must_use]
 pub fn laplacian_of_gaussian(colors: &Image<Vec3>, sigma: f32, [column, row]: Texel) -> f32 {
     #[expect(clippy::cast_possible_truncation, reason = "the window has at most 65 texels a side")]
@@ -38,8 +38,7 @@ pub fn laplacian_of_gaussian(colors: &Image<Vec3>, sigma: f32, [column, row]: Te
     sum - weights * values / count
 }
 
-/// The largest step to a neighbour of the other sign, 0 where there is none. There is an
-/// edge where it reaches a threshold.
+/// The largest step to a neighbor of the other sign, or 0 without one. An edge reaches a threshold.
 #[must_use]
 pub fn zero_crossing(second_derivative: &Image<f32>, at: Texel) -> f32 {
     let center = second_derivative.at(at);

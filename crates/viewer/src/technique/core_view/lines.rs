@@ -1,6 +1,6 @@
 //! The variables `classes` and `visibility` of `strokes`: which lines a pass draws.
 
-use edgemesh::line::class::LineClass;
+use edgemesh::line::LineClass;
 
 use super::reader::Reader;
 use crate::technique::core::CoreComponent;

@@ -1,6 +1,6 @@
 //! The variables of `strokes`.
 
-use edgemesh::line::placement::{Parameterization, Placement};
+use edgemesh::line::{Parameterization, Placement};
 use strokes::{BrushFit, CURVE_LENGTH, End, Join, LinkStyle};
 
 use super::curve::parse_curve;

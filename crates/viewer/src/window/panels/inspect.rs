@@ -71,7 +71,7 @@ fn counts(ui: &mut Ui, session: &Session) {
     ui.heading("Edges in this view");
     Grid::new("counts").num_columns(2).spacing([16.0, 2.0]).show(ui, |ui| {
         let features = tally.features();
-        for class in edgemesh::line::class::LineClass::ALL {
+        for class in edgemesh::line::LineClass::ALL {
             ui.label(class.name());
             ui.label(grouped(features[class] as usize));
             ui.end_row();

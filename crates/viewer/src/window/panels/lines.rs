@@ -1,6 +1,6 @@
 //! The line classes: on and off, with their counts and main settings.
 
-use edgemesh::line::class::LineClass;
+use edgemesh::line::LineClass;
 use egui::{Grid, Ui};
 
 use super::bar::grouped;

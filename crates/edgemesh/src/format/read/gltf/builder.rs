@@ -31,8 +31,7 @@ use super::texture::PictureCache;
 use super::topology::{Shapes, shapes};
 use super::vertices::{VertexAttributes, positions};
 use crate::index::{NONE, to_u32};
-use crate::model::rig::{Pose, Rig, RigPart};
-use crate::model::{Attributes, Corner, Model, Segment, Smoothing};
+use crate::model::{Attributes, Corner, Model, Pose, Rig, RigPart, Segment, Smoothing};
 use crate::report::{Place, Report, WarningCode};
 
 /// A model and its rig, to which nodes are added.
@@ -269,7 +268,7 @@ impl<'a> ModelBuilder<'a> {
         let edges = edge_marks(primitive, triangles, range.count, self.report);
         self.add_segments(&edges.marked, range);
         let suppressed = edges.suppressed.iter().map(|ends| ends.map(|end| range.first + end));
-        self.model.hidden_edges.extend(suppressed);
+        self.model.suppressed_edges.extend(suppressed);
     }
 
     fn add_segments(&mut self, segments: &[[u32; 2]], range: VertexRange) {
@@ -332,9 +331,9 @@ fn remove_repeated_edges(model: &mut Model) {
         let [a, b] = segment.ends;
         drawn.insert([a.min(b), a.max(b)])
     });
-    model.hidden_edges.sort_unstable();
-    model.hidden_edges.dedup();
-    model.hidden_edges.retain(|edge| !drawn.contains(edge));
+    model.suppressed_edges.sort_unstable();
+    model.suppressed_edges.dedup();
+    model.suppressed_edges.retain(|edge| !drawn.contains(edge));
 }
 
 /// Transforms normals by the rest pose.

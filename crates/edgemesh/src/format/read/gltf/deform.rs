@@ -13,7 +13,7 @@ use super::asset::Asset;
 use super::primitive::Primitive;
 use super::scene::{NodeHierarchy, node_transform};
 use crate::index::to_u32;
-use crate::model::rig::{Displacement, Influence, Rig, RigNode, Skin};
+use crate::model::{Displacement, Influence, Rig, RigNode, Skin};
 use crate::report::{Report, WarningCode};
 
 /// A rig with all nodes and the skins that nodes use, without vertices.

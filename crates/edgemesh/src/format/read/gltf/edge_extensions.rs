@@ -187,8 +187,8 @@ mod tests {
         let mut rest = super::super::sample::one_mesh(&primitive);
         rest["extensionsUsed"] = json!([name]);
         let (model, report) = sample.read(&rest).unwrap();
-        let Model { segments, hidden_edges, .. } = model;
-        (segments.into_iter().map(|segment| segment.ends).collect(), hidden_edges, report)
+        let Model { segments, suppressed_edges, .. } = model;
+        (segments.into_iter().map(|segment| segment.ends).collect(), suppressed_edges, report)
     }
 
     fn visibility(bytes: &[[u8; 1]]) -> (Vec<[u32; 2]>, Vec<[u32; 2]>, Report) {
@@ -198,19 +198,19 @@ mod tests {
     #[test]
     fn values_of_edges_two_bits_each() {
         // [2, 0, 1, 0, 2, 0]: the diagonal 2-0 may be a contour, so 0-2 is suppressed.
-        let (marked, hidden, report) = visibility(&[[18], [2]]);
+        let (marked, suppressed, report) = visibility(&[[18], [2]]);
         assert_eq!(marked, [[0, 1], [2, 3]]);
-        assert_eq!(hidden, [[0, 2], [0, 3], [1, 2]]);
+        assert_eq!(suppressed, [[0, 2], [0, 3], [1, 2]]);
         assert!(report.warnings().is_empty(), "{report:?}");
         // [2, 0, 2, 3, 2, 0]: the diagonal is marked twice.
-        let (marked, hidden, _) = visibility(&[[226], [2]]);
+        let (marked, suppressed, _) = visibility(&[[226], [2]]);
         assert_eq!(marked, [[0, 1], [0, 2], [2, 3]]);
-        assert_eq!(hidden, [[0, 3], [1, 2]]);
+        assert_eq!(suppressed, [[0, 3], [1, 2]]);
     }
 
     #[test]
     fn line_strings_end_at_the_largest_index() {
-        let (marked, hidden, report) = square(VISIBILITY, |sample| {
+        let (marked, suppressed, report) = square(VISIBILITY, |sample| {
             let lines = [[0], [1], [2], [255], [3], [2], [9]];
             json!({
                 "visibility": sample.bytes("SCALAR", &[[0], [0]]),
@@ -219,14 +219,14 @@ mod tests {
             })
         });
         assert_eq!(marked, [[0, 1], [1, 2], [2, 3]]);
-        assert_eq!(hidden, [[0, 2], [0, 3]], "marked edges are not suppressed");
+        assert_eq!(suppressed, [[0, 2], [0, 3]], "marked edges are not suppressed");
         assert_eq!((report.count(WarningCode::Index), report.count(WarningCode::Syntax)), (1, 0));
     }
 
     #[test]
     fn malformed_extensions_are_left_out() {
-        let (marked, hidden, report) = visibility(&[[255]]);
-        assert!(marked.is_empty() && hidden.is_empty());
+        let (marked, suppressed, report) = visibility(&[[255]]);
+        assert!(marked.is_empty() && suppressed.is_empty());
         assert!(report.warnings()[0].message.contains("has 1 bytes of visibility"), "{report:?}");
         for json in [json!({"visibility": "all"}), json!([]), json!({"visibility": 99})] {
             let (marked, _, report) = square(VISIBILITY, |_| json);
@@ -240,8 +240,8 @@ mod tests {
         let outline = |indices: &[[u8; 1]]| {
             square(OUTLINE, |sample| json!({"indices": sample.bytes("SCALAR", indices)}))
         };
-        let (marked, hidden, report) = outline(&[[1], [0], [2], [4], [0], [1]]);
-        assert_eq!((marked, hidden), (vec![[0, 1]], vec![]));
+        let (marked, suppressed, report) = outline(&[[1], [0], [2], [4], [0], [1]]);
+        assert_eq!((marked, suppressed), (vec![[0, 1]], vec![]));
         assert_eq!(report.count(WarningCode::Index), 1);
         let (marked, _, report) = outline(&[[1], [0], [2]]);
         assert!(marked.is_empty());

@@ -12,7 +12,7 @@ use gltf_json as json;
 use super::super::error::{ReadError, ReadErrorKind};
 use super::asset::Asset;
 use crate::index::{NONE, to_u32};
-use crate::model::rig::NodeTransform;
+use crate::model::NodeTransform;
 
 /// The nodes of a file as trees.
 #[derive(Debug)]

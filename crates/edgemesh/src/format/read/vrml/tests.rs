@@ -6,7 +6,7 @@ use std::{env, fs};
 
 use super::parse::{Document, Origin, decode};
 use crate::build::{BuildOptions, build_edge_mesh};
-use crate::edge_mesh::edge_flags::EdgeFlags;
+use crate::edge_mesh::EdgeFlags;
 use crate::format::read::source::Source;
 use crate::format::read::{Format, ReadError, ReadErrorKind, read_model, read_model_bytes};
 use crate::model::Model;

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use crate::format::read::error::{ReadError, ReadErrorKind};
-use crate::format::read::source::{Source, folder_of};
+use crate::format::read::source::Source;
+use crate::format::whole_file::folder_of;
 use crate::report::{Place, Report, WarningCode};
 
 /// A file of the scene.

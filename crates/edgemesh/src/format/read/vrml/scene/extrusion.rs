@@ -1,6 +1,6 @@
 //! `Extrusion` (VRML 97 6.18): a cross section swept along a spine.
 //!
-//! Each point of the spine has axes: y along the spine, z towards the inside of the bend,
+//! Each point of the spine has axes: y along the spine, z toward the inside of the bend,
 //! x across. A point (x, z) of the cross section is scaled, rotated by the orientation,
 //! and put into these axes.
 //!
@@ -202,7 +202,7 @@ mod tests {
         points.iter().map(|point| point.map(|part| (part * 1e6).round() / 1e6 + 0.0)).collect()
     }
 
-    /// Six times the enclosed volume; positive if the faces face outwards.
+    /// Six times the enclosed volume; positive if the faces face outward.
     fn volume(model: &crate::model::Model) -> f64 {
         let at = |index: u32| DVec3::from(model.positions[index as usize]);
         let cone = |face: &[u32]| -> f64 {
@@ -217,7 +217,7 @@ mod tests {
         let model = extruded("");
         assert_eq!((model.positions.len(), model.polygon_count()), (8, 6));
         assert_eq!(model.positions[..2], [[1., 0., 1.], [1., 0., -1.]]);
-        assert!((volume(&model) - 24.0).abs() < 1e-9, "2 x 2 x 1, outwards");
+        assert!((volume(&model) - 24.0).abs() < 1e-9, "2 x 2 x 1, outward");
         assert!((volume(&extruded("ccw FALSE")) + 24.0).abs() < 1e-9);
     }
 

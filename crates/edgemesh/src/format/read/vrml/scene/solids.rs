@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn solids_are_closed_and_face_outwards() {
+    fn solids_are_closed_and_face_outward() {
         let solids = [cuboid([1., 2., 3.]), sphere(2.0), cone(1., 2., ALL), cylinder(1., 2., ALL)];
         let counts = solids.map(|solid| {
             assert!(is_closed_and_outward(&solid), "{solid:?}");

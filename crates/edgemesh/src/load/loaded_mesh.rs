@@ -1,4 +1,4 @@
-//! What loading gives.
+//! The result of loading.
 
 use std::path::PathBuf;
 
@@ -7,28 +7,30 @@ use crate::report::Report;
 
 /// An edge mesh with its name and its report.
 #[derive(Debug, Clone)]
-pub struct Loaded {
-    /// The name of the file in messages.
+#[non_exhaustive]
+pub struct LoadedMesh {
+    /// The name of the input in messages.
     pub name: String,
     /// The edge mesh.
     pub mesh: EdgeMesh,
-    /// What was repaired or dropped.
+    /// Warnings and repairs.
     pub report: Report,
-    /// The model's file; `None` for standard input and for edge mesh files.
+    /// The model file; `None` for standard input, [`DEMO`](super::DEMO) and edge mesh files.
     pub source: Option<ModelSource>,
 }
 
-/// The model file of an edge mesh.
+/// The model file that an edge mesh was built from.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct ModelSource {
-    /// The file.
+    /// Its path.
     pub path: PathBuf,
-    /// For each vertex of the mesh a vertex of the file, counted from 0.
+    /// For each vertex of the mesh, the first vertex of the file at its position, counted from 0.
     pub file_vertices: Vec<u32>,
 }
 
-impl Loaded {
-    /// An edge mesh that comes from no file.
+impl LoadedMesh {
+    /// An edge mesh without a model file.
     #[must_use]
     pub const fn new(name: String, mesh: EdgeMesh, report: Report) -> Self {
         Self { name, mesh, report, source: None }
