@@ -1,5 +1,5 @@
-//! `cargo xtask test`: every test, also those that need an adapter and the two commands,
-//! and one turn of every bench so that none of them rots.
+//! `cargo xtask test`: runs every test, including those that need an adapter and the two
+//! commands, and each bench once, so that none breaks unnoticed.
 
 use std::process::Command;
 
@@ -7,14 +7,14 @@ use crate::adapter;
 use crate::failure::Failure;
 use crate::programs::{self, Programs};
 
-/// Runs the tests. With `args`, which go to the test programs, only `cargo test` runs, and
+/// Runs the tests. With `args`, which go to the test programs, runs only `cargo test` and
 /// no bench.
 pub(crate) fn run(args: &[&str]) -> Result<(), Failure> {
     let programs = programs::build()?;
     adapter::ensure(&programs.viewer)?;
     if !args.is_empty() {
         programs::run(call(&programs, &["test"])?.arg("--").args(args))?;
-        eprintln!("xtask: the benches were left out, as arguments were given");
+        eprintln!("xtask: skipped the benches, as there are arguments");
         return Ok(());
     }
     let has_nextest = programs::succeeds(programs::cargo().args(["nextest", "--version"]));
