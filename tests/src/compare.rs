@@ -1,21 +1,21 @@
-//! Golden images: a picture of today against one that was looked at by eye.
+//! Golden images: compares a picture with one that a person has approved.
 //!
-//! Two numbers say how far two pictures are apart:
+//! Two numbers measure the difference of two pictures:
 //!
-//! 1. `wrong_pixels`: pixels of which a channel differs by more than a tolerance.
-//! 2. `ink_distance_px`: both pictures become ink on paper, and the number is the
-//!    largest distance from ink in one to the nearest ink in the other, both
-//!    ways (the Hausdorff distance). This is what the eye sees of line art: all
-//!    strokes may move a little, but a lost one counts as far as it is away.
+//! 1. `wrong_pixels`: the pixels with a channel that differs by more than a tolerance.
+//! 2. `ink_distance_px`: the largest distance from ink in one picture to the nearest
+//!    ink in the other, both ways (the Hausdorff distance). It measures line art as
+//!    the eye does: all strokes may move a little, but a lost stroke counts by its
+//!    distance from the other strokes.
 //!
 //! ```text
 //!    golden   picture
-//!    |   |    |   .      the stroke on the right is lost: few pixels of the
-//!    |   |    |   .      whole are wrong, but its ink is 4 px from any other
+//!    |   |    |   .      the stroke on the right is lost: few pixels are wrong,
+//!    |   |    |   .      but its ink is 4 px from any other
 //! ```
 //!
 //! Rejected: a mean over the picture (FLIP, SSIM), which hides a line 1 px wide;
-//! forgiving pixels that look antialiased, since thin strokes are mostly such.
+//! ignoring antialiased pixels, since thin strokes consist mostly of them.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -25,28 +25,28 @@ use image::{ExtendedColorType, ImageEncoder as _, Rgba, RgbaImage};
 
 use crate::locate::tests_root;
 
-/// The largest width and height of a golden: larger ones show nothing more and
-/// fill the repository.
+/// The largest width and height of a golden in pixels: larger ones show nothing more
+/// and fill the repository.
 pub const MAX_GOLDEN_SIDE_PX: u32 = 256;
 
-/// The largest file of a golden.
+/// The largest file of a golden in bytes.
 pub const MAX_GOLDEN_BYTES: usize = 64 << 10;
 
-/// Luminance below this is ink.
+/// Ink has a luminance below this.
 const INK_LUMINANCE: u32 = 128;
 
-/// How far two pictures of one size are apart.
+/// The difference of two pictures of one size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Difference {
-    /// Pixels of which a channel differs by more than the tolerance.
+    /// The pixels with a channel that differs by more than the tolerance.
     pub wrong_pixels: usize,
     /// The largest distance from ink in one picture to ink in the other;
-    /// infinite where only one of them has ink.
+    /// infinite if only one of them has ink.
     pub ink_distance_px: f64,
 }
 
-/// How far a picture may be from its golden. Only [`Golden::lines`] and
-/// [`Golden::shaded`] make one, so that no test sets bounds of its own.
+/// The bounds of a picture's difference from its golden. Only [`Golden::lines`] and
+/// [`Golden::shaded`] make one, so that no test invents its own bounds.
 #[derive(Debug, Clone, Copy)]
 pub struct Golden {
     tolerance: u8,
@@ -54,7 +54,7 @@ pub struct Golden {
     ink_distance_px: f64,
 }
 
-/// How many pixels may be wrong.
+/// The largest number of wrong pixels.
 #[derive(Debug, Clone, Copy)]
 enum WrongPixels {
     Count(usize),
@@ -62,8 +62,8 @@ enum WrongPixels {
 }
 
 /// Strokes on the pinned software driver (owner: the stroke passes). The same
-/// driver gives the same bytes; what is left is the CPU's own rounding, which
-/// turns a sample here and there. More would hide a stroke's missing cap.
+/// driver draws the same bytes but for the rounding of the CPU, which flips a few
+/// samples. More would hide a stroke's missing cap.
 const LINES_PINNED: Golden =
     Golden { tolerance: 2, wrong_pixels: WrongPixels::Count(10), ink_distance_px: 1.0 };
 
@@ -97,12 +97,13 @@ impl Golden {
         if is_pinned_driver { SHADED_PINNED } else { SHADED_ANYWHERE }
     }
 
-    /// Holds `picture` to `golden/NAME.png`; with `UPDATE_GOLDEN=NAME` (several
-    /// with commas, or `all`) in the environment it becomes the golden instead.
+    /// Compares `picture` with `golden/NAME.png`. If the environment has
+    /// `UPDATE_GOLDEN=NAME` (names separated by commas, or `all`), writes the golden
+    /// instead.
     ///
     /// # Panics
-    /// Where the golden is missing or too large, or the picture is too far from
-    /// it; then `NAME.new.png` and `NAME.diff.png` lie beside the golden.
+    /// If the golden is missing or too large, or the picture differs too much; then
+    /// `NAME.new.png` and `NAME.diff.png` lie beside the golden.
     pub fn check(&self, name: &str, picture: &RgbaImage) {
         let folder = tests_root().join("golden");
         let wanted = env::var("UPDATE_GOLDEN").unwrap_or_default();
@@ -147,11 +148,11 @@ impl Golden {
         }
     }
 
-    /// Says what is too far apart, if anything is.
+    /// Describes a difference beyond the bounds.
     fn judge(&self, golden: &RgbaImage, picture: &RgbaImage) -> Result<(), String> {
         if golden.dimensions() != picture.dimensions() {
             let (expected, got) = (golden.dimensions(), picture.dimensions());
-            return Err(format!("the size is {got:?}, the golden's is {expected:?}"));
+            return Err(format!("the size is {got:?}, that of the golden {expected:?}"));
         }
         let found = difference(golden, picture, self.tolerance);
         let limit = match self.wrong_pixels {
@@ -169,7 +170,7 @@ impl Golden {
     }
 }
 
-/// The golden and what a failed comparison leaves beside it.
+/// The files of a golden and of a failed comparison.
 struct Paths {
     golden: PathBuf,
     new: PathBuf,
@@ -185,7 +186,7 @@ impl Paths {
         }
     }
 
-    /// Takes away what an earlier failure left; mostly there is nothing.
+    /// Removes the files of an earlier failure, if any.
     fn remove_traces(&self) {
         let _ = fs::remove_file(&self.new);
         let _ = fs::remove_file(&self.diff);
@@ -195,10 +196,10 @@ impl Paths {
 /// Compares two pictures of the same size.
 ///
 /// # Panics
-/// Where the sizes differ.
+/// If the sizes differ.
 #[must_use]
 pub fn difference(golden: &RgbaImage, picture: &RgbaImage, tolerance: u8) -> Difference {
-    assert_eq!(golden.dimensions(), picture.dimensions(), "pictures of one size");
+    assert_eq!(golden.dimensions(), picture.dimensions(), "pictures of different sizes");
     let pairs = golden.pixels().zip(picture.pixels());
     Difference {
         wrong_pixels: pairs.filter(|(a, b)| differs(a, b, tolerance)).count(),
@@ -215,7 +216,7 @@ fn ink_distance_px(a: &RgbaImage, b: &RgbaImage) -> f64 {
     a.farthest_from(&b).max(b.farthest_from(&a))
 }
 
-/// Which pixels are ink, row by row.
+/// The pixels that are ink, row by row.
 struct InkMask {
     width: usize,
     is_ink: Vec<bool>,
@@ -241,7 +242,7 @@ impl InkMask {
         squared.fold(0.0, f64::max).sqrt()
     }
 
-    /// For every pixel how far the nearest ink of its own column is.
+    /// The distance of each pixel from the nearest ink in its column.
     fn distances_in_columns(&self) -> Vec<Option<usize>> {
         let mut distance = vec![None; self.is_ink.len()];
         let height = self.is_ink.len() / self.width.max(1);
@@ -273,7 +274,7 @@ fn is_ink(pixel: &Rgba<u8>) -> bool {
     luminance < INK_LUMINANCE
 }
 
-/// Wrong pixels in red on what the golden shows, faded.
+/// The wrong pixels in red over the faded golden.
 fn difference_image(golden: &RgbaImage, picture: &RgbaImage, tolerance: u8) -> RgbaImage {
     let (width, height) = golden.dimensions();
     RgbaImage::from_fn(width.max(picture.width()), height.max(picture.height()), |x, y| {
@@ -301,7 +302,7 @@ fn update_golden(folder: &Path, name: &str, picture: &RgbaImage) -> Result<(), S
     check_limits(&paths.golden, picture, encode(picture)?.len())?;
     save(&paths.golden, picture)?;
     paths.remove_traces();
-    eprintln!("{}: updated; look at it before it is committed", paths.golden.display());
+    eprintln!("{}: updated; look at it before you commit it", paths.golden.display());
     Ok(())
 }
 
@@ -334,7 +335,7 @@ fn save(path: &Path, picture: &RgbaImage) -> Result<(), String> {
     let bytes = encode(picture)?;
     written
         .and_then(|()| fs::write(path, bytes))
-        .map_err(|error| format!("{}: cannot be written: {error}", path.display()))
+        .map_err(|error| format!("cannot write {}: {error}", path.display()))
 }
 
 #[cfg(test)]
@@ -353,7 +354,7 @@ mod tests {
             .unwrap()
     }
 
-    /// White paper with strokes: x, y, width, height, colour.
+    /// White paper with strokes: x, y, width, height, color.
     fn drawing(strokes: &[(u32, u32, u32, u32, [u8; 4])]) -> RgbaImage {
         let mut picture = RgbaImage::from_pixel(256, 256, Rgba([255; 4]));
         for &(left, top, width, height, colour) in strokes {
@@ -407,7 +408,7 @@ mod tests {
 
     #[test]
     fn a_shift_of_two_pixels_fails() {
-        // Few enough pixels that only the ink tells, and then many.
+        // So few pixels that only the ink distance fails, and then many.
         for length in [5, 200] {
             let golden = drawing(&[(20, 20, length, 1, BLACK)]);
             let picture = drawing(&[(20, 22, length, 1, BLACK)]);

@@ -1,10 +1,10 @@
-//! What the tests across the crates share.
+//! Helpers of the tests across the crates.
 //!
 //! - [`locate`]: the tests' own data, the programs under test, the shared files.
-//! - [`compare`]: golden images, held to two numbers.
-//! - [`wgsl_fn`]: a shader function over data, to hold it to its Rust twin.
+//! - [`compare`]: golden images.
+//! - [`wgsl_fn`]: runs a shader function over data, for comparison with its Rust twin.
 //!
-//! The tests themselves are one binary, `tests/all/`.
+//! The tests are one binary, `tests/all/`.
 
 pub mod compare;
 pub mod locate;

@@ -1,11 +1,11 @@
-//! Where things are: the tests' own data, the programs under test, and the
-//! models and corpus that are shared between projects and not kept here.
+//! The paths of the tests' own data, of the programs under test, and of the models and
+//! files that are not part of the repository.
 
 use std::env;
 use std::path::{Path, PathBuf};
 
-/// The folder of this package, which holds the goldens: `TESTKIT_ROOT`, else
-/// where the package was built.
+/// The folder of this package, with the goldens: `TESTKIT_ROOT`, or else the folder
+/// that the package was built in.
 #[must_use]
 pub fn tests_root() -> PathBuf {
     env::var_os("TESTKIT_ROOT").map_or_else(|| env!("CARGO_MANIFEST_DIR").into(), PathBuf::from)
@@ -18,11 +18,11 @@ pub fn workspace_root() -> PathBuf {
     root.parent().map_or_else(|| root.join(".."), PathBuf::from)
 }
 
-/// The program `name`, `edgemesh` or `viewer`: in `TESTKIT_BIN`, else in the
+/// The program `name`, `edgemesh` or `viewer`: in `TESTKIT_BIN`, or else in the
 /// workspace's `target/debug`.
 ///
 /// # Panics
-/// Where it has not been built; the message says how to.
+/// If it has not been built; the message says how to build it.
 #[must_use]
 pub fn program(name: &str) -> PathBuf {
     built(Path::new(""), name)
@@ -31,7 +31,7 @@ pub fn program(name: &str) -> PathBuf {
 /// The example `name` of any crate, in the folder `examples` beside the programs.
 ///
 /// # Panics
-/// Where it has not been built; the message says how to.
+/// If it has not been built; the message says how to build it.
 #[must_use]
 pub fn example(name: &str) -> PathBuf {
     built(Path::new("examples"), name)
@@ -50,8 +50,8 @@ fn built(below: &Path, name: &str) -> PathBuf {
     path
 }
 
-/// The folder of shared models and files: `EDGEMESH_SHARED`, else `../shared`
-/// beside the workspace; `None` where there is no such folder.
+/// The folder of shared models and files: `EDGEMESH_SHARED`, or else `../shared`
+/// beside the workspace; `None` if there is no such folder.
 #[must_use]
 pub fn shared() -> Option<PathBuf> {
     let folder = env::var_os("EDGEMESH_SHARED")
@@ -59,8 +59,8 @@ pub fn shared() -> Option<PathBuf> {
     folder.is_dir().then_some(folder)
 }
 
-/// Says on standard error that `count` cases of `what` were left out, because
-/// there is no [`shared`] folder.
+/// Reports on standard error that `count` cases of `what` were skipped because there is
+/// no [`shared`] folder.
 pub fn left_out(what: &str, count: usize) {
-    eprintln!("left out {count} cases of {what}: set EDGEMESH_SHARED to the shared files");
+    eprintln!("skipped {count} cases of {what}: set EDGEMESH_SHARED to the folder of shared files");
 }

@@ -1,4 +1,4 @@
-//! Runs a WGSL function over data, to hold it to its Rust twin.
+//! Runs a WGSL function over data, for comparison with its Rust twin.
 
 use bytemuck::Pod;
 use edgemesh_shaders::ShaderSource;
@@ -6,8 +6,8 @@ use edgemesh_shaders::files::text as embedded_text;
 use strokes::{Gpu, read_buffer, shader_module};
 use wgpu::util::DeviceExt as _;
 
-/// What the output is filled with beforehand, so that a result that was never
-/// written looks different from one that is 0.
+/// Fills the output before the shader runs, so that a result that was never written
+/// differs from 0.
 pub const SENTINEL: u8 = 0xff;
 
 /// Runs `body` once for each of `inputs` and returns the outputs in order.
@@ -16,7 +16,7 @@ pub const SENTINEL: u8 = 0xff;
 /// Output` and `fn run(input: Input) -> Output`, laid out as `I` and `O`.
 ///
 /// # Panics
-/// Where the shader is wrong, or an output was not written.
+/// If the shader is invalid, or an output was not written.
 #[must_use]
 pub fn run_wgsl<I: Pod, O: Pod>(gpu: &Gpu, body: &str, inputs: &[I]) -> Vec<O> {
     let pipeline = pipeline_of(gpu, body);

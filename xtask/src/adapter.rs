@@ -1,7 +1,7 @@
-//! Makes sure that there is a Vulkan adapter to draw with.
+//! Finds a Vulkan adapter to draw with.
 //!
-//! The viewer is asked, not the system: it alone knows what it can use. Where
-//! it finds none, Mesa's software driver is installed if that needs no password.
+//! The viewer lists the adapters, not the system, since only the viewer knows what it can
+//! use. If it lists none, Mesa's software driver is installed, unless that needs a password.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -10,7 +10,7 @@ use crate::failure::{Failure, NO_ADAPTER};
 use crate::programs;
 
 const PACKAGES: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
-/// Where Mesa keeps compiled shaders.
+/// Names the folder in which Mesa keeps compiled shaders.
 const SHADER_CACHE: &str = "MESA_SHADER_CACHE_DIR";
 const BY_HAND: &str = "sudo apt-get install mesa-vulkan-drivers libvulkan1";
 
@@ -23,15 +23,15 @@ pub(crate) fn ensure(viewer: &Path) -> Result<(), Failure> {
     if is_present(viewer)? {
         return Ok(());
     }
-    Err(missing("the driver is installed, yet the viewer still finds no Vulkan adapter"))
+    Err(missing("the driver is installed, but the viewer still finds no Vulkan adapter"))
 }
 
 /// Makes a program draw with Vulkan.
 ///
-/// Mesa's driver complains if `XDG_RUNTIME_DIR` is not set, so it gets a folder of ours.
-/// It keeps the shaders that it compiled in a cache: five of six seconds of the GPU tests go
-/// into compiling without one. Ours lies beside what cargo builds, so that programs whose
-/// home folder is new, those of tests and of CI, find it too.
+/// Mesa's driver complains if `XDG_RUNTIME_DIR` is not set, so it gets a folder here.
+/// Without a cache of compiled shaders, five of six seconds of the GPU tests go into
+/// compiling. The cache lies in the target folder, so that programs with an empty home
+/// folder, those of tests and of CI, find it too.
 pub(crate) fn use_vulkan(command: &mut Command) -> Result<(), Failure> {
     command.env("WGPU_BACKEND", "vulkan");
     if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
@@ -60,7 +60,7 @@ fn is_present(viewer: &Path) -> Result<bool, Failure> {
     }
 }
 
-/// The runtime folder must belong to its user alone.
+/// Makes the runtime folder, which only its user may read.
 fn runtime_folder() -> Result<PathBuf, Failure> {
     let folder = programs::target_folder()?.join("runtime");
     std::fs::create_dir_all(&folder).map_err(|error| Failure::file("make", &folder, error))?;
@@ -83,10 +83,10 @@ fn install() -> Result<(), Failure> {
     } else if programs::succeeds(Command::new("sudo").args(["-n", "true"])) {
         &["sudo", "-n"]
     } else {
-        return Err(missing(&format!("there is no Vulkan adapter; install one by\n  {BY_HAND}")));
+        return Err(missing(&format!("there is no Vulkan adapter; install one with\n  {BY_HAND}")));
     };
     eprintln!("xtask: no Vulkan adapter; installing {}", PACKAGES.join(" and "));
-    // A list that cannot be refreshed may still be good enough to install from.
+    // An outdated list may still be good enough to install from.
     if let Err(failure) = programs::run(&mut apt_get(prefix, &["update"])) {
         eprintln!("xtask: {}; going on", failure.message);
     }
@@ -95,7 +95,7 @@ fn install() -> Result<(), Failure> {
     programs::run(&mut apt_get(prefix, &words)).map_err(|failure| missing(&failure.message))
 }
 
-/// `sudo` clears the environment, so the variable is set behind it.
+/// `sudo` clears the environment, so `env` sets the variable after it.
 fn apt_get(prefix: &[&str], words: &[&str]) -> Command {
     let line = [prefix, &["env", "DEBIAN_FRONTEND=noninteractive", "apt-get"], words].concat();
     let mut command = Command::new(line[0]);
@@ -118,7 +118,7 @@ mod tests {
 
     #[test]
     fn the_exit_status_of_the_viewer_says_whether_there_is_an_adapter() {
-        // Programs of every system that end with 0 and with 1.
+        // Programs of every system with the exit statuses 0 and 1.
         assert!(is_present(Path::new("true")).unwrap(), "0 means present");
         let failure = is_present(Path::new("false")).unwrap_err();
         assert_eq!(failure.status, 1, "{}", failure.message);

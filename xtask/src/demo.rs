@@ -1,4 +1,4 @@
-//! `cargo xtask demo`: a picture of every model in every technique.
+//! `cargo xtask demo`: draws every model with some techniques.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -67,7 +67,7 @@ fn render(
     Ok(command)
 }
 
-/// Paths inside the workspace are shown as seen from its root.
+/// A path in the workspace, relative to its root; others stay as they are.
 fn from_root(path: &Path) -> &Path {
     path.strip_prefix(programs::workspace_root()).unwrap_or(path)
 }

@@ -1,12 +1,12 @@
-//! Why a task did not end well, and with which exit status it ends.
+//! The error of a task and its exit status.
 
 use std::fmt::Display;
 use std::path::Path;
 
-/// No suitable adapter: the same number as the `viewer` command's.
+/// There is no suitable adapter: the same exit status as that of `viewer`.
 pub(crate) const NO_ADAPTER: u8 = 3;
 
-/// A message for the person at the terminal and the exit status that goes with it.
+/// A message for the terminal and an exit status.
 #[derive(Debug)]
 pub(crate) struct Failure {
     pub(crate) message: String,
@@ -23,7 +23,7 @@ impl Failure {
         Self { message: message.into(), status: 2 }
     }
 
-    /// Something could not be done with a file or folder.
+    /// An operation on a file or folder failed.
     pub(crate) fn file(doing: &str, path: &Path, reason: impl Display) -> Self {
         Self::new(format!("cannot {doing} {}: {reason}", path.display()))
     }

@@ -1,4 +1,4 @@
-//! The project's chores: `cargo xtask` lists them.
+//! The tasks of the project: `cargo xtask` lists them.
 
 mod adapter;
 mod brushes;

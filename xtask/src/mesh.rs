@@ -1,13 +1,13 @@
 //! `cargo xtask mesh`: large organic meshes for benches, as OBJ.
 //!
 //! Idea: the twenty sides of an icosahedron, each cut into f x f triangles,
-//! pushed out to a sphere and displaced by a few octaves of value noise, which
-//! is warped by itself so that there are folds and bulges and not just grain.
-//! Closed, of one piece, without a seam, and the same bytes for the same count.
+//! pushed out to a sphere and displaced by a few octaves of value noise, which is
+//! warped by itself for folds and bulges instead of grain. The mesh is closed, in one
+//! piece, without a seam, and has the same bytes for the same count.
 //!
-//! Vertices come side by side and faces row by row, as programs that model or
-//! scan write them; a line of text is about as long as theirs, 43 bytes a
-//! triangle in all at a million triangles.
+//! Vertices come side by side and faces row by row, as modeling and scanning programs
+//! write them; lines are about as long as theirs, 43 bytes per triangle at a million
+//! triangles.
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -36,7 +36,7 @@ pub(crate) fn run(count: &str, path: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The cuts of each side that come nearest to `count` triangles in all.
+/// The number of cuts per side whose total comes nearest to `count` triangles.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 2237")]
 fn frequency(count: u32) -> usize {
     (f64::from(count) / 20.0).sqrt().round().max(1.0) as usize
@@ -114,7 +114,7 @@ fn icosahedron() -> ([Point; 12], [[usize; 3]; 20]) {
 fn icosphere(frequency: usize) -> Organic {
     let (corners, sides) = icosahedron();
     let mut mesh = Organic { positions: corners.to_vec(), triangles: Vec::new() };
-    // The inner vertices of an edge, from its smaller corner on.
+    // The inner vertices of an edge, from its smaller corner.
     let mut edges: HashMap<(usize, usize), Vec<usize>> = HashMap::new();
     for [a, b, c] in sides {
         let [ab, ac, bc] = [(a, b), (a, c), (b, c)].map(|(from, to)| {
@@ -170,14 +170,14 @@ fn octaves(place: Point) -> f64 {
     for _ in 0..5 {
         sum += weight * value_noise(place);
         weight *= 0.5;
-        // Turned a little, so that the lattices do not lie on each other.
+        // Rotated a little, so that the lattices do not coincide.
         let [x, y, z] = place;
         place = [1.6 * x + 1.2 * y, 1.6 * y - 1.2 * x, 2.0 * z + 5.3];
     }
     sum
 }
 
-/// Values at the points of a lattice, blended in between.
+/// Noise: values at the points of a lattice, blended in between.
 fn value_noise(place: Point) -> f64 {
     let base = place.map(f64::floor);
     let [u, v, w] = [0, 1, 2].map(|axis| {

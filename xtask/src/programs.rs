@@ -1,4 +1,4 @@
-//! The workspace's two commands, how they are built, and how programs are run.
+//! Builds the workspace's two commands and runs programs.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -9,15 +9,15 @@ use crate::failure::Failure;
 /// Where the two commands are.
 #[derive(Debug)]
 pub(crate) struct Programs {
-    /// The folder that holds them.
+    /// Their folder.
     pub(crate) folder: PathBuf,
     pub(crate) viewer: PathBuf,
 }
 
 /// Builds the two commands.
 ///
-/// All packages are built at once and with the tests' features, so that cargo
-/// settles on the same features as for the test build and compiles wgpu once.
+/// Builds all packages at once with the features of the tests, so that cargo chooses the
+/// same features as for the tests and compiles each dependency once.
 pub(crate) fn build() -> Result<Programs, Failure> {
     let mut command = cargo();
     command.args(["build", "--workspace", "--bins", "--features", "testkit/gpu"]);
@@ -31,7 +31,7 @@ fn built(folder: &Path, name: &str) -> Result<PathBuf, Failure> {
     if path.is_file() {
         Ok(path)
     } else {
-        Err(Failure::new(format!("`cargo build` made no {}", path.display())))
+        Err(Failure::new(format!("`cargo build` did not make {}", path.display())))
     }
 }
 
@@ -41,7 +41,7 @@ pub(crate) fn workspace_root() -> &'static Path {
     xtask.parent().unwrap_or(xtask)
 }
 
-/// Where cargo builds. A relative `CARGO_TARGET_DIR` counts from the folder in
+/// The target folder of cargo. A relative `CARGO_TARGET_DIR` is relative to the folder in
 /// which this program was started.
 pub(crate) fn target_folder() -> Result<PathBuf, Failure> {
     match std::env::var_os("CARGO_TARGET_DIR") {
@@ -51,7 +51,7 @@ pub(crate) fn target_folder() -> Result<PathBuf, Failure> {
     }
 }
 
-/// A call of the same cargo that runs this program, in the workspace's root.
+/// A call of the cargo that runs this program, in the workspace's root.
 pub(crate) fn cargo() -> Command {
     let program = std::env::var_os("CARGO").unwrap_or_else(|| OsString::from("cargo"));
     let mut command = Command::new(program);
@@ -62,8 +62,8 @@ pub(crate) fn cargo() -> Command {
     command
 }
 
-/// Runs a program and waits for it. A failure names the command line and ends
-/// with the program's own exit status.
+/// Runs a program and waits for it. A failure names the command line and has the
+/// program's exit status.
 pub(crate) fn run(command: &mut Command) -> Result<(), Failure> {
     let status = command.status().map_err(|error| cannot_start(command, &error))?;
     if status.success() {
@@ -75,7 +75,7 @@ pub(crate) fn run(command: &mut Command) -> Result<(), Failure> {
     })
 }
 
-/// Whether a program can be started and succeeds, without a word.
+/// Whether a program starts and succeeds; its output is dropped.
 pub(crate) fn succeeds(command: &mut Command) -> bool {
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     command.status().is_ok_and(|status| status.success())
@@ -85,7 +85,7 @@ pub(crate) fn cannot_start(command: &Command, error: &std::io::Error) -> Failure
     Failure::new(format!("cannot start {}: {error}", command_line(command)))
 }
 
-/// The command as one would type it.
+/// The command as typed in a shell.
 pub(crate) fn command_line(command: &Command) -> String {
     let words = std::iter::once(command.get_program()).chain(command.get_args());
     words.map(|word| quoted(&word.to_string_lossy())).collect::<Vec<_>>().join(" ")

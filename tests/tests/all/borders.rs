@@ -1,8 +1,8 @@
 //! Borders: which file, folder and crate may name which, read from the source.
 //!
-//! The three tables below are the house: staircases, doors and crates. Everything a file
-//! names outside of its tests is followed to the file that defines it; what the tables do
-//! not allow fails, with the file and the name. No files name each other in a circle.
+//! The three tables below define staircases, doors and crates. Every name in a file, outside
+//! its tests, is resolved to the file that defines it. The tests fail with the file and the
+//! name if the tables do not allow it, or if files name each other in a circle.
 
 mod manifest;
 mod source;
@@ -17,7 +17,7 @@ use self::tree::{Named, Tree, Use, circles};
 
 /// The rooms of a crate: its top-level folders and files.
 struct House {
-    /// The crate as code names it.
+    /// The name of the crate in code.
     name: &'static str,
     /// Its folder of source files.
     source: &'static str,
@@ -79,16 +79,16 @@ const HOUSES: [House; 7] = [
     },
 ];
 
-/// Rooms that few others see, though they lie below them: a room, and those that see it.
-/// A crate stands for all of its rooms, `main` for its program.
+/// Rooms that only some of the rooms above see: a room, and those that see it. A crate
+/// stands for all its rooms, `main` for its program.
 const DOORS: &[(&str, &[&str])] = &[
-    // The product uses no twin, but to measure against it.
+    // The product uses twins only to measure against them.
     ("edgemesh/oracle", &["viewer/comparison"]),
-    // Exit statuses and options are the business of commands.
+    // Exit statuses and options belong to commands.
     ("edgemesh/command", &["edgemesh/main", "viewer/command", "viewer/main"]),
     ("edgemesh/arguments", &["edgemesh", "viewer/arguments", "viewer/window", "viewer/command"]),
     ("viewer/command", &["viewer/main"]),
-    // The GPU crate knows no file.
+    // The GPU crate knows no files.
     ("edgemesh/format", &["edgemesh", "viewer"]),
     ("edgemesh/load", &["edgemesh", "viewer"]),
     ("edgemesh/build", &["edgemesh", "viewer"]),
@@ -108,7 +108,7 @@ const OPTIONS: &[&str] = &[
     "viewer/main",
 ];
 
-/// Crates and modules of others, and the only rooms that name them.
+/// External crates and modules, and the only rooms that name them.
 const CRATES: &[(&str, &[&str])] = &[
     ("wgpu", &["strokes", "viewer/error", "viewer/pass_graph", "viewer/picture", "viewer/window"]),
     ("naga", &["edgemesh_shaders", "viewer/technique"]),
@@ -122,7 +122,7 @@ const CRATES: &[(&str, &[&str])] = &[
     ("clap", OPTIONS),
     ("std::process", &["edgemesh/command", "edgemesh/main", "viewer/command", "viewer/main"]),
     ("image", &["strokes", "viewer"]),
-    // `strokes` takes pixels and gives pixels: no files, no decoders.
+    // `strokes` reads and returns pixels: no files, no decoders.
     ("std::fs", &["edgemesh", "viewer"]),
     ("std::path", &["edgemesh", "viewer"]),
     ("std::env", &["edgemesh", "viewer"]),
@@ -135,8 +135,8 @@ const CRATES: &[(&str, &[&str])] = &[
     ("image::open", &["viewer"]),
 ];
 
-/// The room that a file lies in, `viewer/window`: the crate alone for its `lib.rs`, and
-/// for files that are in none of the houses.
+/// The room of a file, such as `viewer/window`; only the crate for its `lib.rs` and for files
+/// outside the houses.
 fn room_of(file: &str) -> String {
     for House { name, source, .. } in &HOUSES {
         if let Some(inner) = file.strip_prefix(source).and_then(|rest| rest.strip_prefix('/')) {
@@ -154,7 +154,7 @@ fn crate_of(room: &str) -> &str {
     room.split('/').next().unwrap_or(room)
 }
 
-/// Whether a list of rooms and whole crates has a room.
+/// Whether a list of rooms and crates contains a room.
 fn has_room(rooms: &[&str], room: &str) -> bool {
     rooms.iter().any(|&known| known == room || known == crate_of(room))
 }
@@ -166,7 +166,7 @@ fn step_of(room: &str) -> Option<usize> {
     house.stairs.iter().position(|rooms| rooms.contains(&room))
 }
 
-/// Why one room may not see another.
+/// The reason why one room may not see another.
 fn forbidden_room(from: &str, to: &str) -> Option<&'static str> {
     let inside = crate_of(from) == crate_of(to);
     let few = DOORS.iter().find(|(room, _)| *room == to);
@@ -185,15 +185,15 @@ fn forbidden_room(from: &str, to: &str) -> Option<&'static str> {
     (!is_let_in).then_some("is closed to it")
 }
 
-/// Whether a path leads to or through another crate's module: also where one crate
-/// hands on another, as `eframe::wgpu` does.
+/// Whether a path leads to or through a module of another crate, even if one crate exports
+/// another, as in `eframe::wgpu`.
 fn leads_to(path: &[String], wanted: &str) -> bool {
     let wanted: Vec<&str> = wanted.split("::").collect();
     path.starts_with(&wanted.iter().map(|&word| word.to_owned()).collect::<Vec<_>>())
         || wanted.len() == 1 && path.iter().any(|segment| *segment == wanted[0])
 }
 
-/// Everything that crosses a border: a line for each file and what it should not see.
+/// A line for each file and a name that it should not see.
 fn crossings(uses: &BTreeSet<Use>) -> Vec<String> {
     let mut crossed: BTreeMap<(&str, String), BTreeSet<String>> = BTreeMap::new();
     for Use { from, to, .. } in uses {
@@ -224,7 +224,7 @@ fn crossings(uses: &BTreeSet<Use>) -> Vec<String> {
     crossed.into_iter().map(line).collect()
 }
 
-/// Each circle with its arrows and the names on them.
+/// The lines of each circle: its arrows with the names.
 fn circle_lines(uses: &BTreeSet<Use>) -> Vec<String> {
     let mut lines = Vec::new();
     for circle in circles(uses) {
@@ -238,7 +238,7 @@ fn circle_lines(uses: &BTreeSet<Use>) -> Vec<String> {
     lines
 }
 
-/// The source files below a folder, by their path from the root of the workspace.
+/// The source files below a folder by their path from the root of the workspace.
 fn sources(folder: &str) -> BTreeMap<String, String> {
     let mut files = BTreeMap::new();
     let mut open = vec![folder.to_owned()];
@@ -257,10 +257,10 @@ fn sources(folder: &str) -> BTreeMap<String, String> {
     files
 }
 
-/// The houses as they are; `None` where built tests run without the source.
+/// The houses, read from the source; `None` if the tests run without it.
 fn houses() -> Option<Tree> {
     if !workspace_root().join("Cargo.toml").is_file() {
-        eprintln!("left out the borders: no source in {}", workspace_root().display());
+        eprintln!("skipped the borders: no source in {}", workspace_root().display());
         return None;
     }
     let mut tree = Tree::default();
@@ -291,7 +291,8 @@ fn rooms_see_what_lies_below_them() {
     assert_none(&crossings(&tree.uses()));
 }
 
-/// Folders and files without a place in a staircase, and places without a room.
+/// A line for each folder or file that has no place in a staircase, and each place without
+/// a room.
 #[test]
 fn every_room_has_its_place() {
     let Some(tree) = houses() else { return };
@@ -314,7 +315,7 @@ fn every_room_has_its_place() {
     assert_none(&lines);
 }
 
-/// The checks see all files, and follow names to where they are defined.
+/// The checks see all files and resolve names to their definitions.
 #[test]
 fn the_source_is_read_whole() {
     let Some(tree) = houses() else { return };
@@ -324,13 +325,13 @@ fn the_source_is_read_whole() {
         let to = Named::Item { file: file.to_owned(), name: name.to_owned() };
         uses.iter().any(|one| one.from == from && one.to == to)
     };
-    // Through `pub use self::mesh::EdgeMesh` of `edge_mesh/mod.rs`.
+    // Through the `pub use self::mesh::EdgeMesh` of `edge_mesh/mod.rs`.
     let mesh = "crates/edgemesh/src/edge_mesh/mesh.rs";
     assert!(is_known("crates/edgemesh/src/build/mod.rs", mesh, "EdgeMesh"), "within a crate");
     assert!(is_known("crates/strokes/src/mesh/buffers.rs", mesh, "EdgeMesh"), "across crates");
 }
 
-/// A house in memory: files of `strokes` and of `viewer`.
+/// A house in memory: files of `strokes` and `viewer`.
 fn small_house(files: &[(&str, &str)]) -> BTreeSet<Use> {
     let files: BTreeMap<String, String> =
         files.iter().map(|&(file, text)| (file.to_owned(), text.to_owned())).collect();
@@ -381,7 +382,7 @@ fn a_circle_of_two_is_found_with_its_names() {
     }
 }
 
-/// What a folder's own `mod.rs` has for the files in it makes no circle.
+/// Items of a folder's `mod.rs` make no circle with the files in it.
 #[test]
 fn a_folder_may_share_what_its_mod_rs_defines() {
     let uses = small_house(&[

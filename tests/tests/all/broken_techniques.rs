@@ -1,7 +1,7 @@
-//! Broken technique and shader files, each with its exact message.
+//! Broken technique and shader files with their exact messages.
 //!
-//! `tests/broken_techniques/cases.txt` holds the files, `expected.txt` what is said of
-//! them; `UPDATE_EXPECTED=1` writes the latter anew, to be read before it is committed.
+//! `tests/broken_techniques/cases.txt` has the files, `expected.txt` the messages;
+//! `UPDATE_EXPECTED=1` rewrites `expected.txt`. Read it before you commit it.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -11,7 +11,7 @@ use viewer::technique::library::Library;
 use viewer::technique::plan::Plan;
 use viewer::technique::program::ShaderFiles;
 
-/// The sections of a text, by the lines that begin them.
+/// The sections of a text by their first lines.
 fn sections<'t>(text: &'t str, mark: &str) -> Vec<(&'t str, &'t str)> {
     let mut sections = Vec::new();
     let mut rest = text.strip_prefix(mark);
@@ -28,7 +28,7 @@ fn sections<'t>(text: &'t str, mark: &str) -> Vec<(&'t str, &'t str)> {
     sections
 }
 
-/// What is said of the files of a case, without the folder that they were in.
+/// The messages for the files of a case, without the name of their folder.
 fn told(folder: &Path, files: &str) -> String {
     for (name, text) in sections(files, "--- ") {
         std::fs::write(folder.join(name), text).unwrap();
@@ -50,7 +50,7 @@ fn every_broken_file_has_its_exact_message() {
     for (name, files) in cases {
         let own = tempfile::tempdir().unwrap();
         let message = told(own.path(), files);
-        assert!(!message.trim().is_empty(), "{name}: nothing is said");
+        assert!(!message.trim().is_empty(), "{name}: no message");
         let _ = write!(found, "=== {name}\n{message}\n");
     }
     let path = folder.join("expected.txt");
@@ -61,10 +61,10 @@ fn every_broken_file_has_its_exact_message() {
     for (found, expected) in sections(&found, "=== ").iter().zip(sections(&expected, "=== ")) {
         assert_eq!(*found, expected, "see CONTRIBUTING.md on UPDATE_EXPECTED");
     }
-    assert_eq!(found, expected, "as many cases as messages");
+    assert_eq!(found, expected, "the numbers of cases and messages differ");
 }
 
-/// Shipped files, broken at random: mistakes, and no panic.
+/// Built-in files, broken at random: mistakes, but no panic.
 #[test]
 fn no_technique_file_is_a_panic() {
     let folder = workspace_root().join("techniques");

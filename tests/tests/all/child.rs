@@ -1,4 +1,4 @@
-//! Programs in processes of their own, with a time limit.
+//! Runs programs with a time limit.
 
 use std::ffi::OsStr;
 use std::io::Read;
@@ -10,10 +10,10 @@ use std::time::{Duration, Instant};
 use serde_json::Value;
 use testkit::locate::program;
 
-/// No file of the corpus may take longer than this, in a debug build too.
+/// No file of the corpus may take longer than this, even in a debug build.
 pub(crate) const TIME_LIMIT: Duration = Duration::from_secs(20);
 
-/// Runs `command` and returns its exit status and all it wrote.
+/// Runs `command` and returns its exit status and output.
 ///
 /// A program that takes longer than [`TIME_LIMIT`] is ended, and the test fails.
 pub(crate) fn run(command: &mut Command) -> Output {
@@ -23,7 +23,7 @@ pub(crate) fn run(command: &mut Command) -> Output {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap_or_else(|error| panic!("{shown}: {error}"));
-    // Read beside the waiting: a full pipe would hold the program up.
+    // Read while waiting: a full pipe would block the program.
     let stdout = child.stdout.take().map(|pipe| thread::spawn(|| read_all(pipe)));
     let stderr = child.stderr.take().map(|pipe| thread::spawn(|| read_all(pipe)));
     let status = wait(&mut child, &shown);
@@ -63,7 +63,7 @@ pub(crate) fn info(model: &Path) -> Output {
     edgemesh(&[OsStr::new("info"), OsStr::new("--json"), model.as_os_str()])
 }
 
-/// What a program wrote to standard output, as JSON.
+/// The standard output of a program as JSON.
 pub(crate) fn json(output: &Output) -> Value {
     let text = String::from_utf8_lossy(&output.stdout);
     serde_json::from_str(&text).unwrap_or_else(|error| {
@@ -71,13 +71,12 @@ pub(crate) fn json(output: &Output) -> Value {
     })
 }
 
-/// What a program wrote to standard error.
+/// The standard error of a program.
 pub(crate) fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// Says what is wrong unless there is exactly one message, it is an error, and
-/// it has all `parts` in it.
+/// Fails unless there is exactly one message, it is an error, and it contains all `parts`.
 pub(crate) fn one_error(output: &Output, parts: &[&str]) -> Result<(), String> {
     let text = stderr(output);
     if text.lines().count() != 1 || !text.starts_with("error: ") {

@@ -1,4 +1,4 @@
-//! The commands' contract: exit statuses, messages, JSON.
+//! The contract of the commands: exit statuses, messages, JSON.
 
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -12,15 +12,15 @@ use testkit::locate::program;
 
 use crate::child::{edgemesh, json, one_error, run, stderr};
 
-/// A cube of six quads; sound, so that nothing is said about it.
+/// A sound cube of six quads, which causes no warnings.
 const CUBE: &str = "\
 v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
 f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n";
 
-/// A triangle that comes twice, and two faces that use a NaN.
+/// A duplicate triangle, and two faces with a NaN.
 const BROKEN: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 1 2 3\nf 1 2 4\nf 1 2 3 4\n";
 
-/// A folder with the file `name`, which goes with the first value.
+/// A folder with the file `name`; it lasts as long as the first value.
 fn file(name: impl AsRef<Path>, bytes: &[u8]) -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
@@ -38,12 +38,12 @@ fn assert_status(output: &Output, status: i32) {
     assert_eq!(output.status.code(), Some(status), "{output:?}");
 }
 
-/// Refused with one message that names the file and has `part` in it.
+/// Asserts that a file is refused with one message that contains its name and `part`.
 fn assert_refused(path: &Path, part: &str) {
     let output = info_with(path, &[]);
     assert_status(&output, 1);
     assert_eq!(one_error(&output, &[&path.display().to_string(), part]), Ok(()), "{output:?}");
-    assert!(output.stdout.is_empty(), "results only where there are any: {output:?}");
+    assert!(output.stdout.is_empty(), "a failure has no results: {output:?}");
 }
 
 #[test]
@@ -257,19 +257,19 @@ fn counts_of_a_cube_follow_the_options() {
     assert_eq!(ridges(&["--crease", "89"]), Some(12));
     assert_eq!(ridges(&["--crease", "91"]), Some(0));
     assert_eq!(ridges(&["--ridge", "91", "--valley", "10"]), Some(0));
-    // Three faces are seen from a corner, one from straight ahead.
+    // Three faces are visible from a corner, one from straight ahead.
     assert_eq!(features(&[])["contour"].as_u64(), Some(6));
     let ahead = ["--eye", "0.5,0.5,9", "--target", "0.5,0.5,0.5"];
     assert_eq!(features(&ahead)["contour"].as_u64(), Some(4));
     let parallel = [&ahead[..], &["--ortho"]].concat();
     assert_eq!(features(&parallel)["contour"].as_u64(), Some(4));
-    // From the side the eye sees two faces; parallel lines of sight, only one.
+    // From the side the eye sees two faces, in parallel projection only one.
     let aside = ["--eye=9,0.5,9", "--target=9,0.5,0.5"];
     assert_eq!(features(&aside)["contour"].as_u64(), Some(6));
     assert_eq!(features(&[&aside[..], &["--ortho"]].concat())["contour"].as_u64(), Some(4));
 }
 
-/// `edgemesh info --json cube.obj` by a shell, which can close its output.
+/// Runs `edgemesh info --json cube.obj` in a shell, which can close its output.
 #[cfg(unix)]
 fn info_in_shell(redirection: &str) -> Output {
     let (_folder, cube) = file("cube.obj", CUBE.as_bytes());
@@ -318,7 +318,7 @@ fn a_path_may_be_any_bytes() {
     assert_eq!(json(&output)["source"]["polygons"].as_u64(), Some(6));
 }
 
-/// A pipe has no size to ask for and cannot be read twice.
+/// A pipe has no size and cannot be read twice.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_model_may_come_through_a_pipe() {

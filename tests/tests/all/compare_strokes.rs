@@ -1,4 +1,4 @@
-//! `viewer compare-strokes`: what it writes, and that it finds what the paper says.
+//! `viewer compare-strokes`: its output, which agrees with the paper.
 
 use std::process::{Command, Stdio};
 
@@ -61,9 +61,9 @@ mod with_adapter {
         sums.into_iter().map(|(way, (sum, length))| (way, sum / length)).collect()
     }
 
-    /// Section 4: in object space the brush holds to the surface and breaks at every edge;
-    /// in screen space it is nearly whole, follows the view sideways, and slides when that
-    /// turns.
+    /// Section 4: in object space the brush sticks to the surface and breaks at every edge;
+    /// in screen space it is nearly whole, follows the view sideways, and slides when the
+    /// view turns.
     #[test]
     fn the_tables_say_what_the_paper_says() {
         let folder = tempfile::tempdir().unwrap();
@@ -92,8 +92,8 @@ mod with_adapter {
         let page = read("index.html");
         assert!(
             page.contains("data:image/png;base64,") && page.contains("<svg"),
-            "pictures and plots"
+            "numbers of pictures and plots"
         );
-        assert!(!page.contains("http"), "it needs nothing else");
+        assert!(!page.contains("http"), "the page refers to the web");
     }
 }

@@ -1,7 +1,6 @@
-//! Every file of the shared corpus through `edgemesh info` and `edgemesh build`,
-//! each in a process of its own: no panic, no signal, none over its limits of
-//! time and memory; sound files load, and an edge mesh that was built says what
-//! its model said.
+//! Runs `edgemesh info` and `edgemesh build` on every file of the shared corpus: no panic,
+//! no signal, no process over its limits of time and memory; sound files load, and `info`
+//! reports the same for a model and its edge mesh.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -16,16 +15,16 @@ use testkit::locate::{left_out, program, shared};
 use crate::child::{json, run, stderr};
 use crate::expectations::check_any;
 
-/// The endings of files that are models, or claim to be.
+/// The extensions of model files.
 const ENDINGS: [&str; 7] = ["obj", "ply", "stl", "gltf", "glb", "wrl", "gz"];
 
-/// At least this many files are in the corpus.
+/// The least number of files in the corpus.
 const FILES: usize = 450;
 
-/// No process may take more than this: 1 GiB of addresses, memory among them.
+/// The limit of a process: 1 GiB of addresses, which include memory.
 const LIMIT_KIB: usize = 1 << 20;
 
-/// Files in the folders of sound ones that do not load, each with its reason.
+/// Files in the folders of sound files that do not load, with the reasons.
 const REFUSED: [(&str, &str); 18] = [
     ("gltf/blender-io/00_empty_scene/00_empty_scene.gltf", "no mesh in it"),
     ("gltf/gltf-transform/cli/ACMEBox.gltf", "requires an unknown extension"),
@@ -75,7 +74,7 @@ fn limited(arguments: &[&OsStr]) -> Output {
     let script = format!("ulimit -v {LIMIT_KIB} && exec \"$0\" \"$@\"");
     let mut command = Command::new("sh");
     command.args(["-c", &script]).arg(program("edgemesh")).args(arguments);
-    // More threads and arenas would take addresses, not memory.
+    // More threads and arenas take addresses, not memory.
     command.env("RAYON_NUM_THREADS", "2").env("MALLOC_ARENA_MAX", "1");
     run(command.stdout(Stdio::piped()))
 }
@@ -84,7 +83,7 @@ fn info(path: &Path) -> Output {
     limited(&["info".as_ref(), "--json".as_ref(), path.as_os_str()])
 }
 
-/// Does `work` for all of `items`, on every core; gives what it returns.
+/// Runs `work` for all `items` on every core; returns the results.
 fn for_all<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let next = AtomicUsize::new(0);
     let results = Mutex::new(Vec::new());
@@ -102,7 +101,7 @@ fn for_all<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<
     results.into_inner().unwrap()
 }
 
-/// What is wrong with how a file goes through both commands.
+/// Runs both commands on a file; the error says what is wrong.
 fn check_file(path: &Path) -> Result<(), String> {
     let info = info(path);
     check_any(&info)?;
@@ -125,11 +124,11 @@ fn check_file(path: &Path) -> Result<(), String> {
     let (of_model, of_built) = (json(&info), json(&self::info(&target)));
     match (without_names(of_model), without_names(of_built)) {
         (a, b) if a == b => Ok(()),
-        (a, b) => Err(format!("the edge mesh says {b}, its model {a}")),
+        (a, b) => Err(format!("the edge mesh reports {b}, its model {a}")),
     }
 }
 
-/// The JSON without the names of files, which differ.
+/// The JSON without file names, which differ.
 fn without_names(mut info: Value) -> Value {
     info["file"] = Value::Null;
     for list in ["warnings", "repair_places"] {

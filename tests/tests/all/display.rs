@@ -1,4 +1,4 @@
-//! A display of its own, with hands and eyes: Xvfb, xdotool, and `import` of `ImageMagick`.
+//! A virtual display (Xvfb) with input (xdotool) and screenshots (`import` of `ImageMagick`).
 
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -11,15 +11,15 @@ use viewer::picture::png::read_png;
 /// A display without a screen, and a window on it.
 pub(crate) struct Display {
     server: Child,
-    /// As `DISPLAY` has it.
+    /// The value of `DISPLAY`.
     pub(crate) number: String,
-    /// The home of who sits there.
+    /// The home folder of its user.
     pub(crate) home: tempfile::TempDir,
     window: Option<Child>,
 }
 
 impl Display {
-    /// None where there is no such server to start, or no hands and eyes for it.
+    /// `None` if a tool is missing.
     pub(crate) fn start() -> Option<Self> {
         let has = |name: &str| {
             let mut command = Command::new(name);
@@ -49,7 +49,7 @@ impl Display {
         command.env_remove("WAYLAND_DISPLAY").env_remove("XDG_CONFIG_HOME");
         command.env_remove("XDG_DATA_HOME").env("XDG_RUNTIME_DIR", self.home.path());
         command.env_remove("DBUS_SESSION_BUS_ADDRESS");
-        // Dialogs are answered by a program of ours.
+        // A script answers the dialogs.
         let path = std::env::var_os("PATH").unwrap_or_default();
         let own = std::iter::once(self.home.path().to_owned());
         let folders = own.chain(std::env::split_paths(&path));
@@ -57,7 +57,7 @@ impl Display {
         command
     }
 
-    /// Has the next dialogs answered with a file.
+    /// Makes the next dialogs answer with a file.
     pub(crate) fn answer_dialogs(&self, file: &Path) {
         use std::os::unix::fs::PermissionsExt as _;
         let path = self.home.path().join("zenity");
@@ -65,7 +65,7 @@ impl Display {
         std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).unwrap();
     }
 
-    /// The number of the window.
+    /// The id of the window.
     pub(crate) fn window_id(&self) -> Option<u32> {
         let search = self.command("xdotool").args(["search", "--name", "Edgemesh"]).output();
         let id = String::from_utf8(search.unwrap().stdout).unwrap();
@@ -79,7 +79,7 @@ impl Display {
         String::from_utf8(name.stdout).unwrap().trim().to_owned()
     }
 
-    /// Does one thing after another, each as slow as a hand: several frames.
+    /// Runs xdotool commands one after another, each as slow as a hand: several frames.
     pub(crate) fn hands(&self, parts: &[&str]) {
         for part in parts {
             assert!(self.hand(&part.split(' ').collect::<Vec<_>>()), "{part}");
@@ -87,7 +87,7 @@ impl Display {
         }
     }
 
-    /// Whether the window closes by itself, and well.
+    /// Whether the window closes by itself, with success.
     pub(crate) fn closes(&mut self) -> bool {
         let mut window = self.window.take().unwrap();
         let status = self.until(|_| window.try_wait().unwrap());
@@ -101,14 +101,14 @@ impl Display {
         self.focus();
     }
 
-    /// Gives the window the keys, once it is there.
+    /// Waits for the window and gives it the keyboard focus.
     pub(crate) fn focus(&self) {
         let found = self.until(|display| {
             let id = display.window_id()?.to_string();
-            // Without a window manager nobody gives it the keys.
+            // Without a window manager nobody else gives it the focus.
             display.hand(&["windowfocus", &id]).then_some(())
         });
-        assert!(found.is_some(), "a window opens");
+        assert!(found.is_some(), "no window opened");
     }
 
     pub(crate) fn hand(&self, arguments: &[&str]) -> bool {
@@ -119,11 +119,11 @@ impl Display {
     pub(crate) fn look(&self) -> RgbaImage {
         let path = self.home.path().join("look.png");
         let took = self.command("import").args(["-window", "root"]).arg(&path).status();
-        assert!(took.unwrap().success(), "a look is taken");
+        assert!(took.unwrap().success(), "the screenshot failed");
         read_png(&path).unwrap()
     }
 
-    /// The picture of the display once it fulfils `wanted`.
+    /// The picture of the display once it satisfies `wanted`.
     pub(crate) fn see(&self, wanted: impl Fn(&RgbaImage) -> bool) -> Option<RgbaImage> {
         self.until(|display| Some(display.look()).filter(&wanted))
     }

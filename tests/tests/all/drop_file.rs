@@ -1,4 +1,4 @@
-//! A file dropped on a window, by the protocol that file managers speak (XDND, version 5).
+//! Drops a file on a window by the protocol of file managers (XDND, version 5).
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -15,7 +15,7 @@ use x11rb::wrapper::ConnectionExt as _;
 /// Drops a file on the middle of a window of a display.
 ///
 /// # Panics
-/// Where the window does not take it.
+/// If the window does not take it.
 pub(crate) fn drop_file(display: &str, window: u32, file: &Path) {
     let (connection, screen) = x11rb::connect(Some(display)).unwrap();
     let source = Source::new(connection, screen, file);
@@ -26,12 +26,12 @@ pub(crate) fn drop_file(display: &str, window: u32, file: &Path) {
     let copy = atom("XdndActionCopy");
     source.tell(window, "XdndPosition", [source.window, 0, place, x11rb::CURRENT_TIME, copy]);
     let status = source.wait_for("XdndStatus");
-    assert_eq!(status[1] & 1, 1, "the window takes files");
+    assert_eq!(status[1] & 1, 1, "the window does not take files");
     source.tell(window, "XdndDrop", [source.window, 0, x11rb::CURRENT_TIME, 0, 0]);
     source.wait_for("XdndFinished");
 }
 
-/// A file manager, as far as a window sees one.
+/// The part of a file manager that a window sees.
 struct Source {
     connection: RustConnection,
     window: Window,
@@ -57,7 +57,7 @@ impl Source {
         self.connection.intern_atom(false, name.as_bytes()).unwrap().reply().unwrap().atom
     }
 
-    /// The middle of a window on the screen, as positions are told.
+    /// The middle of a window on the screen, packed as in messages.
     fn middle_of(&self, window: Window) -> u32 {
         let size = self.connection.get_geometry(window).unwrap().reply().unwrap();
         let (x, y) = (size.width / 2, size.height / 2);
@@ -73,7 +73,7 @@ impl Source {
         self.connection.flush().unwrap();
     }
 
-    /// What the window answers; meanwhile it is given the list of files, where it asks.
+    /// Waits for an answer of the window; sends the list of files if it asks meanwhile.
     fn wait_for(&self, what: &str) -> [u32; 5] {
         let (wanted, started) = (self.atom(what), Instant::now());
         while started.elapsed() < Duration::from_secs(30) {
@@ -91,7 +91,7 @@ impl Source {
     fn give_list(&self, request: &SelectionRequestEvent) {
         let kind: Atom = request.target;
         let (requestor, property) = (request.requestor, request.property);
-        assert_ne!(property, u32::from(AtomEnum::NONE), "there is a place for the list");
+        assert_ne!(property, u32::from(AtomEnum::NONE), "no property for the list");
         let bytes = self.list.as_bytes();
         let change = PropMode::REPLACE;
         self.connection.change_property8(change, requestor, property, kind, bytes).unwrap();

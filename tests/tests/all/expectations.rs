@@ -1,4 +1,4 @@
-//! What broken and odd files must give: `malformed/gen/EXPECT.tsv` row by row.
+//! The expected results of broken and odd files, from `malformed/gen/EXPECT.tsv`.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -11,10 +11,10 @@ use testkit::locate::{left_out, shared};
 
 use crate::child::{edgemesh, info, json, one_error, stderr};
 
-/// How many rows of the table are about stored files.
+/// The number of rows for stored files.
 const STORED_ROWS: usize = 69;
 
-/// How many rows are about large files, which are made here.
+/// The number of rows for large files, which are generated here.
 const BIG_ROWS: usize = 4;
 
 /// A row of the table.
@@ -39,7 +39,7 @@ impl Row {
         let columns: Vec<&str> = text.split('\t').collect();
         let [file, stored, expect, why] = columns[..] else { panic!("four columns in {text:?}") };
         let (verdict, rest) = expect.split_once(' ').unwrap_or((expect, ""));
-        // What a tolerance would weld is not for exact welding to say.
+        // The part about a tolerance is not for exact welding.
         let mut parts = rest.splitn(2, "welding with a tolerance:");
         let exact = parts.next().unwrap_or(rest);
         let tolerant = parts.next().unwrap_or_default();
@@ -62,7 +62,7 @@ impl Row {
         self.verdict.strip_prefix(name)?.strip_prefix('(')?.strip_suffix(')')
     }
 
-    /// A warning that the row allows where it expects none.
+    /// A warning that the row allows though it expects none.
     fn allowed_warning(&self) -> Option<&str> {
         let (_, rest) = self.why.split_once("or warn(")?;
         rest.split(')').next()
@@ -148,7 +148,7 @@ fn check_error(row: &Row, path: &Path, output: &Output, code: &str) -> Result<()
         None => path.display().to_string(),
     };
     one_error(output, &[&place])?;
-    // The message does not print its code; the library has it.
+    // The message does not contain the code; the error of the library does.
     match edgemesh::format::read::read_model(path) {
         Err(error) if error.kind.as_str() == code => Ok(()),
         Err(error) => {
@@ -178,7 +178,7 @@ fn check_counts(row: &Row, info: &Value) -> Result<(), String> {
     check_welded(&row.welded, info)
 }
 
-/// What a weld with a tolerance makes of the file, where the row says so.
+/// Checks the counts after welding with a tolerance, if the row has them.
 fn check_welded_within(row: &Row, path: &Path) -> Result<(), String> {
     if row.welded_within.is_empty() {
         return Ok(());
@@ -217,7 +217,7 @@ fn check_warnings(row: &Row, info: &Value, stderr: &str) -> Result<(), String> {
     }
 }
 
-/// Loads, or is refused with one message; nothing else.
+/// Asserts that a file loads, or is refused with one message.
 pub(crate) fn check_any(output: &Output) -> Result<(), String> {
     match output.status.code() {
         Some(0) => Ok(()),
@@ -226,7 +226,7 @@ pub(crate) fn check_any(output: &Output) -> Result<(), String> {
     }
 }
 
-/// Writes the large file that `name` stands for.
+/// Writes the large file with this name.
 pub(crate) fn write_big(name: &str, path: &Path) {
     let mut out = BufWriter::new(File::create(path).unwrap());
     match name {

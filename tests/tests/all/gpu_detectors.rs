@@ -23,19 +23,19 @@ use viewer::technique::library::Library;
 use crate::gpu_device::gpu;
 use crate::gpu_render::{own_model, scene_of};
 
-/// Not square, and no multiple of what threads come in.
+/// Not square, and no multiple of the size of a workgroup.
 const SIZE: [u32; 2] = [237, 181];
 
-/// What a detector must write at a texel.
+/// The expected value of a texel.
 enum Wanted {
-    /// A strength, give or take an error.
+    /// A strength within an error.
     Strength(f32, f32),
-    /// A line where this is positive, and either where it is next to nothing.
+    /// A line if this is positive; either if it is nearly zero.
     Margin(f32),
 }
 use Wanted::{Margin, Strength};
 
-/// A detector, `@name` standing for a generated texture.
+/// A detector; `@name` is short for a generated texture.
 struct Case {
     component: &'static str,
     values: &'static str,
@@ -50,7 +50,7 @@ const fn case(
     Case { component, values, wanted }
 }
 
-/// No sum of bytes is the threshold itself.
+/// No sum of bytes equals the threshold.
 macro_rules! chiang_values {
     ($more:literal) => {
         concat!(
@@ -154,12 +154,12 @@ const CASES: [Case; 18] = [
     ),
 ];
 
-/// What detectors read, on the CPU.
+/// The inputs of detectors on the CPU.
 struct Inputs {
     normals: Image<Vec3>,
     depths: Image<f32>,
     distances: Image<f32>,
-    /// From 0 at the near to 1 at the far plane, beside Card and Mitchell's normals.
+    /// Depths from 0 at the near to 1 at the far plane, beside Card and Mitchell's normals.
     map_depths: Image<f32>,
     colors: Image<Vec4>,
     ids: Image<[u8; 4]>,
@@ -169,7 +169,7 @@ struct Inputs {
     frame: FrameUniform,
 }
 
-/// What is drawn before the detectors.
+/// The passes before the detectors.
 const SCENE: &str = "
 [[pass]]
 component = 'render_scene_data'
@@ -193,7 +193,7 @@ texture = '<generated>:scene_color'
 render_target = 'second'
 ";
 
-/// All detectors as one technique, each with its texture.
+/// All detectors as one technique, each with its own texture.
 fn passes() -> String {
     let mut text = SCENE.to_owned();
     for (at, case) in CASES.iter().enumerate() {
@@ -293,7 +293,7 @@ fn compare(mesh: &EdgeMesh, camera: &Camera) {
         let found = Image::new(SIZE[0] as usize, found).unwrap();
         check(case, &inputs, &found, &what);
     }
-    // The second derivative itself.
+    // The second derivative.
     let colors = inputs.colors.measured(|at| inputs.colors.at(at).truncate());
     let second = colors.measured(|at| laplacian_of_gaussian(&colors, 1.4, at));
     for (wanted, found) in second.texels().iter().zip(inputs.second_derivative.texels()) {

@@ -1,10 +1,10 @@
-//! The device that all GPU tests of this process share.
+//! The GPU device, which all tests of a process share.
 
 use std::sync::OnceLock;
 
 use strokes::Gpu;
 
-/// The device; no test passes by being skipped where there is none.
+/// The device; tests fail, and are not skipped, without an adapter.
 pub(crate) fn gpu() -> &'static Gpu {
     static GPU: OnceLock<Gpu> = OnceLock::new();
     GPU.get_or_init(|| match pollster::block_on(Gpu::open(None)) {
@@ -13,7 +13,7 @@ pub(crate) fn gpu() -> &'static Gpu {
     })
 }
 
-/// A device of its own with other limits.
+/// Another device, with other limits.
 pub(crate) fn gpu_with_limits(adjust: impl FnOnce(&mut wgpu::Limits)) -> Gpu {
     match pollster::block_on(Gpu::open_with(None, adjust)) {
         Ok(gpu) => gpu,
@@ -21,7 +21,7 @@ pub(crate) fn gpu_with_limits(adjust: impl FnOnce(&mut wgpu::Limits)) -> Gpu {
     }
 }
 
-/// Whether this is the software driver that the goldens were drawn on.
+/// Whether this is the software driver that drew the goldens.
 pub(crate) fn is_pinned_driver() -> bool {
     let info = &gpu().info;
     info.name.starts_with("llvmpipe") && info.driver_info.starts_with("Mesa 22.3")

@@ -1,5 +1,5 @@
-//! Detectors of edges in closed form: what a constant, a step, a ramp and a corner give,
-//! by the formulas of the papers.
+//! Edge detectors in closed form: their results for a constant, a step, a ramp and a
+//! corner by the formulas of the papers.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -17,16 +17,16 @@ use viewer::technique::library::Library;
 use crate::gpu_device::gpu;
 use crate::gpu_render::scene_of;
 
-/// Pixels a side of the picture, which shows 8 x 8 units.
+/// Pixels per side of the picture, which shows 8 x 8 units.
 const SIDE: u32 = 32;
-/// Units a pixel.
+/// Units per pixel.
 const PIXEL: f64 = 8.0 / 32.0;
 
-/// A strip of the scene that goes all through the picture from below to above: left and
-/// right end with their heights toward the eye.
+/// A strip of the scene from the bottom to the top of the picture: its left and right ends
+/// with their heights toward the eye.
 type Strip = [[f64; 2]; 2];
 
-/// Strips as a model, each of a material of its own.
+/// Strips as a model, each with its own material.
 fn strips(folder: &Path, strips: &[Strip]) -> EdgeMesh {
     let mut text = String::new();
     for (at, [left, right]) in strips.iter().enumerate() {
@@ -42,14 +42,14 @@ fn strips(folder: &Path, strips: &[Strip]) -> EdgeMesh {
     build_edge_mesh(&model, &BuildOptions::default(), &mut report)
 }
 
-/// What a detector writes along the middle row.
+/// The middle row of a detector's output.
 fn row(mesh: &EdgeMesh, folder: &Path, passes: &str) -> Vec<f32> {
     let texels = texels(mesh, folder, passes);
     let start = (SIDE * SIDE / 2) as usize;
     texels[start..start + SIDE as usize].iter().map(|texel| texel[0]).collect()
 }
 
-/// What the texture `out` has in it, row by row.
+/// The texels of the texture `out`, row by row.
 fn texels(mesh: &EdgeMesh, folder: &Path, passes: &str) -> Vec<[f32; 4]> {
     let path = folder.join("detector.toml");
     std::fs::write(&path, passes).unwrap();
@@ -63,7 +63,7 @@ fn texels(mesh: &EdgeMesh, folder: &Path, passes: &str) -> Vec<[f32; 4]> {
     read_texels(gpu(), renderer.generated("out_color").unwrap()).unwrap()
 }
 
-/// Along -z, 8 units high.
+/// A camera that looks along -z, at 8 units of height.
 fn camera() -> Camera {
     Camera {
         eye: DVec3::new(0.0, 0.0, 10.0),
@@ -74,7 +74,7 @@ fn camera() -> Camera {
     }
 }
 
-/// A detector behind a pass that draws all that it may read, its lines white on black.
+/// A detector after a pass that draws its inputs; its lines are white on black.
 fn detector(component: &str, more: &str) -> String {
     let reads = match component {
         name if name.contains("normals") => "normal_texture = \"<generated>:scene_normal\"",
@@ -96,7 +96,7 @@ fn detector(component: &str, more: &str) -> String {
     )
 }
 
-/// Compares a row with what is wanted in some columns, and nothing elsewhere.
+/// Compares a row with the expected values of some columns, and zero elsewhere.
 fn expect(row: &[f32], wanted: &[(usize, f64)], what: &str) {
     for (column, found) in row.iter().enumerate() {
         let want = wanted.iter().find(|known| known.0 == column).map_or(0.0, |known| known.1);
@@ -110,9 +110,9 @@ const BESIDE: [usize; 2] = [15, 16];
 
 const FLAT: [Strip; 1] = [[[-20.0, 0.0], [20.0, 0.0]]];
 const STEP: [Strip; 2] = [[[-20.0, 0.0], [0.0, 0.0]], [[0.0, 0.4], [20.0, 0.4]]];
-/// Rises by a quarter of a unit a unit.
+/// Rises by a quarter of a unit per unit.
 const RAMP: [Strip; 1] = [[[-20.0, -5.0], [20.0, 5.0]]];
-/// Falls off to both sides of x = 0 by half a unit a unit.
+/// Falls off to both sides of x = 0 by half a unit per unit.
 const CORNER: [Strip; 2] = [[[-20.0, -10.0], [0.0, 0.0]], [[0.0, 0.0], [20.0, -10.0]]];
 
 #[test]
@@ -180,19 +180,19 @@ fn planes_have_no_edges_however_steep_and_steps_have() {
         let passes = detector("edge_detect_planes", &format!("threshold = {threshold:.3}"));
         row(&strips(folder.path(), of), folder.path(), &passes)
     };
-    // Forty units a unit: what a depth difference calls an edge everywhere.
+    // Forty units per unit: depth differences find edges everywhere.
     let steep = [[[-20.0, -800.0], [20.0, 800.0]]];
     for (of, what) in [(&FLAT[..], "a constant"), (&RAMP, "a ramp"), (&steep, "a steep ramp")] {
         expect(&measure(of, 0.05), &[], what);
     }
-    // The step is 0.4 units of 0.25 a pixel.
+    // The step is 0.4 units, at 0.25 units per pixel.
     for (threshold, is_edge) in [(1.59, 1.0), (1.61, 0.0)] {
         let edges = BESIDE.map(|column| (column, is_edge));
         expect(&measure(&STEP, threshold), &edges, "a step in pixels");
     }
 }
 
-/// As the thesis says: a boundary between two texels makes an edge of both.
+/// As in the thesis: a boundary between two texels makes both of them edges.
 #[test]
 fn detected_edges_are_two_pixels_wide() {
     let folder = tempfile::tempdir().unwrap();
@@ -210,8 +210,8 @@ fn detected_edges_are_two_pixels_wide() {
     }
 }
 
-/// A detector that reads a pattern: a WGSL expression of the texel's column and row, for
-/// all four channels.
+/// The output of passes that read a pattern: a WGSL expression of the texel's column and
+/// row, the same for all four channels.
 pub(crate) fn of_pattern(folder: &Path, pattern: &str, passes: &str) -> Vec<[f32; 4]> {
     let program = format!(
         "@fragment\nfn pattern(@builtin(position) at: vec4f) -> @location(0) vec4f {{\n\
@@ -227,7 +227,7 @@ pub(crate) fn of_pattern(folder: &Path, pattern: &str, passes: &str) -> Vec<[f32
     texels(&strips(folder, &FLAT), folder, &passes)
 }
 
-/// The middle row of a channel.
+/// A channel of the middle row.
 fn middle_row(texels: &[[f32; 4]], channel: usize) -> Vec<f32> {
     let start = (SIDE * SIDE / 2) as usize;
     texels[start..start + SIDE as usize].iter().map(|texel| texel[channel]).collect()
@@ -299,7 +299,7 @@ fn sobel_draws_lines_intensities_and_orientations() {
     let intensities = "threshold = 0.5\nshow = \"intensities\"";
     let step = BESIDE.map(|column| (column, 0.5 * 1.6));
     expect(&middle_row(&found(STEP_PATTERN, intensities), 0), &step, "intensities");
-    // Brighter to the right is the hue of no turn, red; downward a third of a third on.
+    // A gradient to the right has the hue at angle 0, red; one downward a later hue.
     let hues = found(STEP_PATTERN, "threshold = 1\nshow = \"orientation\"");
     let wanted = [1.0, 0.25, 0.25];
     let found = hues[16 * 32 + 16];
@@ -379,7 +379,7 @@ fn laplacian_of_gaussian_is_its_sum_and_crosses_zero_at_a_step() {
     expect(&crossings(RAMP_PATTERN, 0.01), &[], "zero crossings of a ramp");
 }
 
-/// Card and Mitchell's Listings 9 and 10: two of four diagonal taps are beyond a step.
+/// Card and Mitchell, Listings 9 and 10: two of four diagonal taps are beyond a step.
 #[test]
 fn five_taps_look_along_the_diagonals() {
     let folder = tempfile::tempdir().unwrap();
@@ -400,11 +400,11 @@ fn five_taps_look_along_the_diagonals() {
         let edges = BESIDE.map(|column| (column, is_edge));
         expect(&of_depth(STEP_PATTERN, threshold), &edges, "a step");
     }
-    // Four taps, half of them inside at the rims, which stand for what lies beyond.
+    // Four taps; at the rims half of them are clamped to the texel inside.
     let inner = |least: f64| all_columns(|column| f64::from(column % 31 != 0) * least);
     expect(&of_depth(RAMP_PATTERN, 0.0399), &inner(1.0), "a ramp");
     expect(&of_depth(RAMP_PATTERN, 0.0401), &[], "a ramp below the threshold");
-    // The other side of the top is as low as the own: two taps differ.
+    // Both sides of the top are equally low: two taps differ.
     let but_top = all_columns(|column| f64::from(![0, 15, 16, 31].contains(&column)));
     expect(&of_depth(CORNER_PATTERN, 0.0799), &but_top, "a corner");
 
@@ -436,8 +436,8 @@ fn chiang_adds_gradients_and_drops_edges_without_a_step_of_depth() {
         let [far, near] = [0.0, 1.0].map(|depth| distance_of(depth, projection(mesh)));
         f64::from(far - near)
     };
-    // Both the gradient and the sum of the differences to three of eight neighbours, the
-    // middle one twice, are four times the step.
+    // The gradient is four times the step, and so is the sum of the differences to three of
+    // eight neighbors, with the middle one twice.
     let height = 4.0 * 0.4 / range(&mesh);
     let edges = |is_edge: f64| BESIDE.map(|column| (column, is_edge));
     for (factor, is_edge) in [(0.999, 1.0), (1.001, 0.0)] {
@@ -448,18 +448,18 @@ fn chiang_adds_gradients_and_drops_edges_without_a_step_of_depth() {
         expect(&measure(&STEP, &extra), &edges(is_edge), "a step by the extra threshold");
     }
     expect(&measure(&FLAT, "depth_threshold = 0.00001\nextra_filter = false"), &[], "a constant");
-    // A corner is one of normals alone: x goes from -1 / sqrt(5) to 1 / sqrt(5), as colours
-    // by half of that, four times.
+    // A corner is an edge in normals alone: x goes from -1 / sqrt(5) to 1 / sqrt(5), which
+    // is half of that in colors, times four.
     let gradient = 4.0 / 5.0_f64.sqrt();
     for (factor, is_edge) in [(0.999, 1.0), (1.001, 0.0)] {
         let normals = format!("normal_threshold = {:.9}\ndepth_threshold = 16", factor * gradient);
         let unfiltered = format!("{normals}\nextra_filter = false");
         expect(&measure(&CORNER, &unfiltered), &edges(is_edge), "a corner");
-        // On either side of the top the depth changes as on a slope: three neighbours a
-        // pixel beside are half a pixel lower, and those beyond the top are level.
+        // On either side of the top the depth changes as on a slope: the three neighbors on
+        // one side are half a pixel lower, and those beyond the top are level.
         expect(&measure(&CORNER, &format!("{normals}\nextra_threshold = 1")), &[], "filtered");
     }
-    // As printed, derivatives keep their signs: only what gets farther, or brighter, to
+    // As printed, derivatives keep their signs: only an increase of depth or brightness to
     // the right counts.
     let printed = format!(
         "depth_threshold = {:.9}\nextra_filter = false\n\
@@ -498,8 +498,8 @@ fn combined_detector_has_a_colour_for_each_kind() {
     expect(&found(&STEP, &without(&["ids"])), &edges(depth), "a step alone");
     expect(&found(&CORNER, all), &edges(several), "a corner between materials");
     expect(&found(&CORNER, &without(&["ids"])), &edges(normal), "a corner alone");
-    expect(&found(&CORNER, &without(&["ids", "normals"])), &[], "nothing that is looked for");
-    // Without thresholds the strongest gives the colour: the factor times 1 - cosine.
+    expect(&found(&CORNER, &without(&["ids", "normals"])), &[], "a corner without its detectors");
+    // Without thresholds the strongest gives the color: the factor times 1 - cosine.
     let cosine = (1.0 - 0.25) / (1.0 + 0.25);
     let strength =
         format!("{}\napply_threshold = false\nnormal_threshold = 2.0", without(&["ids"]))
@@ -509,7 +509,7 @@ fn combined_detector_has_a_colour_for_each_kind() {
     let bend = |of: f64| 0.2 * of * 0.5 * PIXEL;
     let wanted = all_columns(|column| match column {
         15 | 16 => normal_strength * normal / 255.0,
-        // At the rims the depth alone bends.
+        // At the rims only the depth bends.
         _ if rims(column) => bend(1.0) * depth / 255.0,
         _ => 0.0,
     });

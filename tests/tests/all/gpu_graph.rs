@@ -1,5 +1,5 @@
-//! The chains that the GPU links against those of the CPU: the same edges in the same
-//! order, in every layout, in chunks, and mirrored.
+//! The chains of the GPU against those of the CPU: the same edges in the same order, in
+//! every layout, in chunks, and mirrored.
 
 use std::sync::Arc;
 
@@ -43,7 +43,7 @@ fn renderer(gpu: &Gpu, layout: Layout) -> Renderer {
     Renderer::new(gpu, options).unwrap()
 }
 
-/// A mesh in a layout, ready to be looked at.
+/// A mesh in a layout, with its renderer.
 struct Linker<'a> {
     gpu: &'a Gpu,
     mesh: &'a EdgeMesh,
@@ -75,11 +75,11 @@ impl<'a> Linker<'a> {
         self.scene.drawing.objects()[0].read_graph(self.gpu).unwrap().unwrap()
     }
 
-    /// Checks the graph of a view against the CPU's; says how many contours it has.
+    /// Checks the graph of a view against that of the CPU; returns the number of contours.
     fn check(&mut self, name: &str, camera: &Camera) -> usize {
         let graph = self.graph(camera);
         let drawn = self.scene.drawing.objects()[0].read_tally(self.gpu).unwrap().stroke_count;
-        assert_eq!(graph.header.node_count, drawn, "{name}: every drawn edge is a node");
+        assert_eq!(graph.header.node_count, drawn, "{name}: nodes and drawn edges");
         let lines = lines_of(self.mesh, &graph);
         let (mesh, faces, links, lines) = (self.mesh, &self.faces, &self.links, &lines);
         let linking = LayerLinks { mesh, faces, links, lines, draws_contours: true };
@@ -98,7 +98,7 @@ impl<'a> Linker<'a> {
     }
 }
 
-/// What the nodes say of every record.
+/// The line of each record, from the nodes.
 fn lines_of(mesh: &EdgeMesh, graph: &GraphReadback) -> Vec<Line> {
     let mut lines = vec![Line { bits: LineBits::empty(), layer: NO_LAYER }; mesh.records.len()];
     for (at, node) in (0_u32..).zip(&graph.nodes) {
@@ -108,7 +108,7 @@ fn lines_of(mesh: &EdgeMesh, graph: &GraphReadback) -> Vec<Line> {
         bits.set(LineBits::CONTOUR, node.edge & LineBits::CONTOUR.bits() != 0);
         bits.set(LineBits::A_FACES, !is_backward);
         let edge = (node.edge & NO_NODE) as usize;
-        assert!(lines[edge].bits.is_empty(), "edge {edge} is one node");
+        assert!(lines[edge].bits.is_empty(), "edge {edge} has two nodes");
         lines[edge] = Line { bits, layer: u32::try_from(layer).unwrap() };
     }
     lines
@@ -119,7 +119,7 @@ struct FoundChain {
     is_closed: bool,
 }
 
-/// The chains as the elements have them.
+/// The chains, from the elements.
 fn chains_of(graph: &GraphReadback) -> Vec<FoundChain> {
     let mut chains: Vec<FoundChain> = Vec::new();
     for (at, element) in (0_u32..).zip(&graph.elements) {
@@ -130,7 +130,10 @@ fn chains_of(graph: &GraphReadback) -> Vec<FoundChain> {
         let node = &graph.nodes[element.node as usize];
         let chain = chains.last_mut().unwrap();
         chain.edges.push((node.edge & NO_NODE, node.edge & BACKWARD != 0));
-        assert!(chain.edges.len() <= (element.count & !ON_LOOP) as usize, "as long as it says");
+        assert!(
+            chain.edges.len() <= (element.count & !ON_LOOP) as usize,
+            "a chain is longer than its count"
+        );
     }
     chains
 }
@@ -147,7 +150,7 @@ fn check_geometry(name: &str, graph: &GraphReadback) {
         }
         let is_clipped = node.next & (CUT_END | CUT_WHOLE) != 0 || next.next & CUT_START != 0;
         assert!(is_clipped || node.s1 == next.s0, "{name}: a gap at element {at}");
-        assert_eq!(node.next & NO_NODE, pair[1].node, "{name}: linked as placed");
+        assert_eq!(node.next & NO_NODE, pair[1].node, "{name}: the order of elements and links");
     }
 }
 
@@ -166,7 +169,7 @@ fn chains_of_the_projects_models_are_the_cpus() {
     }
 }
 
-/// Over a thousand views of real models, some of them awkward.
+/// More than a thousand views of real models, some of them awkward.
 #[test]
 fn chains_of_real_models_are_the_cpus() {
     let names = [
@@ -194,7 +197,7 @@ fn chains_of_real_models_are_the_cpus() {
     assert!(contours > 1_000_000, "{contours} contours");
 }
 
-/// The other layouts, and bindings that take a few hundred replicated edges each.
+/// The other layouts, and bindings that hold a few hundred replicated edges each.
 #[test]
 fn chains_are_the_same_in_every_layout_and_across_chunks() {
     let small = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 600_000);
@@ -231,13 +234,13 @@ fn chains_of_a_real_model_run_across_chunks() {
     }
 }
 
-/// An umbrella of thousands of ribs, and a band that has no two sides.
+/// An umbrella with thousands of ribs, and a one-sided band.
 #[test]
 fn hubs_and_bands_without_sides_are_linked_as_on_the_cpu() {
     let ribs = 3000_u32;
     let rim = (0..ribs).map(|rib| {
         let angle = f64::from(rib) / f64::from(ribs) * std::f64::consts::TAU;
-        // Up and down, so that many ribs are contours from the side.
+        // Up and down, so that many ribs are contours seen from the side.
         let height = if rib % 2 == 0 { 0.3 } else { -0.3 };
         #[expect(clippy::cast_possible_truncation, reason = "a test")]
         [angle.cos(), height, angle.sin()].map(|x| x as f32)
@@ -274,7 +277,7 @@ fn check_faces(name: &str, positions: &[[f32; 3]], faces: &[[u32; 3]]) {
     assert!(contours > 10, "{name}: {contours} contours");
 }
 
-/// A mirror keeps the front faces, and with them the chains.
+/// A mirror keeps the front faces and so the chains.
 #[test]
 fn mirrored_objects_have_the_same_chains() {
     let mesh = own_model("torus_knot");
@@ -304,7 +307,7 @@ fn the_same_view_gives_the_same_bytes() {
     assert_eq!((first.nodes, first.elements), (again.nodes, again.elements));
 }
 
-/// Where there is no room to link all edges, the rest is drawn one by one: as much ink.
+/// Edges without room for linking are drawn one by one, with as much ink.
 #[test]
 fn what_finds_no_room_is_drawn_edge_by_edge() {
     let crowded = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 16);

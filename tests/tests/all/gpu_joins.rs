@@ -1,5 +1,5 @@
-//! Linked strokes as they are composited: no gap along them, and no pixel covered more
-//! than once, at any width and any turn.
+//! Composited linked strokes: no gap along them, and no pixel covered more than once, at any
+//! width and any angle.
 
 use std::sync::Arc;
 
@@ -21,14 +21,14 @@ use viewer::technique::brush_file::shipped_brush;
 use crate::gpu_device::gpu;
 use crate::random::Random;
 
-/// Pixels a side.
+/// Pixels per side.
 const SIZE: u16 = 384;
 
-/// One coverage of half black ink on white paper, and what rounding leaves of it.
+/// Half black ink over white paper once, rounded down.
 const ONCE: u8 = 127;
 
-/// Lines that wander about, some with steps of a fraction of a pixel, some that turn
-/// back on themselves, some that cross themselves.
+/// Lines that wander, some with steps of a fraction of a pixel, some that turn back on
+/// themselves, some that cross themselves.
 fn wandering(random: &mut Random) -> EdgeMesh {
     let mut model = Model::default();
     for line in 0..10 {
@@ -50,7 +50,7 @@ fn wandering(random: &mut Random) -> EdgeMesh {
     build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default())
 }
 
-/// Stars of two sides: their rims are contours that turn by any angle.
+/// Stars with two sides: their rims are contours that turn by any angle.
 fn stars(random: &mut Random) -> EdgeMesh {
     let mut model = Model::default();
     for star in 0..4_u8 {
@@ -76,12 +76,12 @@ fn stars(random: &mut Random) -> EdgeMesh {
     build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default())
 }
 
-/// A renderer for all pictures of a test.
+/// The renderer of all pictures of a test.
 fn renderer() -> Renderer {
     Renderer::new(gpu(), RendererOptions::new(TargetFormats::new(1))).unwrap()
 }
 
-/// What was drawn: red of every pixel, and the ribbons.
+/// Draws a mesh: the red of every pixel, and the ribbons.
 fn draw(
     renderer: &mut Renderer,
     mesh: &EdgeMesh,
@@ -108,13 +108,13 @@ fn draw(
     (texels.into_iter().map(|texel| texel[0]).collect(), graph)
 }
 
-/// The centre of a pixel, from the middle of the picture, y up.
+/// The center of a pixel, from the middle of the picture, y up.
 fn center(x: u16, y: u16) -> Vec2 {
     let half = f32::from(SIZE) / 2.0;
     Vec2::new(f32::from(x) + 0.5 - half, half - f32::from(y) - 0.5)
 }
 
-/// Every pixel within so far of a ribbon, with where it is.
+/// Every pixel within `reach` of a ribbon, with its place.
 fn pixels_near(ribbon: &Ribbon, reach: f32) -> impl Iterator<Item = (usize, Place)> {
     let half = f32::from(SIZE) / 2.0;
     let (a, b) = (Vec2::from(ribbon.a), Vec2::from(ribbon.b));
@@ -134,13 +134,13 @@ fn pixels_near(ribbon: &Ribbon, reach: f32) -> impl Iterator<Item = (usize, Plac
     })
 }
 
-/// Where a pixel is beside a ribbon.
+/// The place of a pixel relative to a ribbon.
 struct Place {
-    /// 0 where the ribbon begins, 1 where it ends.
+    /// 0 at the start of the ribbon, 1 at its end.
     along: f32,
     /// Pixels to the left.
     off: f32,
-    /// Pixels to the nearest place on it.
+    /// Pixels to the nearest point on it.
     distance: f32,
 }
 
@@ -190,15 +190,15 @@ fn wandering_lines_have_no_gap_and_no_pixel_is_covered_twice() {
             nearest[at] = nearest[at].min(place.distance);
         }
         for (at, (red, nearest)) in picture.into_iter().zip(nearest).enumerate() {
-            let what = format!("case {case}, {width} px wide, pixel {at}, {nearest} px off");
-            assert!(red >= ONCE, "{what}: covered twice");
+            let what = || format!("case {case}, {width} px wide, pixel {at}, {nearest} px off");
+            assert!(red >= ONCE, "{}: covered twice", what());
             if nearest < reach - 0.55 {
                 inside += 1;
-                assert!(red <= ONCE + 1, "{what}: a gap");
+                assert!(red <= ONCE + 1, "{}: a gap", what());
             }
-            // Mitres go further than that.
+            // Miters extend further.
             if case % 2 == 0 && nearest > reach + 0.55 {
-                assert_eq!(red, 255, "{what}: ink beyond the stroke");
+                assert_eq!(red, 255, "{}: ink beyond the stroke", what());
             }
         }
     }
@@ -228,7 +228,7 @@ fn strokes_outside_of_contours_have_no_gap_either() {
         let ribbons = drawn(&graph);
         assert!(ribbons.len() > 100, "case {case}: {} segments", ribbons.len());
         assert!(picture.iter().all(|red| *red >= ONCE), "case {case}: covered twice");
-        // Where another part of the rim comes between, less is inked.
+        // Another part of the rim in between leaves less ink.
         let mut is_right_of_all = vec![true; picture.len()];
         for (at, place) in ribbons.iter().flat_map(|ribbon| pixels_near(ribbon, width + 2.0)) {
             is_right_of_all[at] &= place.off < -0.55 || place.distance > width + 1.0;
@@ -238,8 +238,8 @@ fn strokes_outside_of_contours_have_no_gap_either() {
             let is_inside = (0.55..width - 0.55).contains(&-place.off);
             if is_beside && is_inside && is_right_of_all[at] {
                 inside += 1;
-                let what = format!("case {case}, {width} px wide, pixel {at}");
-                assert!(picture[at] <= ONCE + 1, "{what}: a gap");
+                let red = picture[at];
+                assert!(red <= ONCE + 1, "case {case}, {width} px wide, pixel {at}: a gap");
             }
         }
     }

@@ -21,24 +21,28 @@ use crate::gpu_twin::Detector;
 use crate::noop::layouts_and_stages;
 use crate::own_models::own_models;
 
-/// A mesh on a device, drawn in several ways.
-struct Drawn<'a> {
-    easel: Easel<'a>,
-    camera: Camera,
-}
+/// Meshes on a device, drawn in several ways.
+struct Drawn<'a>(Easel<'a>);
 
 impl<'a> Drawn<'a> {
-    fn on(gpu: &'a Gpu, mesh: &EdgeMesh) -> Self {
-        Self { easel: Easel::new(gpu, mesh), camera: Camera::default_view(&mesh.bounds) }
+    fn on<'m>(gpu: &'a Gpu, meshes: impl IntoIterator<Item = &'m EdgeMesh>) -> Self {
+        Self(Easel::new(gpu, meshes))
+    }
+
+    /// The project's own models by their place in [`own_models`].
+    fn own_models_on(gpu: &'a Gpu) -> Self {
+        Self::on(gpu, own_models().iter().map(|(_, mesh)| mesh))
     }
 
     fn picture(
         &mut self,
+        mesh: usize,
         technique: &Technique,
         (layout, stage): (Layout, DetectionStage),
     ) -> RgbaImage {
         let options = PictureOptions { size: [256; 2], layout, stage, ..PictureOptions::default() };
-        self.easel.picture(&self.camera, technique, &options)
+        let camera = self.0.default_view(mesh);
+        self.0.picture(mesh, &camera, technique, &options)
     }
 }
 
@@ -69,10 +73,11 @@ fn looks() -> Vec<Technique> {
 
 #[test]
 fn all_layouts_and_stages_draw_the_same() {
-    for (name, mesh) in own_models() {
-        let mut drawn = Drawn::on(gpu(), &mesh);
-        for (at, look) in looks().iter().enumerate() {
-            let pictures = layouts_and_stages().map(|how| drawn.picture(look, how));
+    let mut drawn = Drawn::own_models_on(gpu());
+    let models = own_models();
+    for (at, look) in looks().iter().enumerate() {
+        for (model, (name, _)) in models.iter().enumerate() {
+            let pictures = layouts_and_stages().map(|how| drawn.picture(model, look, how));
             let [indexed, others @ ..] = &pictures;
             for (other, (layout, stage)) in others.iter().zip(&layouts_and_stages()[1..]) {
                 if *layout != Layout::Replicated16 {
@@ -93,13 +98,13 @@ fn all_layouts_and_stages_draw_the_same() {
 /// before all caps: the same ink in another order, rounded otherwise.
 #[test]
 fn textured_strokes_differ_by_their_order_at_most() {
-    for name in ["bracket", "torus_knot"] {
-        let mesh = own_model(name);
-        let look = technique("pen", &["strokes.width=8"]);
-        let mut drawn = Drawn::on(gpu(), &mesh);
-        let indexed = drawn.picture(&look, (Layout::Indexed, DetectionStage::Compute));
+    let names = ["bracket", "torus_knot"];
+    let mut drawn = Drawn::on(gpu(), &names.map(own_model));
+    let look = technique("pen", &["strokes.width=8"]);
+    for (model, name) in names.into_iter().enumerate() {
+        let indexed = drawn.picture(model, &look, (Layout::Indexed, DetectionStage::Compute));
         for how in layouts_and_stages().into_iter().filter(|how| how.0 != Layout::Replicated16) {
-            let apart = difference(&indexed, &drawn.picture(&look, how));
+            let apart = difference(&indexed, &drawn.picture(model, &look, how));
             let most = if how == (Layout::Replicated, DetectionStage::Vertex) { 4 } else { 0 };
             assert!(apart <= most, "{name}, {how:?}: {apart}");
         }
@@ -109,24 +114,15 @@ fn textured_strokes_differ_by_their_order_at_most() {
 /// The 16-bit layout draws the mesh of its own rounded positions.
 #[test]
 fn sixteen_bits_draw_their_own_positions() {
-    for (name, mesh) in own_models() {
-        let quantization = Quantization::of(&mesh.bounds);
-        let mut rounded = mesh.clone();
-        for position in &mut rounded.positions {
-            *position = quantization.dequantize(quantization.quantize(*position));
-        }
-        for (plane, triangle) in rounded.face_planes.iter_mut().zip(&rounded.triangles) {
-            let corners = triangle.map(|vertex| Vec3::from(rounded.positions[vertex as usize]));
-            let [a, b, c] = corners.map(|corner| corner.as_dvec3());
-            let normal = (b - a).cross(c - a).normalize_or_zero().as_vec3();
-            let (normal, point) = (normal.extend(0.0).into(), corners[0].extend(1.0).into());
-            *plane = FacePlane { normal, point };
-        }
-        let look = technique("ink", &[]);
-        let exact =
-            Drawn::on(gpu(), &rounded).picture(&look, (Layout::Indexed, DetectionStage::Compute));
-        let sixteen =
-            Drawn::on(gpu(), &mesh).picture(&look, (Layout::Replicated16, DetectionStage::Compute));
+    let models = own_models();
+    let rounded: Vec<EdgeMesh> = models.iter().map(|(_, mesh)| at_16_bits(mesh)).collect();
+    let mut sixteen = Drawn::own_models_on(gpu());
+    let mut exact = Drawn::on(gpu(), &rounded);
+    let look = technique("ink", &[]);
+    for (model, (name, _)) in models.iter().enumerate() {
+        let exact = exact.picture(model, &look, (Layout::Indexed, DetectionStage::Compute));
+        let how = (Layout::Replicated16, DetectionStage::Compute);
+        let sixteen = sixteen.picture(model, &look, how);
         let wrong = exact
             .pixels()
             .zip(sixteen.pixels())
@@ -137,19 +133,37 @@ fn sixteen_bits_draw_their_own_positions() {
     }
 }
 
+/// A mesh whose positions are those of its 16-bit layout, with the planes of its faces.
+fn at_16_bits(mesh: &EdgeMesh) -> EdgeMesh {
+    let quantization = Quantization::of(&mesh.bounds);
+    let mut rounded = mesh.clone();
+    for position in &mut rounded.positions {
+        *position = quantization.dequantize(quantization.quantize(*position));
+    }
+    for (plane, triangle) in rounded.face_planes.iter_mut().zip(&rounded.triangles) {
+        let corners = triangle.map(|vertex| Vec3::from(rounded.positions[vertex as usize]));
+        let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+        let normal = (b - a).cross(c - a).normalize_or_zero().as_vec3();
+        let (normal, point) = (normal.extend(0.0).into(), corners[0].extend(1.0).into());
+        *plane = FacePlane { normal, point };
+    }
+    rounded
+}
+
 /// Meshes that one binding cannot hold are drawn in chunks: the same bytes.
 #[test]
 fn chunks_draw_the_picture_of_the_whole() {
     // The project's models are small: these bindings take a few hundred edges.
     let small = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 15);
-    for (name, mesh) in own_models() {
-        let mut at_once = Drawn::on(gpu(), &mesh);
-        let mut in_chunks = Drawn::on(&small, &mesh);
-        let pen = technique("pen", &["strokes.width=6"]);
-        for (at, look) in looks().iter().chain([&pen]).enumerate() {
+    let mut at_once = Drawn::own_models_on(gpu());
+    let mut in_chunks = Drawn::own_models_on(&small);
+    let pen = technique("pen", &["strokes.width=6"]);
+    let models = own_models();
+    for (at, look) in looks().iter().chain([&pen]).enumerate() {
+        for (model, (name, _)) in models.iter().enumerate() {
             for how in layouts_and_stages() {
-                let whole = at_once.picture(look, how);
-                let chunks = in_chunks.picture(look, how);
+                let whole = at_once.picture(model, look, how);
+                let chunks = in_chunks.picture(model, look, how);
                 // The paper's passes, chunk by chunk, are another order of the ink.
                 let is_reordered = how.1 == DetectionStage::Vertex && how.0 != Layout::Indexed;
                 let most = if is_reordered && at == looks().len() { 4 } else { 0 };
@@ -165,17 +179,21 @@ fn chunks_draw_the_picture_of_the_whole() {
 fn large_meshes_in_bindings_of_a_mebibyte() {
     let small = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 20);
     let Some(folder) = shared() else { return left_out("meshes in chunks", 3) };
-    for name in ["stanford-bunny.obj", "rocker-arm.obj", "fandisk.obj"] {
+    let names = ["stanford-bunny.obj", "rocker-arm.obj", "fandisk.obj"];
+    let meshes = names.map(|name| {
         let (model, mut report) = read_model(&folder.join("models").join(name)).unwrap();
         let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut report);
         let buffers = MeshBuffers::new(&small.device, &mesh, Layout::Indexed).unwrap();
         assert_eq!(buffers.chunk_count() > 1, mesh.triangles.len() > 32_768, "{name}");
-        let how = (Layout::Indexed, DetectionStage::Compute);
-        let mut at_once = Drawn::on(gpu(), &mesh);
-        let mut in_chunks = Drawn::on(&small, &mesh);
-        for look in [technique("ink", &[]), technique("pen", &["hidden.render=true"])] {
-            let whole = at_once.picture(&look, how);
-            assert_eq!(difference(&whole, &in_chunks.picture(&look, how)), 0, "{name}");
+        mesh
+    });
+    let how = (Layout::Indexed, DetectionStage::Compute);
+    let mut at_once = Drawn::on(gpu(), &meshes);
+    let mut in_chunks = Drawn::on(&small, &meshes);
+    for look in [technique("ink", &[]), technique("pen", &["hidden.render=true"])] {
+        for (model, name) in names.into_iter().enumerate() {
+            let whole = at_once.picture(model, &look, how);
+            assert_eq!(difference(&whole, &in_chunks.picture(model, &look, how)), 0, "{name}");
         }
     }
 }
@@ -191,15 +209,16 @@ fn linked_strokes_are_the_same_in_every_layout_and_in_chunks() {
             &["strokes.linked=true", "ridge.width=3", "hidden.render=true", "hidden.linked=true"],
         ),
     ];
-    for (name, mesh) in own_models() {
-        let mut at_once = Drawn::on(gpu(), &mesh);
-        let mut in_chunks = Drawn::on(&small, &mesh);
-        for look in &looks {
+    let mut at_once = Drawn::own_models_on(gpu());
+    let mut in_chunks = Drawn::own_models_on(&small);
+    let models = own_models();
+    for look in &looks {
+        for (model, (name, _)) in models.iter().enumerate() {
             let how = |layout| (layout, DetectionStage::Compute);
-            let indexed = at_once.picture(look, how(Layout::Indexed));
-            let replicated = at_once.picture(look, how(Layout::Replicated));
+            let indexed = at_once.picture(model, look, how(Layout::Indexed));
+            let replicated = at_once.picture(model, look, how(Layout::Replicated));
             assert_eq!(difference(&indexed, &replicated), 0, "{name}");
-            let chunks = in_chunks.picture(look, how(Layout::Replicated));
+            let chunks = in_chunks.picture(model, look, how(Layout::Replicated));
             assert_eq!(difference(&indexed, &chunks), 0, "{name} in chunks");
         }
     }
@@ -211,11 +230,11 @@ fn strokes_without_room_are_drawn_all_the_same() {
     // Room for 273 strokes a chunk.
     let crowded = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 17);
     let mesh = own_model("torus_knot");
-    let (mut roomy, mut crowded) = (Drawn::on(gpu(), &mesh), Drawn::on(&crowded, &mesh));
+    let (mut roomy, mut crowded) = (Drawn::on(gpu(), [&mesh]), Drawn::on(&crowded, [&mesh]));
     for look in looks() {
         let how = (Layout::Indexed, DetectionStage::Compute);
-        let whole = roomy.picture(&look, how);
-        assert_eq!(difference(&whole, &crowded.picture(&look, how)), 0);
+        let whole = roomy.picture(0, &look, how);
+        assert_eq!(difference(&whole, &crowded.picture(0, &look, how)), 0);
     }
 }
 

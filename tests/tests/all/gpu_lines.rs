@@ -1,9 +1,8 @@
-//! What is done with lines after they were found: dilation, erosion, flooding, lines of
-//! any width, smooth rims.
+//! Processing of detected lines: dilation, erosion, flooding, line widths, smooth rims.
 
 use crate::gpu_edges::of_pattern;
 
-/// Texels a side.
+/// Texels per side.
 const SIDE: i32 = 32;
 
 type Texels = Vec<[f32; 4]>;
@@ -13,13 +12,13 @@ fn at(texels: &[[f32; 4]], column: i32, row: i32) -> [f32; 4] {
     texels[usize::try_from(inside(row) * SIDE + inside(column)).unwrap()]
 }
 
-/// Dots, bars, rims and a diagonal of ink on white paper, some of it half transparent.
+/// Dots, bars, rims and a diagonal of ink on white paper, partly translucent.
 const INK: &str = "vec4f(0.0, 0.0, 0.0, 1.0) * f32(
         (column == 5.0 && row == 5.0) || (column == 20.0 && row > 8.0 && row < 25.0)
         || (column == row && column > 24.0) || (row == 31.0 && column < 9.0))
     + vec4f(0.1, 0.2, 0.0, 0.5) * f32(column > 9.0 && column < 14.0 && row > 12.0)";
 
-/// `INK` and what a pass makes of it.
+/// `INK`, and a pass's output for it.
 fn of_ink(passes: &str) -> Texels {
     let folder = tempfile::tempdir().unwrap();
     of_pattern(folder.path(), INK, passes)
@@ -33,12 +32,12 @@ fn morphology(component: &str, shape: &str, count: u32) -> Texels {
     ))
 }
 
-/// How dark a premultiplied colour is on white paper.
+/// The darkness of a premultiplied color on white paper.
 fn darkness([red, green, blue, alpha]: [f32; 4]) -> f32 {
     alpha - (0.3 * red + 0.6 * green + 0.1 * blue)
 }
 
-/// One round, texel by texel.
+/// One round of dilation or erosion, texel by texel.
 fn morphed(texels: &Texels, shape: &str, sign: f32) -> Texels {
     let around = |column: i32, row: i32| {
         let mut extreme = at(texels, column, row);
@@ -79,7 +78,7 @@ fn dilation_and_erosion_are_repeated_extremes() {
     };
     assert_eq!(dots(&morphology("dilate", "square", 2)), 25);
     assert_eq!(dots(&morphology("dilate", "cross", 2)), 13);
-    // What is thinner than two texels a round is gone, and a wide bar thinner.
+    // Bars thinner than two texels per round vanish, a wide bar becomes thinner.
     let eroded = morphology("erode", "square", 1);
     assert_eq!(at(&eroded, 20, 15), [0.0; 4]);
     let bar = (9..15).filter(|&column| at(&eroded, column, 20)[3] > 0.0).count();
@@ -90,7 +89,7 @@ const FLOOD: &str = "[[pass]]\ncomponent = \"flood_seeds\"\n\
     texture = \"<generated>:pattern_color\"\nrender_target = \"seeds\"\n\
     [[pass]]\ncomponent = \"flood\"\ntexture = \"<generated>:seeds_color\"\n";
 
-/// The texels of `INK` that are dark enough to be lines.
+/// The texels of `INK` that are dark enough for lines.
 fn line_texels() -> Vec<(i32, i32)> {
     let ink = morphology("dilate", "square", 0);
     let texels = (0..SIDE * SIDE).map(|index| (index % SIDE, index / SIDE));
@@ -116,7 +115,7 @@ fn flooding_finds_the_nearest_line() {
         farther += i32::from(distance(seed) > nearest);
     }
     // Jump flooding misses the nearest seed at a few texels where cells meet.
-    assert!(farther <= 3, "{farther} of 1024 texels know a line that is not the nearest");
+    assert!(farther <= 3, "{farther} of 1024 texels have a line that is not the nearest");
 }
 
 #[test]
@@ -141,7 +140,7 @@ fn lines_have_the_width_that_is_asked_for() {
     }
 }
 
-/// What was detected, on both sides of a boundary, and what is asked for around it.
+/// Detected lines are on both sides of a boundary; the width is measured around it.
 #[test]
 fn lines_around_two_texels_cover_their_width() {
     let folder = tempfile::tempdir().unwrap();
@@ -159,7 +158,7 @@ fn lines_around_two_texels_cover_their_width() {
     }
 }
 
-/// Where there is no line, nothing is near.
+/// Without a line, no texel is near one.
 #[test]
 fn flooding_of_nothing_draws_nothing() {
     let folder = tempfile::tempdir().unwrap();
@@ -195,9 +194,9 @@ fn smoothing_leaves_level_and_upright_rims_and_makes_slanted_ones_straight() {
             assert!((texel[0] - wanted).abs() < 1e-6, "{pattern}: {index} is {texel:?}");
         }
     }
-    // A rim that falls by a row in eight columns: how much of each column is white, in the
-    // middle of the picture, as far from that of the straight rim as rounding to rows is,
-    // at most an eighth of what it was.
+    // A rim that falls by a row in eight columns: in the middle of the picture, the white of
+    // each column differs from that of the straight rim by at most an eighth of the error of
+    // rounding to rows.
     let pattern = "vec4f(vec3f(select(0.0, 1.0, row >= 8.0 + floor(column / 8.0))), 1.0)";
     let found = smoothed(pattern);
     for column in 8..24 {

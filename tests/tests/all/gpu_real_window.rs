@@ -1,5 +1,4 @@
-//! A real window on a display of its own, moved by real keys, a real pointer and a real
-//! drop.
+//! A real window on its own display, with real keys, a real pointer and a real drop.
 
 use std::path::Path;
 use std::time::Duration;
@@ -29,11 +28,11 @@ fn a_real_window_shows_the_demo_and_follows_keys_and_pointer() {
     std::thread::sleep(Duration::from_secs(1));
     let top = picture(&display.look());
     for key in ["ctrl+shift+F9", "ctrl+shift+F10"] {
-        assert!(display.hand(&["key", key]), "its graphics device is lost");
+        assert!(display.hand(&["key", key]), "xdotool failed");
         std::thread::sleep(Duration::from_secs(2));
         display.focus();
         let again = display.see(|screen| picture(screen) == top);
-        assert!(again.is_some(), "{key}: and another window shows the same");
+        assert!(again.is_some(), "{key}: another window shows another picture");
     }
     display.hands(&[
         "mousedown 1",
@@ -42,13 +41,13 @@ fn a_real_window_shows_the_demo_and_follows_keys_and_pointer() {
         "mouseup 1",
     ]);
     let turned = display.see(|screen| is_drawn(&picture(screen)) && picture(screen) != top);
-    assert!(turned.is_some(), "the pointer turns it");
+    assert!(turned.is_some(), "the pointer does not turn the model");
     assert!(display.hand(&["key", "n"]));
     let is_wide = |screen: &RgbaImage| {
         let right = image::imageops::crop_imm(screen, 700, 100, 150, 400).to_image();
         right.pixels().filter(|pixel| pixel.0[..3] == [255; 3]).count() > 50_000
     };
-    assert!(display.see(is_wide).is_some(), "without panels the picture is the window");
+    assert!(display.see(is_wide).is_some(), "without panels the picture does not fill the window");
     assert!(display.hand(&["key", "ctrl+q"]));
     assert!(display.closes());
 }
@@ -58,12 +57,12 @@ fn picture(screen: &RgbaImage) -> RgbaImage {
     image::imageops::crop_imm(screen, 60, 60, 400, 440).to_image()
 }
 
-/// Whether the window's title comes to begin so.
+/// Waits until the title of the window begins with `name`; false after a while.
 fn is_called(display: &Display, name: &str) -> bool {
     display.until(|display| display.title().starts_with(name).then_some(())).is_some()
 }
 
-/// The screen once the picture on it is still.
+/// The screen once its picture no longer changes.
 fn still(display: &Display) -> RgbaImage {
     let mut before = display.look();
     let still = display.until(|display| {
@@ -73,7 +72,7 @@ fn still(display: &Display) -> RgbaImage {
         before = now;
         is_still.then(|| before.clone())
     });
-    still.expect("the picture comes to rest")
+    still.expect("the picture keeps changing")
 }
 
 #[test]
@@ -90,10 +89,10 @@ fn a_real_window_opens_changes_saves_and_marks() {
     assert!(is_called(&display, "cube.obj"));
     display.answer_dialogs(&knot);
     display.hands(&["mousemove 250 550", "key ctrl+o"]);
-    assert!(is_called(&display, "torus_knot.obj"), "opened by the dialog");
+    assert!(is_called(&display, "torus_knot.obj"), "the dialog did not open the model");
     let first = picture(&still(&display));
 
-    // The one before phong is pen.
+    // Pen precedes phong.
     display.hands(&["key bracketleft"]);
     let pen = still(&display);
     assert!(picture(&pen) != first, "another technique");
@@ -101,7 +100,7 @@ fn a_real_window_opens_changes_saves_and_marks() {
     drag_width(&display);
     let wide = still(&display);
     assert!(ink(&picture(&wide)) > ink(&picture(&pen)) * 3 / 2, "the slider of the width");
-    // A drag that rested on its way is several changes.
+    // A drag with a pause is several changes.
     let undone = display.until(|display| {
         display.hands(&["mousemove 250 550", "key ctrl+z"]);
         (picture(&still(display)) == picture(&pen)).then_some(())
@@ -110,10 +109,10 @@ fn a_real_window_opens_changes_saves_and_marks() {
 
     save_and_restore(&display, folder.path(), &pen);
 
-    // A line more, where an edge is marked that is no feature; and its file.
+    // A marked edge that is no feature draws one line more; then its file.
     display.hands(&["key m", "mousemove 250 300", "mousemove_relative 3 2", "click 1"]);
     display.hands(&["mousemove 100 560", "key m"]);
-    // What is not saved outlives the graphics device.
+    // Unsaved marks survive the loss of the graphics device.
     display.hands(&["key ctrl+shift+F9"]);
     std::thread::sleep(Duration::from_secs(2));
     display.focus();
@@ -121,7 +120,7 @@ fn a_real_window_opens_changes_saves_and_marks() {
     display.hands(&["mousemove 630 44", "click 1", "mousemove 773 81", "click 1"]);
     let marks = knot.with_file_name("torus_knot.obj.marks");
     let text = display.until(|_| std::fs::read_to_string(&marks).ok());
-    let text = text.expect("marks are saved beside the model");
+    let text = text.expect("no file of marks beside the model");
     assert!(text.lines().filter(|line| !line.starts_with('#')).count() == 1, "{text}");
 
     display.hands(&["key m", "mousemove 250 300", "mousemove_relative 3 2", "click 1"]);
@@ -129,7 +128,10 @@ fn a_real_window_opens_changes_saves_and_marks() {
     let id = display.window_id().unwrap();
     drop_file(&display.number, id, &cube);
     still(&display);
-    assert!(display.title().starts_with("torus_knot.obj"), "marks are not lost unasked");
+    assert!(
+        display.title().starts_with("torus_knot.obj"),
+        "the marks were lost without a question"
+    );
     drop_file(&display.number, id, &cube);
     assert!(is_called(&display, "cube.obj"), "dropped");
     display.hands(&["key ctrl+q"]);
@@ -153,7 +155,7 @@ fn what_a_window_lacks_is_told_on_the_terminal() {
     assert!(text.contains("no display") && text.contains("viewer render draws"), "{text}");
 }
 
-/// Drags the knob of the third row of the strokes.
+/// Drags the slider in the third row of the strokes.
 fn drag_width(display: &Display) {
     display.hands(&[
         "mousemove 696 386",
@@ -164,15 +166,15 @@ fn drag_width(display: &Display) {
     ]);
 }
 
-/// What is saved is what is on the screen, to the pixel; dropped on another look, it
-/// brings its own back.
+/// The saved picture equals the screen to the pixel; dropping it on the window restores
+/// its recipe.
 fn save_and_restore(display: &Display, folder: &Path, screen: &RgbaImage) {
     let path = folder.join("saved.png");
     display.answer_dialogs(&path);
     display.hands(&["key F12"]);
     let saved = display.until(|_| path.is_file().then(|| read_png(&path).unwrap()));
-    let saved = saved.expect("a picture is saved");
-    // The picture begins below the bar.
+    let saved = saved.expect("no picture was saved");
+    // The picture starts below the bar.
     let shown = image::imageops::crop_imm(screen, 0, 26, saved.width(), saved.height()).to_image();
     assert!(picture(&shown) == picture(&saved), "the picture of the screen");
     display.hands(&["key bracketright"]);

@@ -1,4 +1,4 @@
-//! Pictures: goldens, and what can be said of them in closed form.
+//! Pictures: goldens, and properties in closed form.
 
 use std::sync::LazyLock;
 
@@ -30,7 +30,7 @@ pub(crate) fn technique(name: &str, settings: &[&str]) -> Technique {
     technique
 }
 
-/// The strokes of a technique over white.
+/// The strokes of a technique over a white fill.
 pub(crate) fn look_of(technique: &Technique, mesh: &EdgeMesh) -> DrawingStyle {
     let built = [30_f64.to_radians(); 2];
     DrawingStyle {
@@ -71,7 +71,7 @@ pub(crate) fn own_model(name: &str) -> EdgeMesh {
     own_models().into_iter().find(|(known, _)| known == name).unwrap().1
 }
 
-/// Which pixels are darker than middle grey.
+/// The pixels that are darker than middle gray.
 fn ink(picture: &RgbaImage) -> GrayImage {
     GrayImage::from_fn(picture.width(), picture.height(), |x, y| {
         Luma([u8::from(picture.get_pixel(x, y).0[0] < 128)])
@@ -103,8 +103,8 @@ fn golden_models() {
     }
 }
 
-/// Linked strokes: tapered, dashed behind what hides them, of two brushes, by an
-/// unsteady hand, and with the corners that one wants.
+/// Linked strokes: tapered, dashed where hidden, with two brushes, with wobble, and with
+/// the joins and corners of a style.
 #[test]
 fn golden_linked() {
     for (golden, model, name, settings) in [
@@ -158,8 +158,8 @@ fn golden_pen() {
     }
 }
 
-/// The four brushes of the paper's Figure 6 on a smooth body, an open surface and
-/// one of sharp corners; dashes where lines are hidden; the other kinds of lines.
+/// The four brushes of the paper's Figure 6 on a smooth body, an open surface and a body
+/// with sharp corners; dashes where lines are hidden; the other kinds of lines.
 #[test]
 fn golden_styles() {
     for (golden, model, name, settings) in [
@@ -209,8 +209,7 @@ fn golden_styles() {
     }
 }
 
-/// The cylinder's end, where the paper's caps leave gaps (its Figure 5), in
-/// wide strokes.
+/// The end of the cylinder in wide strokes, where the paper's caps leave gaps (Figure 5).
 #[test]
 fn golden_caps() {
     let mesh = own_model("cylinder");
@@ -242,15 +241,15 @@ fn the_same_view_gives_the_same_bytes() {
     assert!(ink_count(&first) > 500, "and there is something to see");
 }
 
-/// Half quads lie outside: around a convex body without creases, every pixel
-/// next to its silhouette is inked, and none inside of it.
+/// Half quads lie outside: around a convex body without creases, every pixel next to its
+/// silhouette is inked, and none inside it.
 #[test]
 fn contours_of_a_convex_body_ring_it_from_outside() {
     for (body, stroke, direction) in rings("outside") {
         let [mut ring, mut gaps, mut inside] = [0; 3];
         for pixel in inner_pixels() {
             let is_inked = is_marked(&stroke, pixel);
-            // A neighbour along a side, not only across a corner.
+            // A neighbor along a side, not only across a corner.
             if !is_marked(&body, pixel) && marked_around(&body, pixel, 1) >= 2 {
                 ring += 1;
                 gaps += usize::from(!is_inked);
@@ -262,15 +261,15 @@ fn contours_of_a_convex_body_ring_it_from_outside() {
     }
 }
 
-/// And inside, where the surface turns toward the eye and would swallow them:
-/// every pixel of the body along its silhouette is inked, and none around it.
+/// Inside, the surface turns toward the eye and could hide them: every pixel of the body
+/// along its silhouette is inked, and none around it.
 #[test]
 fn contours_of_a_convex_body_ring_it_from_inside() {
     for (body, stroke, direction) in rings("inside") {
         let [mut ring, mut gaps, mut outside] = [0; 3];
         for pixel in inner_pixels() {
             let is_inked = is_marked(&stroke, pixel);
-            // Two rows of pixels, the third is cut.
+            // Two rows of pixels; the third is cut.
             if is_marked(&body, pixel) && marked_around(&body, pixel, 2) < 24 {
                 ring += 1;
                 gaps += usize::from(!is_inked);
@@ -283,8 +282,7 @@ fn contours_of_a_convex_body_ring_it_from_inside() {
     }
 }
 
-/// A convex body without creases and its contours, three pixels wide, from three
-/// directions.
+/// A convex body without creases and its contours, 3 pixels wide, from three directions.
 fn rings(placement: &str) -> Vec<(GrayImage, GrayImage, DVec3)> {
     let mesh = without_creases(&own_model("cylinder"));
     let solid = technique("ink", &["fill.color=#000000", "strokes.color=#00000000"]);
@@ -301,7 +299,7 @@ fn rings(placement: &str) -> Vec<(GrayImage, GrayImage, DVec3)> {
         .into()
 }
 
-/// Those of a picture 256 pixels wide that have neighbours two pixels around.
+/// The pixels of a picture of 256 x 256 pixels, without a rim of 2 pixels.
 fn inner_pixels() -> impl Iterator<Item = [u32; 2]> {
     (2..254).flat_map(|y| (2..254).map(move |x| [x, y]))
 }
@@ -310,7 +308,7 @@ fn is_marked(picture: &GrayImage, [x, y]: [u32; 2]) -> bool {
     picture.get_pixel(x, y).0[0] > 0
 }
 
-/// How many pixels are marked in a square around this one, itself among them.
+/// The number of marked pixels in the square around a pixel, including it.
 fn marked_around(picture: &GrayImage, [x, y]: [u32; 2], reach: u32) -> usize {
     (x - reach..=x + reach)
         .flat_map(|x| (y - reach..=y + reach).map(move |y| [x, y]))
@@ -327,8 +325,8 @@ fn without_creases(mesh: &EdgeMesh) -> EdgeMesh {
     mesh
 }
 
-/// A cube seen exactly from the front draws its front outline: the side faces
-/// are seen edge on, and zero counts as back.
+/// A cube seen exactly from the front draws its front outline: the side faces are edge-on,
+/// which counts as back.
 #[test]
 fn a_cube_from_the_front_is_one_square() {
     let cube = own_model("cube");
@@ -340,8 +338,8 @@ fn a_cube_from_the_front_is_one_square() {
     assert_eq!((row[1] - row[0], row[3] - row[2]), (1, 1), "{row:?}");
 }
 
-/// A floor that goes on behind the eye draws the same as one that ends in front
-/// of it, below the picture.
+/// A floor that extends behind the eye draws the same as one that ends in front of the eye,
+/// below the picture.
 #[test]
 fn an_edge_through_the_eye_plane_draws_like_its_visible_part() {
     let floor = |near_z: f32| {
@@ -366,8 +364,7 @@ fn an_edge_through_the_eye_plane_draws_like_its_visible_part() {
     assert!(differing.count() <= 4, "the near planes differ, the lines do not");
 }
 
-/// Eyes at a vertex, on an edge, in a face: what is drawn is drawn right or not
-/// at all, and nothing sweeps across the picture.
+/// An eye at a vertex, on an edge or in a face draws no strokes across the picture.
 #[test]
 fn the_eye_on_the_mesh_leaves_no_spikes() {
     let cube = own_model("cube");

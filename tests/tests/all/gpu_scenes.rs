@@ -1,5 +1,5 @@
-//! Scenes of several objects: transforms, styles, silhouettes, hidden lines; and
-//! cameras where a stroke could go wrong.
+//! Scenes of several objects: transforms, styles, silhouettes, hidden lines; and cameras
+//! that are hard for strokes.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ use viewer::technique::Technique;
 use crate::gpu_device::gpu;
 use crate::gpu_render::{look_of, own_model, picture, scene_of, technique};
 
-/// A scene of one model many times.
+/// A scene with a model in several places, each with the number of its look.
 fn scene(mesh: &EdgeMesh, places: &[(DMat4, usize)]) -> Scene {
     let loaded = LoadedMesh::new("test".into(), mesh.clone(), Report::default());
     let placed = places.iter().map(|&(world_from_object, override_index)| PlacedObject {
@@ -56,9 +56,8 @@ fn count(picture: &RgbaImage, is_meant: impl Fn([u8; 4]) -> bool) -> usize {
 const RED: [u8; 4] = [255, 0, 0, 255];
 const BLUE: [u8; 4] = [0, 0, 255, 255];
 
-/// Three hundred cubes in a grid: every one has the same silhouette around it,
-/// also past the 255th, where the stencil begins anew; and none has a line of it
-/// inside.
+/// Three hundred cubes in a grid: each has the same silhouette around it and no line of it
+/// inside, also past the 255th, where the stencil starts over.
 #[test]
 fn three_hundred_silhouettes() {
     let cube = own_model("cube");
@@ -70,7 +69,7 @@ fn three_hundred_silhouettes() {
         .collect();
     let scene = scene(&cube, &places);
     let mut camera = Camera::default_view(&scene.bounds);
-    // From aside, so that inner contours and creases are there to be left out.
+    // From the side, so that there are inner contours and creases to leave out.
     camera.eye = camera.target + DVec3::new(0.5, 0.4, 1.0).normalize_or_zero() * 90.0;
     camera.is_orthographic = true;
     let looks = [look(&[
@@ -83,7 +82,7 @@ fn three_hundred_silhouettes() {
     let solid = [look(&["strokes.render=false", "fill.color=#00ff00"])];
     let bodies = scene_picture(&scene, &solid, 1600, &camera);
     let is_body = |x: u32, y: u32| bodies.get_pixel(x, y).0 == [0, 255, 0, 255];
-    // Red beside a body, never on it.
+    // Red is beside a body, never on it.
     let (mut ring, mut gaps, mut on_body) = (0, 0, 0);
     for (x, y) in (1..1599).flat_map(|y| (1..1599).map(move |x| (x, y))) {
         let is_red = picture.get_pixel(x, y).0 == RED;
@@ -100,7 +99,7 @@ fn three_hundred_silhouettes() {
     assert!(gaps * 200 < ring, "{gaps} of {ring} are missing");
 }
 
-/// A silhouette shows against another object as against the background.
+/// A silhouette shows in front of another object as in front of the background.
 #[test]
 fn silhouettes_lie_over_what_is_behind() {
     let cube = own_model("cube");
@@ -125,12 +124,16 @@ fn silhouettes_lie_over_what_is_behind() {
         let mut alone = self::scene(&cube, &[(DMat4::IDENTITY, 0)]);
         alone.bounds = scene.bounds;
         let alone = scene_picture(&alone, std::slice::from_ref(&red), 256, &camera);
-        assert_eq!(reds, count(&alone, |pixel| pixel == RED), "whole in front of the other");
+        assert_eq!(
+            reds,
+            count(&alone, |pixel| pixel == RED),
+            "the silhouette in front is not whole"
+        );
     }
 }
 
-/// What one object hides of another is drawn in the hidden style, and every
-/// piece of a line is either hidden or visible.
+/// Hidden lines have the hidden style, and every piece of a line is either hidden or
+/// visible.
 #[test]
 fn hidden_lines_are_what_visible_ones_leave() {
     for name in ["cube", "bracket", "torus_knot"] {
@@ -154,7 +157,7 @@ fn hidden_lines_are_what_visible_ones_leave() {
     }
 }
 
-/// From the middle of a face of a cube, its four hidden edges are a square.
+/// Seen from the middle of a face, the four hidden edges of a cube are a square.
 #[test]
 fn the_back_of_a_cube_is_drawn_as_hidden() {
     let cube = own_model("cube");
@@ -172,7 +175,7 @@ fn the_back_of_a_cube_is_drawn_as_hidden() {
     assert_eq!(row.len(), 4, "two pixels on each side: {row:?}");
 }
 
-/// A model in its place draws what the model with moved vertices draws.
+/// A model with a transform draws the same as a model with transformed vertices.
 #[test]
 fn transforms_move_what_is_drawn() {
     let mesh = own_model("bracket");
@@ -204,13 +207,13 @@ fn transforms_move_what_is_drawn() {
         let apart = placed.pixels().zip(baked.pixels());
         let apart = apart.filter(|(a, b)| a.0[0].abs_diff(b.0[0]) > 32).count();
         let inked = count(&baked, |pixel| pixel[0] < 128);
-        // Stretching changes angles, and with them which edges are creases.
+        // Stretching changes angles and so the creases.
         let most = if name == "stretched" { inked / 20 } else { inked / 50 };
         assert!(inked > 1500 && apart <= most, "{name}: {apart} pixels of {inked}");
     }
 }
 
-/// A transform that flattens an object to nothing draws nothing of it.
+/// An object with a transform that flattens it is not drawn.
 #[test]
 fn an_object_of_no_size_is_not_drawn() {
     let cube = own_model("cube");
@@ -220,8 +223,8 @@ fn an_object_of_no_size_is_not_drawn() {
     assert_eq!(count(&picture, |pixel| pixel[0] < 255), 0);
 }
 
-/// Lines fight the surface at no distance: from 1 radius to 100, what is visible
-/// of a model's strokes is the same share of them, wherever on their edge they lie.
+/// Lines do not fight the surface at any distance: from 1 to 100 radii, the visible share of
+/// a model's strokes stays the same, for every placement.
 #[test]
 fn lines_stay_whole_in_a_slow_zoom() {
     for (name, placement) in [
@@ -248,14 +251,14 @@ fn lines_stay_whole_in_a_slow_zoom() {
             assert!(visible > 200, "{name} {placement} at {radii:.1} radii: {visible} pixels");
             last = Some([visible, hidden]);
         }
-        // Far away perspective is no different from none.
+        // Far away, perspective and orthographic cameras see the same.
         let [far, flat] =
             [false, true].map(|is_flat| zoomed(&mesh, &mut renderers, 100.0, is_flat)[0]);
         assert!(far.abs_diff(flat) * 20 < flat, "{name} {placement}: {far} and {flat}");
     }
 }
 
-/// Renderers of the visible and of the hidden strokes alone.
+/// A renderer of the visible strokes alone, and one of the hidden strokes.
 fn visible_and_hidden(mesh: &EdgeMesh, placement: &str) -> [PictureRenderer; 2] {
     let hidden = ["strokes.render=false", "hidden.render=true", "hidden.color=#000000"];
     [&[][..], &hidden].map(|settings| {
@@ -268,8 +271,8 @@ fn visible_and_hidden(mesh: &EdgeMesh, placement: &str) -> [PictureRenderer; 2] 
     })
 }
 
-/// Pixels of visible and of hidden strokes, in a picture that keeps the model's
-/// size while the eye goes `radii` away.
+/// The pixels of visible and of hidden strokes, in a picture that keeps the size of the
+/// model while the eye is `radii` away.
 fn zoomed(
     mesh: &EdgeMesh,
     renderers: &mut [PictureRenderer; 2],
@@ -286,9 +289,9 @@ fn zoomed(
         .map(|renderer| count(&renderer.render(&camera).unwrap().0, |pixel| pixel[0] < 128))
 }
 
-/// Eyes inside, on an edge, at a vertex; edges through the eye plane, along the
-/// line of sight, of no length, twice in one place: every value of the target is
-/// a number from 0 to 1.
+/// An eye inside, on an edge, at a vertex; edges through the eye plane, along the line of
+/// sight, without length, twice in one place: every value of the target is a number from 0
+/// to 1.
 #[test]
 fn no_view_draws_what_is_no_number() {
     let formats =
@@ -333,8 +336,7 @@ fn no_view_draws_what_is_no_number() {
     }
 }
 
-/// 1 as a float of 16 bits: whatever has more bits is negative, larger or no
-/// number.
+/// 1 as a 16-bit float: larger bit patterns are negative, larger or not a number.
 const HALF_ONE: u16 = 0x3c00;
 
 fn read_halves(targets: &Targets) -> Vec<u16> {

@@ -1,5 +1,4 @@
-//! Techniques on the GPU: what passes hand to each other, and pictures of those that
-//! ship.
+//! Techniques on the GPU: textures between passes, and pictures of the built-in techniques.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -20,7 +19,7 @@ use viewer::technique::library::Library;
 use crate::gpu_device::{gpu, is_pinned_driver};
 use crate::gpu_render::{own_model, picture, picture_with, scene_of, technique};
 
-/// A technique from the texts of its files, the first of which describes it.
+/// A technique from the texts of its files; the first is the technique file.
 fn written(folder: &Path, files: &[(&str, &str)]) -> Technique {
     for (name, text) in files {
         std::fs::write(folder.join(name), text).unwrap();
@@ -47,7 +46,7 @@ fn read_generated(technique: &Technique, frames: usize, name: &str) -> (u32, Vec
     (texture.width(), read_texels(gpu(), texture).unwrap())
 }
 
-/// A loop that never ends is left, and what is drawn otherwise is drawn: the device lives.
+/// An endless loop is ended, the rest of the picture is drawn, and the device is not lost.
 #[test]
 fn a_shader_that_never_ends_ends() {
     let folder = tempfile::tempdir().unwrap();
@@ -72,7 +71,7 @@ fn a_shader_that_never_ends_ends() {
     );
 }
 
-/// The files of the guide's effect, as someone new would copy them from there.
+/// The files of the guide's effect, as a reader would copy them.
 #[test]
 fn the_effect_in_the_guide_runs_without_a_build() {
     let guide = std::fs::read_to_string(workspace_root().join("docs/techniques.md")).unwrap();
@@ -157,7 +156,7 @@ fn passes_run_once_or_when_something_has_changed() {
     }
 }
 
-/// Two programs that are valid, and do not fit each other: found only on the device.
+/// Two valid programs that do not fit together, which only the device finds.
 #[test]
 fn a_technique_that_cannot_be_built_leaves_the_last_picture() {
     let folder = tempfile::tempdir().unwrap();
@@ -167,7 +166,7 @@ fn a_technique_that_cannot_be_built_leaves_the_last_picture() {
     let broken = written(folder.path(), &[("own.toml", text), ("own.wgsl", shader)]);
     let mesh = own_model("cube");
     let (scene, camera) = (scene_of(&mesh), Camera::default_view(&mesh.bounds));
-    // With strokes and without, with a stencil and without.
+    // With and without strokes and a stencil.
     for settings in [&[][..], &["silhouette.render=true"], &["strokes.render=false"]] {
         let (ink, pen) = (technique("ink", settings), technique("pen", &[]));
         let options = small([40, 30]);
@@ -199,11 +198,11 @@ fn targets_have_the_sizes_that_are_asked_for() {
         let (row, texels) = read_generated(&technique, 1, "n_color");
         assert_eq!([row, u32::try_from(texels.len()).unwrap() / row], wanted);
         let unlike = texels.iter().filter(|texel| **texel != texels[0]).count();
-        assert!(unlike > 2, "the cube is in it, {width} x {height}");
+        assert!(unlike > 2, "no cube in {width} x {height}");
     }
 }
 
-/// What is copied is what is there, and a depth is nearer than nothing where the model is.
+/// A copy equals the picture so far, and the depth of the model is nearer than empty depth.
 #[test]
 fn the_picture_so_far_and_its_depth_are_copied() {
     let folder = tempfile::tempdir().unwrap();
@@ -231,7 +230,7 @@ fn the_picture_so_far_and_its_depth_are_copied() {
     }
 }
 
-/// Half of a colour over another, in each way, against what is written down for it.
+/// A half transparent color over another in each blend mode, against its definition.
 #[test]
 fn blends_are_the_usual_ones() {
     let folder = tempfile::tempdir().unwrap();
@@ -257,7 +256,7 @@ fn blends_are_the_usual_ones() {
         let drawn = picture(&mesh, &Camera::default_view(&mesh.bounds), &technique, 16, 1);
         for pixel in [drawn.get_pixel(0, 0), drawn.get_pixel(8, 8)] {
             for channel in 0..3 {
-                // Half of it, premultiplied.
+                // Half transparent, premultiplied.
                 let wanted = laid(blend, below[channel], 0.5 * above[channel]) * 255.0;
                 let found = f64::from(pixel.0[channel]);
                 assert!((found - wanted).abs() <= 1.0, "{blend}: {found}, not {wanted:.1}");
@@ -266,8 +265,8 @@ fn blends_are_the_usual_ones() {
     }
 }
 
-/// Nothing is drawn behind a clip plane, by fills, strokes or detectors, and detectors
-/// outline the cut.
+/// Fills, strokes and detectors draw nothing behind a clip plane, and detectors outline the
+/// cut.
 #[test]
 fn clip_planes_cut_everything_and_detectors_outline_the_cut() {
     let mesh = own_model("torus_knot");
@@ -292,7 +291,7 @@ fn clip_planes_cut_everything_and_detectors_outline_the_cut() {
     assert!(detected > 3 * drawn.max(30), "{detected} pixels of the cut; strokes have {drawn}");
 }
 
-/// A technique of its own for an object changes its fill and its strokes, and no others.
+/// An object's own technique changes only its own fill and strokes.
 #[test]
 fn objects_have_the_fill_and_the_strokes_of_their_own_technique() {
     let mesh = own_model("cube");
@@ -316,7 +315,7 @@ fn objects_have_the_fill_and_the_strokes_of_their_own_technique() {
     assert!(green > 500 && red > 100 && black > 100, "{green} green, {red} red, {black} black");
 }
 
-/// Paper is left out: what a fill clears to, an image of paper, and nothing else.
+/// A transparent background drops the color that a fill clears to and the image of paper.
 #[test]
 fn transparency_leaves_every_kind_of_paper_out() {
     let mesh = own_model("torus_knot");
@@ -330,9 +329,9 @@ fn transparency_leaves_every_kind_of_paper_out() {
     }
 }
 
-/// A vertex at a contour belongs to a face that is seen though its normal looks away, and
-/// an open surface shows its inside: the light by the vertex is that by the pixel, but for
-/// what triangles are too coarse for.
+/// The normal of a vertex at a contour can face away though its face is visible, and an open
+/// surface shows its inside: light per vertex equals light per pixel, as far as triangles
+/// are fine enough.
 #[test]
 fn light_by_the_vertex_is_on_the_side_that_is_seen() {
     let folder = tempfile::tempdir().unwrap();
@@ -363,7 +362,7 @@ fn light_by_the_vertex_is_on_the_side_that_is_seen() {
     }
 }
 
-/// Borders of steps are smooth for a pixel, and no triangle of a flat cap shows.
+/// Borders of steps are smoothed over a pixel, and no triangle of a flat cap shows.
 #[test]
 fn steps_of_light_do_not_show_triangles() {
     let folder = tempfile::tempdir().unwrap();
@@ -379,7 +378,7 @@ fn steps_of_light_do_not_show_triangles() {
     }
     let mut counts: Vec<usize> = colors.into_values().collect();
     counts.sort_unstable();
-    // The paper, and two steps; the border between them is not longer than the cap is wide.
+    // The paper and two steps; the border between them is no longer than the cap is wide.
     let between: usize = counts[..counts.len() - 3].iter().sum();
     assert!(counts[counts.len() - 3] > 1000, "two steps: {counts:?}");
     assert!(between < 150, "{between} pixels are between steps");
@@ -390,7 +389,7 @@ fn a_technique_whose_passes_are_all_switched_off_draws_nothing() {
     let mesh = own_model("cube");
     let off = technique("ink", &["fill.render=false", "strokes.render=false"]);
     let drawn = picture(&mesh, &Camera::default_view(&mesh.bounds), &off, 32, 4);
-    assert!(drawn.pixels().all(|pixel| pixel.0 == [0; 4]), "nothing at all");
+    assert!(drawn.pixels().all(|pixel| pixel.0 == [0; 4]), "something is drawn");
 }
 
 fn golden(name: &str, mesh: &EdgeMesh, technique: &Technique) {

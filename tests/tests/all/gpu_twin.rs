@@ -46,7 +46,7 @@ fn facing_bits_agree_except_within_rounding() {
             let normal = random.vec3().normalize_or(Vec3::X);
             let mut eye = random.vec3().extend(f32::from(u8::from(case % 2 == 0)));
             if case % 5 == 0 {
-                // Nearly in the plane.
+                // An eye nearly in the plane.
                 let tangent = normal.any_orthonormal_vector();
                 eye = (point + tangent * random.signed() + normal * random.signed() * 1e-6)
                     .extend(1.0);
@@ -245,7 +245,7 @@ struct StrokeInput {
     is_world_width: u32,
 }
 
-/// The most vertices that an edge can have.
+/// The largest number of vertices of an edge.
 const MOST_VERTICES: usize = LineKind::QuadAndDisks.vertex_count() as usize;
 
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
@@ -287,8 +287,8 @@ impl StrokeInput {
     }
 }
 
-/// Edges of all kinds: in the picture, far out of it, through the eye plane,
-/// along the line of sight, of no length, at the planes themselves.
+/// Edges of all kinds: in the picture, far outside it, through the eye plane, along the line
+/// of sight, without length, exactly on the clip planes.
 fn stroke_inputs() -> Vec<StrokeInput> {
     let mut random = Random(3);
     let point = |kind: usize, random: &mut Random| -> Vec4 {
@@ -387,8 +387,8 @@ fn stroke_vertices_agree_and_are_always_finite() {
         let (edge, shape) = (input.edge(), input.shape());
         let spine = project_spine(edge.c0, edge.c1, shape.viewport_px, shape.guard_band);
         let length_px = (spine.s1 - spine.s0).length();
-        // Where an edge is as short as rounding, or its normal points along it
-        // or at the eye, its direction or its side is anybody's guess.
+        // If an edge is as short as rounding errors, or its normal points along it or at the
+        // eye, its direction or its side is undefined.
         let is_clear = spine.p == Vec2::ZERO && length_px < 1e-6 || length_px > 0.05;
         for corner in 0..shape.kind.vertex_count() {
             let bits = LineBits::from_bits_truncate(input.bits);
@@ -422,8 +422,8 @@ fn stroke_vertices_agree_and_are_always_finite() {
     assert!(unclear * 100 < compared, "{unclear} of {compared} are unclear");
 }
 
-/// What an unsteady hand follows: bounded, its own for every seed, and without jumps
-/// when a place or the wavelength changes a little.
+/// The noise of an unsteady hand is bounded, differs by seed, and is continuous in place and
+/// wavelength.
 #[test]
 fn noise_is_smooth_in_place_and_wavelength() {
     #[derive(Clone, Copy, Pod, Zeroable)]
@@ -437,7 +437,7 @@ fn noise_is_smooth_in_place_and_wavelength() {
     let inputs: Vec<Input> = (0..20_000_u32)
         .map(|case| Input {
             position: (random.vec3() * 20.0).into(),
-            // Half of them just below or at a power of two.
+            // Half of them at or just below a power of two.
             wavelength: if case % 2 == 0 { 2.0 } else { 0.3 + random.unit() * 5.0 },
             seed: [case % 3; 4],
         })
@@ -467,9 +467,8 @@ fn noise_is_smooth_in_place_and_wavelength() {
     assert!(spread > 3000 && apart > 10_000, "{spread} far from zero, {apart} by another seed");
 }
 
-/// Whether a vertex normal points so nearly along the edge that its side is
-/// within rounding, or the edge runs so nearly at 45 degrees that it may be
-/// mostly vertical.
+/// Whether a vertex normal points so nearly along the edge that rounding decides its side,
+/// or the edge is so near 45 degrees that rounding decides whether it is mostly vertical.
 fn is_side_unclear(edge: &ClipEdge, spine: &Spine, shape: &StrokeShape) -> bool {
     let along = spine.s1 - spine.s0;
     let is_diagonal = (along.x.abs() - along.y.abs()).abs() < 1e-3 * along.length();
@@ -497,7 +496,7 @@ fn cameras(mesh: &EdgeMesh) -> Vec<Camera> {
     cameras
 }
 
-/// Finds lines on the GPU, in one layout.
+/// Detects lines on the GPU, in one layout.
 pub(crate) struct Detector {
     renderer: Renderer,
 }
@@ -508,7 +507,7 @@ impl Detector {
         Self { renderer: Renderer::new(gpu(), options).unwrap() }
     }
 
-    /// What the GPU finds: facing bits, counts, and the live list.
+    /// The facing bits, the counts, and the live list from the GPU.
     pub(crate) fn detect(
         &mut self,
         mesh: &EdgeMesh,
@@ -522,7 +521,7 @@ impl Detector {
         let instance = MeshInstance::new(&buffers, DMat4::IDENTITY);
         let mut scene = SceneView::new(gpu, vec![instance], vec![style]);
         let targets = Targets::new(&gpu.device, [16, 16], formats);
-        // Twice: the second frame finds what no view changes worked out already.
+        // Twice: the second frame reuses the static edges of the first.
         for _ in 0..2 {
             self.renderer.render(gpu, &targets, &mut scene, view, [0.0; 4], None).unwrap();
         }
@@ -574,8 +573,8 @@ fn live_edges_and_counts_equal_the_oracles() {
     }
 }
 
-/// A replicated edge decides from its own vertices: the same list, but where a
-/// face is seen edge on to within rounding.
+/// A replicated edge decides from its own vertices: the same list, except at faces that are
+/// edge-on within rounding.
 #[test]
 fn replicated_edges_find_the_same_lines() {
     let (mut lines, mut differing) = (0, 0);

@@ -1,5 +1,5 @@
-//! Whether every visible piece of every feature edge has its ink, and no hidden
-//! one has: against rays cast on the CPU, triangle by triangle.
+//! Every visible piece of every feature edge has ink, and no hidden one has: against rays
+//! cast on the CPU, triangle by triangle.
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
@@ -18,15 +18,15 @@ const WIDTH_PX: f32 = 2.0;
 /// Samples along an edge.
 const SAMPLES: u32 = 5;
 
-/// A sample is hidden for sure where something lies nearer by this many radii,
-/// and visible for sure where nothing lies nearer by this many.
+/// A sample is certainly hidden if a surface lies nearer by this many radii, and certainly
+/// visible if none lies nearer by this many.
 const SURELY_HIDDEN: f64 = 0.03;
 const SURELY_VISIBLE: f64 = 1e-4;
 
 struct Sample {
-    /// Where its ink should be, in pixels from the upper left.
+    /// The place of its ink, in pixels from the upper left.
     ink_px: Vec2,
-    /// How much nearer the nearest surface lies, in radii.
+    /// The distance of the nearest surface before it, in radii.
     depth_radii: f64,
 }
 
@@ -62,8 +62,8 @@ fn samples(mesh: &EdgeMesh, camera: &Camera, view: &View) -> Vec<Sample> {
     samples
 }
 
-/// How far before `point` the first triangle lies on the way from `eye`; 0 where
-/// there is none.
+/// The distance of `point` behind the first triangle on the ray from `eye`; 0 if there is
+/// none.
 fn depth_under(mesh: &EdgeMesh, eye: DVec3, point: DVec3) -> f64 {
     let direction = point - eye;
     let mut nearest = 1.0_f64;
@@ -86,8 +86,7 @@ fn depth_under(mesh: &EdgeMesh, eye: DVec3, point: DVec3) -> f64 {
     (1.0 - nearest) * direction.length()
 }
 
-/// Whether there is ink within a pixel of `at`; outside of the picture there is
-/// nothing to say.
+/// Whether there is ink within a pixel of `at`; `None` outside the picture.
 fn has_ink(picture: &RgbaImage, at: Vec2) -> Option<bool> {
     let inner = f64::from(SIZE_PX - 2);
     let (x, y) = (f64::from(at.x), f64::from(at.y));
@@ -137,8 +136,8 @@ fn ink_lies_where_edges_are_visible_and_nowhere_else() {
     }
 }
 
-/// Whether no sample that may be seen lies near enough to lend its ink. Samples
-/// of long edges lie apart, so this is generous.
+/// Whether no sample that may be visible is near enough for its ink to count. Generous,
+/// since samples of long edges are far apart.
 fn is_alone(samples: &[Sample], sample: &Sample) -> bool {
     samples
         .iter()
@@ -146,8 +145,8 @@ fn is_alone(samples: &[Sample], sample: &Sample) -> bool {
         .all(|other| (other.ink_px - sample.ink_px).length() > 12.0)
 }
 
-/// What is left out as hidden by its own solid is hidden: a little beside a contour
-/// in a groove, on its back face, something lies nearer to the eye.
+/// Edges that are skipped as hidden by their own solid are hidden: a little beside a contour
+/// in a groove, on its back face, a surface lies nearer to the eye.
 #[test]
 fn contours_in_grooves_are_hidden() {
     for name in ["torus_knot", "wave_blob"] {
@@ -155,7 +154,7 @@ fn contours_in_grooves_are_hidden() {
     }
 }
 
-/// The same on real models, those of closed surfaces.
+/// The same on real models with closed surfaces.
 #[test]
 fn contours_in_grooves_of_real_models_are_hidden() {
     let Some(folder) = shared() else { return left_out("contours in grooves", 4) };
@@ -167,7 +166,7 @@ fn contours_in_grooves_of_real_models_are_hidden() {
     }
 }
 
-/// Holds that rays find no contour in a groove in sight; how many there are.
+/// Asserts that rays find every contour in a groove hidden; returns their number.
 fn grooves_all_hidden(name: &str, mesh: &EdgeMesh) -> usize {
     let center = |face: u32| {
         let corners = mesh.triangles[face as usize].map(|v| mesh.positions[v as usize]);

@@ -1,4 +1,4 @@
-//! The window's pictures: what it saves is what a copied command draws.
+//! Pictures that the window saves equal those that a copied command draws.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -62,7 +62,7 @@ fn a_copied_command_draws_what_the_window_saves_and_its_picture_restores_the_rec
         let model = workspace_root().join("models").join(model);
         let mut session = session(&model, technique);
         for setting in settings {
-            // The panels set values, which is the same.
+            // The same as setting values in the panels.
             let _ = session.recipe.appearance.technique.set(setting);
         }
         let lighting = &mut session.recipe.appearance.lighting;
@@ -99,7 +99,7 @@ fn a_copied_command_draws_what_the_window_saves_and_its_picture_restores_the_rec
     }
 }
 
-/// A technique whose passes draw whole numbers for each other.
+/// A technique with a texture of integers.
 const NUMBERS: &str = r#"
 [component.numbers]
 inherits = "process_texture"
@@ -190,7 +190,7 @@ fn turntables_are_written_and_can_be_cancelled() {
     assert_eq!(names().len(), 3, "no half file");
 }
 
-/// Pixels that are not white.
+/// The number of pixels that are not white.
 pub(crate) fn ink(picture: &RgbaImage) -> usize {
     picture.pixels().filter(|pixel| pixel.0[..3].iter().any(|&channel| channel < 128)).count()
 }

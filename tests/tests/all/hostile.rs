@@ -1,5 +1,5 @@
-//! Files made to be slow or large to read: small ones that any step of more
-//! than linear time would take minutes for. The limit is that of `child`.
+//! Files made to be slow or large to read: small files that take minutes if any step takes
+//! more than linear time. The time limit is that of `child`.
 
 use std::f64::consts::TAU;
 use std::fs::{self, File};
@@ -10,7 +10,7 @@ use serde_json::Value;
 use crate::child::{info, json, stderr};
 use crate::expectations::{write_big, write_cone};
 
-/// What `edgemesh info` says of the file that `write` makes.
+/// The JSON of `edgemesh info` for the file that `write` makes.
 fn info_of(write: impl FnOnce(&mut BufWriter<File>)) -> Value {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("hostile.obj");
@@ -51,8 +51,8 @@ fn two_hundred_thousand_faces_may_have_a_material_each() {
     assert_eq!(info["source"]["polygons"].as_u64(), Some(200_000));
 }
 
-/// Each triangle lies flat on the next larger one, so that its plane must come
-/// all the way from the last.
+/// Each triangle lies flat on the next larger one, so that its plane comes all the way
+/// from the last.
 ///
 /// ```text
 ///   .                 a face with a plane
@@ -76,7 +76,7 @@ fn two_hundred_thousand_faces_may_hand_on_a_plane() {
     assert_eq!(info["repairs"]["zero_area_triangles"].as_u64(), Some(200_000));
 }
 
-/// Polygons in which ears are rare: the outline of a spiral, in and out again.
+/// Polygons with few ears: the outline of a spiral, in and out again.
 #[test]
 fn forty_spirals_of_four_thousand_corners_are_cut() {
     const TURNS: i32 = 2048;
@@ -98,8 +98,8 @@ fn forty_spirals_of_four_thousand_corners_are_cut() {
     assert_eq!(info["triangles"].as_u64(), Some(40 * 4094));
 }
 
-/// Vertices that no face uses must not cost much: the table allows ten times
-/// the file. The limit here is on addresses, of which memory is a part.
+/// Vertices that no face uses must not cost much: the table allows ten times the size of
+/// the file. The limit here is on addresses, which include memory.
 #[cfg(target_os = "linux")]
 #[test]
 fn isolated_vertices_fit_into_ten_times_the_file() {

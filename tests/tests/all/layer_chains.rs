@@ -1,5 +1,5 @@
-//! What a view draws is linked into chains: each edge in exactly one, none lost, none
-//! twice; chains of contours are open only where the surface is.
+//! The edges of a view are linked into chains: each edge is in exactly one, and chains of
+//! contours are open only where the surface is.
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::{EdgeFlags, EdgeMesh, FaceEdges, StaticLinks, edge_words};
@@ -15,10 +15,10 @@ use testkit::locate::{left_out, shared};
 
 use crate::own_models::own_models;
 
-/// Views of each model; of all together more than a thousand.
+/// Views of each model; more than a thousand in all.
 pub(crate) const VIEWS: u32 = 125;
 
-/// Evenly around the mesh, no two views from one side, some from close by.
+/// Directions spread evenly around the mesh, all different, some from close by.
 pub(crate) fn eye(mesh: &EdgeMesh, view: u32) -> DVec3 {
     let part = (f64::from(view) + 0.5) / f64::from(VIEWS);
     let height = 1.0 - 2.0 * part;
@@ -30,11 +30,11 @@ pub(crate) fn eye(mesh: &EdgeMesh, view: u32) -> DVec3 {
     mesh.bounds.center() + direction * mesh.bounds.radius() * radii
 }
 
-/// Checks every view of a model, and says how many contours they had.
+/// Checks every view of a model; returns the number of contours.
 fn check(name: &str, mesh: &EdgeMesh) -> u32 {
     let (faces, links) = (FaceEdges::of(mesh), StaticLinks::of(mesh));
     let words = edge_words(mesh);
-    // Contours apart, and then all classes in one layer.
+    // First with contours in their own layer, then with all classes in one.
     let apart = ClassTable::new(|class| Some(u32::from(class != LineClass::Contour)));
     let mut linked = 0;
     for view in 0..VIEWS {
@@ -69,13 +69,17 @@ pub(crate) fn check_chain(linking: &LayerLinks, chain: &LayerChain) {
     let (first, last) = (chain.elements[0], chain.elements[chain.elements.len() - 1]);
     for pair in chain.elements.windows(2) {
         let [end, start] = [pair[0].ends(mesh)[1], pair[1].ends(mesh)[0]];
-        assert_eq!(end, start, "each begins where the last one ended");
-        assert_eq!(is_contour(&pair[0]), is_contour(&pair[1]), "contours among themselves");
+        assert_eq!(end, start, "an edge does not begin where the one before ends");
+        assert_eq!(
+            is_contour(&pair[0]),
+            is_contour(&pair[1]),
+            "a contour is linked to another class"
+        );
     }
     if chain.is_closed {
-        assert_eq!(last.ends(mesh)[1], first.ends(mesh)[0], "a loop closes");
+        assert_eq!(last.ends(mesh)[1], first.ends(mesh)[0], "a loop does not close");
         let least = chain.elements.iter().map(|element| element.edge).min();
-        assert_eq!(least, Some(first.edge), "a loop begins at its smallest edge");
+        assert_eq!(least, Some(first.edge), "a loop does not begin at its smallest edge");
         return;
     }
     if !is_contour(&first) {
@@ -87,7 +91,7 @@ pub(crate) fn check_chain(linking: &LayerLinks, chain: &LayerChain) {
             let ends_surface = record.face_b == NONE || record.flags.intersects(cuts);
             ends_surface && [record.v0, record.v1].contains(&vertex)
         });
-        assert!(is_open, "a chain ends at vertex {vertex}, where the surface goes on");
+        assert!(is_open, "a chain ends at vertex {vertex}, where the surface continues");
     }
     let following = successor(mesh, faces, lines, last.edge);
     assert!(!matches!(following, Successor::Edge(_)), "{following:?} follows an open end");
@@ -108,11 +112,11 @@ fn edges_of_real_models_are_linked_one_to_one() {
         let path = folder.join("models").join(format!("{name}.obj"));
         let (model, mut report) = read_model(&path).unwrap();
         let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut report);
-        assert!(check(name, &mesh) > 10 * VIEWS, "{name} has contours");
+        assert!(check(name, &mesh) > 10 * VIEWS, "{name} has too few contours");
     }
 }
 
-/// Broken files make awkward surfaces; those that can be read are linked as well.
+/// Broken files have awkward surfaces; those that load are linked as well.
 #[test]
 fn edges_of_awkward_files_are_linked_one_to_one() {
     let Some(folder) = shared() else { return left_out("chains of awkward files", 1) };

@@ -1,4 +1,4 @@
-//! Structs and constants that Rust and WGSL both write down.
+//! Structs and constants that Rust and WGSL both define.
 
 use std::collections::BTreeMap;
 use std::mem::offset_of;
@@ -32,7 +32,7 @@ use viewer::pass_graph::surface::SurfaceRange;
 
 use crate::shaders::shader_files;
 
-/// Size, and each field's offset.
+/// The size, and the offset of each field, in bytes.
 type Layout = (usize, Vec<(String, usize)>);
 
 macro_rules! layout {
@@ -56,7 +56,7 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
     layouts
 }
 
-/// What a scene and its surfaces are.
+/// Structs of scenes and surfaces.
 fn scene_layouts() -> BTreeMap<String, Layout> {
     BTreeMap::from([
         layout!(FrameUniform {
@@ -104,7 +104,7 @@ fn scene_layouts() -> BTreeMap<String, Layout> {
     ])
 }
 
-/// What meshes and styles are.
+/// Structs of meshes and styles.
 fn mesh_layouts() -> BTreeMap<String, Layout> {
     BTreeMap::from([
         layout!(ChunkUniform {
@@ -138,7 +138,7 @@ fn mesh_layouts() -> BTreeMap<String, Layout> {
     ])
 }
 
-/// What detection makes of a view.
+/// Structs of detection.
 fn view_layouts() -> BTreeMap<String, Layout> {
     BTreeMap::from([
         layout!(DetectUniform { classes, layer_count, set_count, padding, sets }),
@@ -164,7 +164,7 @@ fn view_layouts() -> BTreeMap<String, Layout> {
     ])
 }
 
-/// What the stroke graph is made of.
+/// Structs of the stroke graph.
 fn graph_layouts() -> BTreeMap<String, Layout> {
     BTreeMap::from([
         layout!(GraphUniform {
@@ -214,7 +214,7 @@ fn graph_layouts() -> BTreeMap<String, Layout> {
     ])
 }
 
-/// How linked strokes look.
+/// Structs of linked strokes' styles.
 fn link_style_layouts() -> BTreeMap<String, Layout> {
     BTreeMap::from([
         layout!(LinkStyleUniform {
@@ -275,7 +275,7 @@ fn struct_in_buffer(
         }
     }
     let naga::TypeInner::Struct { members, span } = &ty.inner else { return None };
-    // Behind the last field Rust has its padding written out.
+    // Rust writes the padding after the last field as a field.
     let fields = members
         .iter()
         .map(|member| (member.name.clone().unwrap(), member.offset as usize))
@@ -301,7 +301,7 @@ fn structs_in_buffers_are_laid_out_alike_and_found_on_both_sides() {
     assert_eq!(in_wgsl, rust_layouts());
 }
 
-/// Constants of one side only: how the shader works inside.
+/// Constants that only a shader has.
 const OF_SHADERS: [&str; 43] = [
     "CROSS",
     "DIAGONALS",
@@ -367,7 +367,7 @@ fn number(module: &naga::Module, at: naga::Handle<naga::Expression>) -> Option<n
     }
 }
 
-/// The constants that both sides should have, as the shaders have them.
+/// The constants that both sides must define, from the shaders.
 fn constants_of_shaders() -> BTreeMap<String, u64> {
     let float = |value: f32| u64::from(value.to_bits());
     let mut found = BTreeMap::new();
@@ -472,12 +472,12 @@ fn constants_are_equal_and_found_on_both_sides() {
     expected.extend(EdgeFlags::all().iter_names().map(|(name, bits)| (name, bits.bits().into())));
     expected.extend(LineBits::all().iter_names().map(|(name, bits)| (name, bits.bits().into())));
     let found = constants_of_shaders();
-    // EdgeFlags and LineBits overlap with nothing else by name.
+    // No other constants have names of EdgeFlags and LineBits.
     let found: BTreeMap<&str, u64> = found.iter().map(|(name, value)| (&**name, *value)).collect();
     assert_eq!(found, expected);
 }
 
-/// The words at which shaders find what vertices and records hold.
+/// The word offsets of fields of vertices and records in the shaders.
 #[test]
 fn replicated_layouts_are_read_where_they_are_written() {
     let words = |field: usize| field / 4;

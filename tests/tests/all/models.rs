@@ -1,5 +1,5 @@
-//! The shared models: exact counts of an independent program, and 36 views
-//! around each model in 64 bits.
+//! The shared models: exact counts from an independent program, and 36 views around each
+//! model in 64 bits.
 
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -16,11 +16,11 @@ use testkit::locate::{left_out, shared};
 
 use crate::child::{edgemesh, json, stderr};
 
-/// How many models the reference counts are given for.
+/// The number of models with reference counts.
 const MODELS: usize = 7;
 
-/// Key of the reference, pointer into `edgemesh info --json`. The crease counts
-/// are missing for a model of quads.
+/// Keys of the reference, and pointers into `edgemesh info --json`. A model of quads has no
+/// crease counts.
 const SAME: [(&str, &str); 14] = [
     ("polygons", "/source/polygons"),
     ("vertices_in_file", "/vertices"),
@@ -51,7 +51,7 @@ fn vector(value: &Value) -> DVec3 {
     DVec3::new(number(0), number(1), number(2))
 }
 
-/// As the command line takes it; Rust prints all digits that count.
+/// An argument of the command line; Rust prints all significant digits.
 fn argument(name: &str, point: DVec3) -> String {
     format!("--{name}={},{},{}", point.x, point.y, point.z)
 }
@@ -103,11 +103,11 @@ fn the_default_view_is_the_documented_one() {
     }
 }
 
-/// A welded triangle mesh in 64 bits, with its edges by a plain map.
+/// A welded triangle mesh in 64 bits, with its edges in a plain map.
 struct Plain {
-    /// Normal, not of unit length, and a point of each face.
+    /// The normal, not of unit length, and a point of each face.
     faces: Vec<(DVec3, DVec3)>,
-    /// The faces of each edge that has two.
+    /// The faces of each edge with two.
     pairs: Vec<[usize; 2]>,
 }
 
@@ -127,8 +127,8 @@ impl Plain {
         Self { faces, pairs }
     }
 
-    /// Edges between a front and a back face, and those where a face is so near
-    /// to grazing that 32 bits may say otherwise.
+    /// The edges between a front and a back face, and those with a face so nearly edge-on
+    /// that 32 bits may decide otherwise.
     fn contours(&self, eye: DVec3) -> (u32, u32) {
         let facing: Vec<(bool, bool)> = self
             .faces

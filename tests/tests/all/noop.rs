@@ -1,4 +1,4 @@
-//! Pipelines and limits on wgpu's noop device: all of its checks and no GPU.
+//! Pipelines and limits on wgpu's noop device, which validates without a GPU.
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
@@ -19,7 +19,7 @@ fn scene_of(mesh: &EdgeMesh) -> Scene {
     Scene::of(vec![LoadedMesh::new(name, mesh.clone(), report)])
 }
 
-/// All ways in which edges lie in memory and are detected.
+/// All layouts with both detection stages.
 pub(crate) fn layouts_and_stages() -> [(Layout, DetectionStage); 6] {
     let layouts = [Layout::Indexed, Layout::Replicated, Layout::Replicated16];
     let both = layouts.map(|layout| {
@@ -81,7 +81,7 @@ fn every_technique_builds_its_pipelines_within_the_default_limits() {
     }
 }
 
-/// Each component, with its defaults, behind passes that draw all that it may want to read.
+/// Each component with its defaults, after passes that draw its inputs.
 #[test]
 fn every_component_builds_its_pipelines() {
     let gpu = noop(wgpu::Limits::default());
@@ -117,8 +117,8 @@ fn every_component_builds_its_pipelines() {
         if ["process_texture", "generate_texture", "edge_detect", "show_ids"]
             .contains(&name.as_str())
         {
-            // Their programs read what components that inherit from them add, or whole
-            // numbers, which no component that ships draws.
+            // Their programs read variables of the components that inherit from them, or
+            // integers, which no built-in component draws.
             continue;
         }
         let path = folder.path().join("one.toml");

@@ -5,7 +5,7 @@ use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::format::read::read_model;
 use testkit::locate::workspace_root;
 
-/// All of them, by name.
+/// All of them, sorted by name.
 pub(crate) fn own_models() -> Vec<(String, EdgeMesh)> {
     let mut paths: Vec<_> = std::fs::read_dir(workspace_root().join("models"))
         .unwrap()
@@ -13,7 +13,7 @@ pub(crate) fn own_models() -> Vec<(String, EdgeMesh)> {
         .filter(|path| path.extension().is_some_and(|end| end == "obj"))
         .collect();
     paths.sort();
-    assert!(paths.len() >= 4, "the project's own models are there");
+    assert!(paths.len() >= 4, "models are missing");
     paths
         .into_iter()
         .map(|path| {

@@ -1,5 +1,5 @@
-//! `edgemesh build`, `export` and `validate`, and what all commands read:
-//! several inputs, standard input, marks, welding, `--strict`.
+//! `edgemesh build`, `export` and `validate`, and what all commands share: several inputs,
+//! standard input, marks, welding, `--strict`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ const CUBE: &str = "\
 v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
 usemtl a\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nusemtl b\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\nl 1 2\n";
 
-/// A triangle that comes twice.
+/// A duplicate triangle.
 const TWICE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 3\n";
 
 /// A folder with files of the given names and texts.
@@ -44,7 +44,7 @@ fn assert_status(output: &Output, status: i32) {
     assert_eq!(output.status.code(), Some(status), "{output:?}");
 }
 
-/// Names of what lies in a folder, sorted.
+/// The names of the files in a folder, sorted.
 fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).unwrap();
     let name = |entry: std::io::Result<fs::DirEntry>| entry.unwrap().file_name();

@@ -1,4 +1,4 @@
-//! `viewer`, run as users run it. What needs no adapter runs everywhere.
+//! `viewer`, run as users run it. Tests without an adapter run everywhere.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -115,11 +115,11 @@ mod with_adapter {
         all.extend(arguments);
         let output = viewer(&all);
         assert_eq!(output.status.code(), Some(0), "{}", message(&output));
-        assert!(Path::new(&out).is_file(), "the picture is there");
+        assert!(Path::new(&out).is_file(), "no picture");
         serde_json::from_slice(&output.stdout).unwrap()
     }
 
-    /// A scene file puts models in their places, each with a look of its own.
+    /// A scene file places models, each with its own look.
     #[test]
     fn scene_files_draw_their_objects() {
         let folder = tempfile::tempdir().unwrap();
@@ -177,7 +177,7 @@ mod with_adapter {
         assert!(names[1..].iter().map(|name| name.as_str().unwrap()).eq(&of_strokes), "{names:?}");
     }
 
-    /// The GPU counts what the reference program counted in 64 bits.
+    /// The counts of the GPU equal those of the reference program in 64 bits.
     #[test]
     fn counts_equal_the_reference_on_every_shared_model() {
         let Some(shared) = shared() else { return left_out("models with reference counts", 7) };
@@ -200,7 +200,7 @@ mod with_adapter {
                 (&got["features"]["valley"], "crease_valley"),
             ];
             for (got, key) in pairs {
-                // Where faces are polygons, the reference counts no creases.
+                // The reference counts no creases between polygons.
                 if let Some(want) = counts.get(key) {
                     assert_eq!(got, want, "{name}: {key}");
                 }
@@ -226,8 +226,8 @@ mod with_adapter {
         assert_eq!(wrong_size.status.code(), Some(1), "{}", message(&wrong_size));
     }
 
-    /// Two sheets side by side, one of them far too far away for 32 bits on its
-    /// own, as models and with the first as an edge mesh in a frame of its own.
+    /// Two sheets side by side, one of them too far away for 32 bits without a frame, as
+    /// models and with the first as an edge mesh in its own frame.
     #[test]
     fn models_far_away_keep_their_places_in_one_scene() {
         let folder = tempfile::tempdir().unwrap();
@@ -300,7 +300,7 @@ mod with_adapter {
         let picture = read_png(&out).unwrap();
         assert_eq!(picture.dimensions(), (17_000, 30));
         let dark = picture.pixels().filter(|pixel| pixel.0[0] < 100).count();
-        assert!(dark > 20, "the cube is there: {dark}");
+        assert!(dark > 20, "too little of the cube: {dark} dark pixels");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Every shader file, by the resolver that the renderer uses.
+//! Every shader file is valid with the resolver that the renderer uses.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -8,7 +8,7 @@ use edgemesh_shaders::ShaderSource;
 use edgemesh_shaders::files::all;
 use testkit::locate::workspace_root;
 
-/// All shader files on disk, path from the shader folder and text.
+/// All shader files on disk: the path from the shader folder, and the text.
 pub(crate) fn shader_files() -> BTreeMap<String, String> {
     fn walk(folder: &Path, prefix: &str, files: &mut BTreeMap<String, String>) {
         for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {
@@ -51,7 +51,7 @@ fn every_shader_is_valid_and_common_files_have_no_entry_points() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// Comments that name a twin name a file that is there.
+/// Comments that name a twin name an existing file.
 #[test]
 fn files_that_comments_name_exist() {
     let root = workspace_root();

@@ -1,10 +1,10 @@
-//! `viewer techniques` and `viewer components`, run as users run them, and `--watch`.
+//! `viewer techniques`, `viewer components` and `--watch`, run as users run them.
 
 use std::process::{Command, Output};
 
 use testkit::locate::{program, workspace_root};
 
-/// With a folder of one's own that is empty, whatever is at home.
+/// Runs the viewer with an empty folder of the user's techniques.
 fn viewer(arguments: &[&str]) -> Output {
     let own = tempfile::tempdir().unwrap();
     let mut command = Command::new(program("viewer"));
@@ -21,7 +21,7 @@ fn printed(arguments: &[&str]) -> String {
     text(&output.stdout)
 }
 
-/// The names of files in a folder of the project, without their ending.
+/// The names of the files in a folder of the project, without extensions.
 fn names_in(folder: &str) -> Vec<String> {
     let entries = std::fs::read_dir(workspace_root().join(folder)).unwrap();
     let paths = entries.map(|entry| entry.unwrap().path());
@@ -144,7 +144,7 @@ mod with_adapter {
 
     use super::*;
 
-    /// The colour in the middle of a picture, once there is one that can be read.
+    /// The color in the middle of a picture, once it can be read.
     fn middle(path: &Path) -> Option<[u8; 3]> {
         let picture = image::load_from_memory(&std::fs::read(path).ok()?).ok()?.to_rgb8();
         Some(picture.get_pixel(picture.width() / 2, picture.height() / 2).0)
@@ -162,7 +162,7 @@ mod with_adapter {
         }
     }
 
-    /// A good save is drawn; a mistake and an empty file leave the last good picture.
+    /// A valid file is drawn; a mistake or an empty file keeps the last good picture.
     #[test]
     fn a_watched_technique_is_drawn_again_and_mistakes_leave_the_picture() {
         let folder = tempfile::tempdir().unwrap();
@@ -179,7 +179,7 @@ mod with_adapter {
             .arg(&out)
             .arg("--technique")
             .arg(&file)
-            // Else Mesa has something to say.
+            // Otherwise Mesa prints a warning.
             .env("XDG_RUNTIME_DIR", folder.path())
             .stderr(Stdio::piped())
             .spawn()

@@ -1,4 +1,4 @@
-//! The window's panels, by what they tell a screen reader, without a window or a GPU.
+//! The panels of the window, through their accessibility tree, without a window or a GPU.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -205,7 +205,7 @@ fn debug_views_come_and_go() {
     harness.run_ok();
     assert_eq!(harness.state().recipe.appearance.technique_name, "pen");
     assert_eq!(value(harness.state(), "strokes", "width"), "5", "as it was changed");
-    // What was chosen meanwhile is what is drawn.
+    // The last choice is drawn.
     harness.get_by_label("Regions").click();
     harness.run_ok();
     harness.state_mut().take_technique("toon");
@@ -215,7 +215,7 @@ fn debug_views_come_and_go() {
     assert_eq!(harness.state().recipe.appearance.technique_name, "toon");
 }
 
-/// A key that goes down or up.
+/// A key event.
 fn pressed(key: Key, pressed: bool) -> egui::Event {
     let (physical_key, repeat, modifiers) = (None, false, Modifiers::NONE);
     egui::Event::Key { key, physical_key, pressed, repeat, modifiers }
@@ -414,7 +414,7 @@ fn keys_do_what_their_sheet_says() {
     harness.key_press(Key::CloseBracket);
     harness.run_ok();
     assert_eq!(harness.state().recipe.appearance.technique_name, "linked", "the one after ink");
-    // A key that is held repeats itself: nothing is to flicker, or be asked for many times.
+    // A held key repeats: nothing may flicker or be requested repeatedly.
     for _ in 0..4 {
         harness.event(pressed(Key::N, true));
         harness.event(pressed(Key::Num4, true));
@@ -498,17 +498,17 @@ fn a_recipe_of_other_models_waits_for_them() {
     let recipe = recipe.expect("the cube is to be loaded");
     assert_eq!(recipe.models, [cube]);
     assert_eq!(recipe.appearance.technique_name, "pen");
-    // Should they not load, nothing has changed.
+    // If they do not load, nothing changes.
     assert_eq!(session.recipe.appearance, before.appearance);
     assert_eq!(session.recipe.viewpoint, before.viewpoint);
-    // Models that are gone: the rest is taken at once.
+    // If the models are gone, the rest of the recipe applies at once.
     let words = ["gone.obj", "--technique", "pen", "--eye", "0,0,9", "--target", "0,0,0"];
     assert!(session.take_words(&words.map(str::to_owned)).unwrap().is_none());
     assert_eq!(session.recipe.appearance.technique_name, "pen");
     assert_eq!(session.recipe.viewpoint.unwrap().eye, glam::DVec3::new(0.0, 0.0, 9.0));
 }
 
-/// Every sign that panels write is in the fonts of the window.
+/// The fonts of the window contain every character of the panels.
 #[test]
 fn no_sign_is_missing_in_the_fonts() {
     let window = testkit::locate::workspace_root().join("crates/viewer/src/window");

@@ -1,13 +1,13 @@
-//! Ink and paper in pixels that are parted into many, for smooth rims.
+//! Ink on paper with several samples per pixel, for smooth rims.
 
 use image::{GrayAlphaImage, LumaA};
 
 use super::{INK, to_byte};
 
-/// Samples of a pixel along each side.
+/// Samples per pixel along each side.
 const SAMPLES: u32 = 4;
 
-/// In pixels of the picture, x to the right and y down.
+/// A point in pixels of the picture, x to the right and y down.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Point {
     pub(super) x: f64,
@@ -24,7 +24,7 @@ impl Point {
     }
 }
 
-/// A sheet of paper; what is drawn past its sides is cut off.
+/// A sheet of paper; ink beyond its sides is cut off.
 #[derive(Debug)]
 pub(super) struct Canvas {
     width: u32,
@@ -52,8 +52,7 @@ impl Canvas {
         });
     }
 
-    /// Draws a line along points, whose radius goes evenly from `start_px` to
-    /// `end_px`.
+    /// Draws a line along points; its radius changes linearly from `start_px` to `end_px`.
     pub(super) fn line(&mut self, points: &[Point], start_px: f64, end_px: f64) {
         let count = (points.len().max(2) - 1) as f64;
         for (index, pair) in points.windows(2).enumerate() {
@@ -88,7 +87,7 @@ impl Canvas {
         }
     }
 
-    /// The picture; alpha is the part of a pixel's samples with ink.
+    /// The picture; alpha is the share of a pixel's samples that have ink.
     pub(super) fn picture(&self) -> GrayAlphaImage {
         GrayAlphaImage::from_fn(self.width / SAMPLES, self.height / SAMPLES, |x, y| {
             let rows = y * SAMPLES..(y + 1) * SAMPLES;
@@ -104,7 +103,7 @@ impl Canvas {
     }
 }
 
-/// The samples between the least and the largest place, and some pixels more.
+/// The samples between the smallest and the largest place, and some pixels more.
 fn samples(places: impl Iterator<Item = f64>, by_px: f64, count: u32) -> std::ops::Range<u32> {
     let (low, high) =
         places.fold((f64::MAX, f64::MIN), |(low, high), at| (low.min(at), high.max(at)));
@@ -116,7 +115,7 @@ fn samples(places: impl Iterator<Item = f64>, by_px: f64, count: u32) -> std::op
     sample(low - by_px)..sample(high + by_px + 1.0)
 }
 
-/// How far a point is from a segment, and where along it, from 0 to 1.
+/// The distance of a point from a segment, and the nearest place on it, from 0 to 1.
 fn distance_to_segment(at: Point, from: Point, to: Point) -> (f64, f64) {
     let (dx, dy) = (to.x - from.x, to.y - from.y);
     let square = dx * dx + dy * dy;

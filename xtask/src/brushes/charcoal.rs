@@ -1,8 +1,8 @@
 //! A stick of charcoal on rough paper: dark and nearly closed in the middle,
-//! grains towards the rims, where only the paper's teeth catch it.
+//! grains toward the rims, where only the paper's teeth catch it.
 //!
-//! What the stick leaves is pressure against the height of the paper: ink where
-//! the paper stands higher than the stick hangs above it.
+//! The ink is pressure against the height of the paper: it lies where the paper is
+//! higher than the stick.
 //!
 //! ```text
 //!   v = 0   .  '  . .  '  .     single grains
@@ -35,8 +35,8 @@ fn coverage(u: f64, v: f64) -> f64 {
     touched * (dust + (0.95 - dust) * grain)
 }
 
-/// How hard the stick presses, from 0 at the rims to more than the deepest
-/// valley; less where the hand was light and in the tracks of a worn stick.
+/// The pressure of the stick, from 0 at the rims to more than the deepest valley; less
+/// where the hand was light and in the tracks of a worn stick.
 fn pressure(u: f64, v: f64, depth: f64) -> f64 {
     let across = 0.55 * smooth_step(-0.05, 0.10, depth) + 0.45 * smooth_step(0.05, 0.40, depth);
     let hand = noise(u, 0.0, 5, 21) * 0.5 + noise(u, v * 2.0, 13, 22) * 0.5;
@@ -44,16 +44,16 @@ fn pressure(u: f64, v: f64, depth: f64) -> f64 {
     across * (0.89 + 0.40 * (hand - 0.5) + 0.55 * (track - 0.5))
 }
 
-/// How deep the paper lies, from 0 at its teeth to 1: lumps of about 4 pixels
-/// and finer ones, with rows eight times fewer than columns so they are round.
+/// The depth of the paper, from 0 at its teeth to 1: lumps of about 4 pixels and finer
+/// ones, with eight times fewer rows than columns, so that they are round.
 fn valley(u: f64, v: f64) -> f64 {
     let lumps =
         grain(u, v, 127, 31) * 0.40 + grain(u, v, 199, 32) * 0.33 + grain(u, v, 307, 33) * 0.27;
-    // Sums of noise keep to the middle; this spreads them out again.
+    // Sums of noise cluster around the middle; this spreads them out.
     smooth_step(0.2, 0.8, lumps)
 }
 
-/// Where one rim lies, as a part of the height.
+/// The place of a rim, as a fraction of the height.
 fn rim(u: f64, seed: u32) -> f64 {
     let waver = noise(u, 0.0, 4, seed) * 0.5 + noise(u, 0.0, 9, seed + 4) * 0.5;
     let crumbs = noise(u, 0.0, 43, seed + 8) * 0.6 + noise(u, 0.0, 101, seed + 12) * 0.4;

@@ -1,7 +1,7 @@
 //! A plain dash with round ends, for dashed lines.
 //!
-//! It is solid up to both rims, as a stroke without a brush is: the rims are
-//! then those of the quad.
+//! It is solid up to both rims, like a stroke without a brush, so that its rims are those
+//! of the quad.
 //!
 //! ```text
 //!   v = 0    ___________
@@ -17,15 +17,15 @@ use super::paint;
 
 const WIDTH_PX: u32 = 512;
 const HEIGHT_PX: u32 = 64;
-/// The part of the length that is drawn, the round ends with it.
+/// The fraction of the length that is drawn, including the round ends.
 const PART_ON: f64 = 0.6;
 
 pub(super) fn picture() -> GrayAlphaImage {
     paint(WIDTH_PX, HEIGHT_PX, 1, coverage)
 }
 
-/// All within half a height of a line down the middle of the dash. The dash lies
-/// in the middle of the picture, so that the seam lies in the gap.
+/// Everything within half a height of the middle line of the dash. The dash lies in the
+/// middle of the picture, so that the seam lies in the gap.
 fn coverage(u: f64, v: f64) -> f64 {
     let (width_px, height_px) = (f64::from(WIDTH_PX), f64::from(HEIGHT_PX));
     // Half a pixel more than half the height, so that the first and the last row

@@ -1,9 +1,8 @@
 //! Cartoon fur: tufts of pointed locks, drawn with a pen.
 //!
-//! Each lock is two curves from the ground to its tip, on paper of its own, so
-//! it hides what was drawn before. Locks are drawn from right to left, past both
-//! sides of the picture and in the same order everywhere, so the picture
-//! repeats.
+//! Each lock is two curves from the ground to its tip, filled with paper, so that it hides
+//! what was drawn before. Locks are drawn from right to left, past both sides of the
+//! picture and in the same order everywhere, so that the picture repeats.
 //!
 //! ```text
 //!   v = 0           _-=         tips lean along the stroke
@@ -21,14 +20,14 @@ use super::noise::{hash, mix, noise};
 const WIDTH_PX: u32 = 512;
 const HEIGHT_PX: u32 = 128;
 
-/// Where locks begin, and the rim of the line that they stand on.
+/// The height at which locks begin, and the rim of the line that they stand on.
 const GROUND_PX: f64 = 119.0;
 const GROUND_END_PX: f64 = 126.5;
 
 const TUFTS: u32 = 4;
 
-/// The locks of a tuft from its right to its left: place of the foot, width,
-/// height and lean, in pixels; a large one in the middle of smaller ones.
+/// The locks of a tuft from right to left: place of the foot, width, height and lean, in
+/// pixels; a large one in the middle of smaller ones.
 const TUFT: [Lock; 5] = [
     Lock { foot_px: 34.0, width_px: 24.0, height_px: 36.0, lean_px: 46.0 },
     Lock { foot_px: 16.0, width_px: 28.0, height_px: 66.0, lean_px: 74.0 },
@@ -47,7 +46,7 @@ struct Lock {
 
 pub(super) fn picture() -> GrayAlphaImage {
     let mut canvas = Canvas::new(WIDTH_PX, HEIGHT_PX);
-    // One tuft more on each side than the picture holds, from right to left.
+    // One tuft more on each side than the picture shows, from right to left.
     for place in (0..TUFTS + 2).rev() {
         let start_px = (f64::from(place) - 1.0) * f64::from(WIDTH_PX) / f64::from(TUFTS);
         for (index, lock) in (0..).zip(TUFT) {
@@ -59,7 +58,7 @@ pub(super) fn picture() -> GrayAlphaImage {
     canvas.picture()
 }
 
-/// A lock as the hand draws it, each time a little different.
+/// A lock as a hand draws it, a little different each time.
 fn varied(lock: Lock, tuft: u32, index: u32) -> Lock {
     let between = |low: f64, high: f64, seed: u32| mix(low, high, hash(tuft, index, seed));
     // All locks of a tuft grow and lean together.
@@ -85,7 +84,7 @@ fn draw(canvas: &mut Canvas, lock: &Lock, start_px: f64) {
     let (back_line, front_line) = (curve(&back, 1.0), curve(&front, 1.0));
     let outline: Vec<Point> = back_line.iter().chain(front_line.iter().rev()).copied().collect();
     canvas.wipe(&outline);
-    // A narrow lock has room for one hatch only.
+    // A narrow lock has room for only one hatch.
     let hatches =
         if lock.width_px < 25.0 { &[(0.6, 0.6)][..] } else { &[(0.36, 0.45), (0.7, 0.66)] };
     for &(part, length) in hatches {
@@ -96,7 +95,7 @@ fn draw(canvas: &mut Canvas, lock: &Lock, start_px: f64) {
     canvas.line(&front_line, 2.4, 1.2);
 }
 
-/// Points along the start of a cubic curve, up to `length` of it.
+/// Points along the first `length` of a cubic curve, as a fraction.
 fn curve(corners: &[Point; 4], length: f64) -> Vec<Point> {
     const STEPS: u32 = 20;
     let [a, b, c, d] = *corners;

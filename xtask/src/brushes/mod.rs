@@ -4,8 +4,8 @@
 //! u runs along the stroke and repeats, v from 0 at the outer rim (top row) to 1
 //! at the inner rim. The colour is ink; how much of it covers the paper is alpha.
 //!
-//! Only +, -, *, / and square roots are used, which are exact to the last bit, so
-//! the pictures are the same on every machine.
+//! Only +, -, *, / and square roots are used, which round alike everywhere, so the
+//! pictures are the same on every machine.
 
 mod canvas;
 mod charcoal;
@@ -61,8 +61,8 @@ fn pictures() -> [(&'static str, GrayAlphaImage); 5] {
     ]
 }
 
-/// A picture of a coverage given by u and v, the mean of `samples` by `samples`
-/// points in each pixel.
+/// A picture of a coverage that depends on u and v: the mean of `samples` x `samples`
+/// points per pixel.
 fn paint(
     width_px: u32,
     height_px: u32,
@@ -89,7 +89,7 @@ fn to_byte(part: f64) -> u8 {
     byte
 }
 
-/// The part of a row that ink covers, from 0 to 1.
+/// The share of a row that ink covers, 0 to 1.
 #[cfg(test)]
 fn mean_of_row(picture: &GrayAlphaImage, y: u32) -> f64 {
     let alpha = |x| f64::from(picture.get_pixel(x, y).0[1]) / 255.0;
@@ -100,7 +100,7 @@ fn mean_of_row(picture: &GrayAlphaImage, y: u32) -> f64 {
 mod tests {
     use super::*;
 
-    /// How much two columns differ in alpha, the mean over all rows.
+    /// The mean difference in alpha of two columns.
     fn step(picture: &GrayAlphaImage, left: u32, right: u32) -> f64 {
         let alpha = |x, y| picture.get_pixel(x, y).0[1];
         let rows = 0..picture.height();
@@ -108,8 +108,8 @@ mod tests {
         sum / f64::from(picture.height())
     }
 
-    /// The step from the last column to the first one, and the step that 95 of
-    /// 100 neighbours inside keep to.
+    /// The step from the last column to the first one, and the 95th percentile of the steps
+    /// between neighbors.
     fn seam(picture: &GrayAlphaImage) -> (f64, f64) {
         let mut inside: Vec<f64> = (1..picture.width()).map(|x| step(picture, x - 1, x)).collect();
         inside.sort_by(f64::total_cmp);

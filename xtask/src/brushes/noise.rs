@@ -1,7 +1,7 @@
-//! Noise that repeats along u, and what it is made of.
+//! Noise that repeats along u.
 
-/// Smooth noise from 0 to 1, with `cells` periods of the lattice along u, after
-/// which it repeats; along v it does not.
+/// Smooth noise from 0 to 1 that repeats along u after `cells` periods of its lattice, and
+/// does not repeat along v.
 pub(super) fn noise(u: f64, v: f64, cells: u32, seed: u32) -> f64 {
     let (column, across) = cell_of(u * f64::from(cells));
     let (row, down) = cell_of(v);
@@ -11,8 +11,8 @@ pub(super) fn noise(u: f64, v: f64, cells: u32, seed: u32) -> f64 {
     mix(top, bottom, down)
 }
 
-/// Noise for the grain of paper, in a picture eight times as long as high: its
-/// cells are square, and lie slanted and bent so that the lattice does not show.
+/// Noise for the grain of paper, in a picture eight times as long as high: its cells are
+/// square, and slanted and warped so that the lattice does not show.
 pub(super) fn grain(u: f64, v: f64, cells: u32, seed: u32) -> f64 {
     let rows = f64::from(cells) / 8.0;
     let slant = if seed.is_multiple_of(2) { v } else { 1.0 - v };
@@ -27,7 +27,7 @@ fn cell_of(position: f64) -> (u32, f64) {
     (cell, smooth_step(0.0, 1.0, position - f64::from(cell)))
 }
 
-/// A number from 0 to 1 that seems to follow from nothing.
+/// A pseudorandom number from 0 to 1.
 pub(super) fn hash(column: u32, row: u32, seed: u32) -> f64 {
     let mut bits = column.wrapping_mul(0x9E37_79B1);
     for word in [row, seed] {

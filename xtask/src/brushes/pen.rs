@@ -1,4 +1,4 @@
-//! A pen of steel: dark to the rims, which the paper's grain roughens.
+//! A steel pen: dark up to the rims, which the grain of the paper roughens.
 //!
 //! ```text
 //!   v = 0  . . . . . . . . .   paper
@@ -30,16 +30,16 @@ fn coverage(u: f64, v: f64) -> f64 {
     smooth_step(0.0, 2.5, depth_px) * (1.0 - streak(u, v, depth_px))
 }
 
-/// How far the ink stays from one rim of the texture, as a part of its height:
-/// the hand's slow waver and the paper's grain.
+/// The distance of the ink from one rim of the texture, as a fraction of its height: the
+/// slow waver of the hand and the grain of the paper.
 fn rim_depth(u: f64, seed: u32) -> f64 {
     let waver = noise(u, 0.0, 4, seed) * 0.6 + noise(u, 0.0, 11, seed + 10) * 0.4;
     let grain = noise(u, 0.0, 61, seed + 20) * 0.6 + noise(u, 0.0, 149, seed + 30) * 0.4;
     0.02 + 0.13 * waver + 0.05 * grain * grain
 }
 
-/// How much ink is missing: fine lines along the stroke, more of them where the
-/// ink runs short and near the rims, where the pen's tines press.
+/// The share of ink that is missing: fine lines along the stroke, more of them where the
+/// ink runs short and near the rims, where the tines of the pen press.
 fn streak(u: f64, v: f64, depth_px: f64) -> f64 {
     let short = noise(u, v * 3.0, 5, 41) * 0.6 + noise(u, v * 3.0, 11, 42) * 0.4;
     let near_rim = 1.0 - smooth_step(2.0, 12.0, depth_px);

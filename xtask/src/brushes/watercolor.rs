@@ -1,5 +1,4 @@
-//! A wash of watercolour: translucent, with the dark rims that it leaves where
-//! it dries last.
+//! A wash of watercolor: translucent, with dark rims where it dries last.
 //!
 //! ```text
 //!   v = 0  . . . . . . . . .   paper
@@ -29,12 +28,12 @@ fn coverage(u: f64, v: f64) -> f64 {
     let grains = grains(u, v);
     let wash = 0.30 + 0.26 * blotches(u, v) + 0.12 * (grains - 0.5);
     let dark = rim_pigment(u, outer_px, 3).max(rim_pigment(u, inner_px, 4));
-    // Pigment adds up as layers of glass do.
+    // Pigment adds up like layers of glass.
     let layers = 1.0 - (1.0 - wash) * (1.0 - dark * (0.85 + 0.3 * grains));
     smooth_step(-0.7, 1.3, outer_px.min(inner_px)) * layers
 }
 
-/// Pigment that flowed to a rim: sharp to the paper, fading into the wash.
+/// Pigment that flowed to a rim: sharp toward the paper, fading into the wash.
 fn rim_pigment(u: f64, depth_px: f64, seed: u32) -> f64 {
     let strength = mix(0.40, 0.85, noise(u, 0.0, 9, seed + 50));
     let width_px = mix(6.0, 13.0, noise(u, 0.0, 13, seed + 60));
@@ -42,8 +41,8 @@ fn rim_pigment(u: f64, depth_px: f64, seed: u32) -> f64 {
     strength * fade
 }
 
-/// Where the wash stood longer, from 0 to 1. Water that ran back into the wash
-/// left some of the borders sharp.
+/// How long the wash stood, from 0 to 1. Water that ran back into the wash left some of
+/// the borders sharp.
 fn blotches(u: f64, v: f64) -> f64 {
     let cloud = noise(u, v * 1.3, 5, 11) * 0.5
         + noise(u, v * 2.2, 12, 12) * 0.3
@@ -59,7 +58,7 @@ fn grains(u: f64, v: f64) -> f64 {
     smooth_step(0.2, 0.8, paper)
 }
 
-/// Where one rim lies, as a part of the height.
+/// The place of a rim, as a fraction of the height.
 fn rim(u: f64, seed: u32) -> f64 {
     let waver = noise(u, 0.0, 4, seed) * 0.45 + noise(u, 0.0, 11, seed + 30) * 0.4;
     let paper = noise(u, 0.0, 29, seed + 40) * 0.10 + noise(u, 0.0, 67, seed + 45) * 0.05;

@@ -1,8 +1,8 @@
-//! The images that techniques read: toon maps, papers, tonal art maps; a part of
-//! `cargo xtask brushes`.
+//! The images of techniques: toon maps, papers, tonal art maps. `cargo xtask brushes`
+//! writes them.
 //!
-//! Only +, -, *, / and square roots are used, which are exact to the last bit, so
-//! the pictures are the same on every machine.
+//! Only +, -, *, / and square roots are used, which round alike everywhere, so the
+//! pictures are the same on every machine.
 
 mod paper;
 mod tonal_art_map;
@@ -26,7 +26,7 @@ pub(crate) fn pictures() -> Vec<(String, RgbImage)> {
     pictures
 }
 
-/// A picture as PNG, as small as can be; a grey one with one channel.
+/// A picture as a small PNG; a gray one has one channel.
 pub(crate) fn encoded(picture: &RgbImage) -> Result<Vec<u8>, image::ImageError> {
     let mut bytes = Vec::new();
     let encoder =
@@ -41,14 +41,14 @@ pub(crate) fn encoded(picture: &RgbImage) -> Result<Vec<u8>, image::ImageError> 
     Ok(bytes)
 }
 
-/// A part of full light as a byte.
+/// A light from 0 to 1 as a byte.
 fn to_byte(part: f64) -> u8 {
     #[expect(clippy::cast_possible_truncation, reason = "clamped to a byte")]
     let byte = (part.clamp(0.0, 1.0) * 255.0).round() as u8;
     byte
 }
 
-/// A number from 0 to 1 that seems to follow from nothing.
+/// A pseudorandom number from 0 to 1.
 fn hash(column: u32, row: u32, seed: u32) -> f64 {
     let mut bits = column.wrapping_mul(0x9E37_79B1);
     for word in [row, seed] {

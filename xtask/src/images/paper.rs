@@ -1,14 +1,14 @@
-//! Papers: light grains that repeat both ways without a seam.
+//! Papers: light grain that tiles in both directions without a seam.
 
 use image::{Rgb, RgbImage};
 
 use super::{hash, noise, to_byte};
 
-/// Texels a side.
+/// Texels per side.
 const SIDE: u32 = 256;
 
-/// Greys apart: fewer make smaller files, and no eye tells them apart in grain.
-const GREYS: f64 = 64.0;
+/// The number of grays: fewer make smaller files, and nobody sees it in grain.
+const GRAYS: f64 = 64.0;
 
 /// Every paper by its name.
 pub(super) fn pictures() -> Vec<(&'static str, RgbImage)> {
@@ -18,19 +18,19 @@ pub(super) fn pictures() -> Vec<(&'static str, RgbImage)> {
 fn sheet(light: impl Fn(f64, f64) -> f64) -> RgbImage {
     RgbImage::from_fn(SIDE, SIDE, |x, y| {
         let place = |texel: u32| (f64::from(texel) + 0.5) / f64::from(SIDE);
-        // Rounded up or down by chance, so that no bands show.
+        // Rounded up or down at random, so that no bands show.
         let chance = hash(x, y, 77) - 0.5;
-        let value = (light(place(x), place(y)) * GREYS + chance).round() / GREYS;
+        let value = (light(place(x), place(y)) * GRAYS + chance).round() / GRAYS;
         Rgb([to_byte(value.min(1.0)); 3])
     })
 }
 
-/// Cold-pressed watercolour paper: pits of several sizes, lit from the upper left.
+/// Cold-pressed watercolor paper: pits of several sizes, lit from the upper left.
 fn rough(u: f64, v: f64) -> f64 {
     let height = |u: f64, v: f64| {
         let wrap = |at: f64| at - at.floor();
         let (u, v) = (wrap(u), wrap(v));
-        // Bent, so that the lattice does not show.
+        // Warped, so that the lattice does not show.
         let bend = 0.02 * noise(u, v, 7, 3);
         let at = |cells, seed| noise(wrap(u + bend), wrap(v + 2.0 * bend), cells, seed);
         at(24, 11) + 0.6 * at(47, 12) + 0.35 * at(89, 13)
@@ -72,7 +72,7 @@ fn canvas(u: f64, v: f64) -> f64 {
     0.88 + 0.1 * lift + 0.04 * wear
 }
 
-/// Chance by the texel.
+/// A random number per texel, 0 to 1.
 fn hash_of(u: f64, v: f64) -> f64 {
     #[expect(clippy::cast_possible_truncation, reason = "places within a sheet")]
     let texel = |at: f64| (at * f64::from(SIDE)) as u32;
@@ -83,7 +83,7 @@ fn hash_of(u: f64, v: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// How much two columns (or rows, turned) differ, the mean.
+    /// The mean difference of two columns, or of two rows of a rotated picture.
     fn step(picture: &RgbImage, left: u32, right: u32, is_turned: bool) -> f64 {
         let value = |at: u32, row: u32| match is_turned {
             true => picture.get_pixel(row, at).0[0],

@@ -3,8 +3,8 @@
 //! 2001, section 3).
 //!
 //! Strokes are nested: those of a tone are in every darker one, and those of a mip level
-//! in every finer one, so that ink never goes when one comes nearer or light fades. Each
-//! next stroke is the one of many by chance that lies where least ink is.
+//! in every finer one, so that no ink vanishes when the eye comes nearer or the light
+//! fades. Each stroke is the one of many random candidates that lies where least ink is.
 //!
 //! ```text
 //!            tone 1   2   3   4   5   6        a file: red, green, blue are three tones
@@ -15,27 +15,27 @@
 //!                                              +--------+--+   below it 3, 4 ...
 //! ```
 //!
-//! Rejected: averaging mip levels, by which strokes fade to grey instead of thinning out.
+//! Rejected: averaging mip levels, which fades strokes to gray instead of thinning them out.
 
 use image::{Rgb, RgbImage};
 
 use super::{hash, noise, to_byte};
 
-/// Texels a side of the largest level.
+/// Texels per side of the largest level.
 const SIDE: u32 = 256;
 /// The smallest level with strokes; those below are even tones.
 const LEAST_SIDE: u32 = 16;
 const TONES: usize = 6;
 /// Candidates for each stroke.
 const CANDIDATES: u32 = 200;
-/// Cells a side of the grid that says where ink is.
+/// Cells per side of the grid that records where ink is.
 const GRID: u32 = 64;
 
-/// What strokes are made with.
+/// A drawing tool.
 struct Tool {
     name: &'static str,
     width_px: f64,
-    /// How much of the ink the grain takes away.
+    /// The share of the ink that the grain removes.
     grain: f64,
     seed: u32,
 }
@@ -55,7 +55,7 @@ struct Stroke {
     bow: f64,
     is_across: bool,
     ink: f64,
-    /// Which of some grains it has: strokes over each other fill their gaps.
+    /// The number of its grain: strokes over each other fill their gaps.
     tooth: u32,
 }
 
@@ -105,13 +105,13 @@ impl Sheet {
             let t = step / steps;
             step += 1.0;
             let (u, v) = stroke.place(t);
-            // Thin where it begins and ends.
+            // Thin at both ends.
             let taper = (8.0 * t).min(8.0 * (1.0 - t)).clamp(0.0, 1.0).sqrt();
             self.dab(u * side, v * side, 0.5 * tool.width_px * (0.35 + 0.65 * taper), stroke, tool);
         }
     }
 
-    /// A round dab of ink, around the rims of the tile.
+    /// Draws a round dab of ink, wrapped around the rims of the tile.
     fn dab(&mut self, x: f64, y: f64, radius: f64, stroke: &Stroke, tool: &Tool) {
         #[expect(clippy::cast_possible_truncation, reason = "texels around a dab")]
         let range =
@@ -129,7 +129,7 @@ impl Sheet {
         }
     }
 
-    /// Where the tooth of the paper takes no ink.
+    /// How much the tooth of the paper repels ink, 0 to 1.
     fn grain(&self, column: u32, row: u32, seed: u32) -> f64 {
         let chance = hash(column, row, seed + self.side);
         let [u, v] = [column, row].map(|at| f64::from(at) / f64::from(self.side));
@@ -144,7 +144,7 @@ fn wrapped(at: i64, side: u32) -> u32 {
 }
 
 impl Stroke {
-    /// A stroke by chance.
+    /// A random stroke.
     fn by_chance(number: u32, is_across: bool, seed: u32) -> Self {
         let at = |what: u32| hash(number, what, seed);
         Self {
@@ -170,10 +170,10 @@ impl Stroke {
     }
 }
 
-/// Where strokes of one direction are: how much of them is near each place.
+/// The density of the strokes of one direction.
 struct Density {
     cells: Vec<f64>,
-    /// How far a stroke counts, in cells.
+    /// The reach of a stroke, in cells.
     reach: i64,
 }
 
@@ -277,7 +277,7 @@ fn atlas(levels: &[Vec<Sheet>], first: usize) -> RgbImage {
         let side = level[0].side;
         for (row, column) in (0..side).flat_map(|row| (0..side).map(move |column| (row, column))) {
             let ink = |tone: usize| level[first + tone].ink[(row * side + column) as usize];
-            // Few greys make a small file, and are enough for ink.
+            // Few grays make a small file and are enough for ink.
             let color = [0, 1, 2].map(|tone| to_byte(1.0 - (ink(tone) * 24.0).round() / 24.0));
             picture.put_pixel(left + column, top + row, Rgb(color));
         }

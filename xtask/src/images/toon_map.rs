@@ -1,5 +1,5 @@
-//! Toon maps: from the intensity of the light, left to right, to what the diffuse colour
-//! is multiplied by (NPRView thesis, section 4.2, figures 4.3 to 4.5).
+//! Toon maps: factors of the diffuse color by the intensity of the light, from left to
+//! right (NPRView thesis, section 4.2, figures 4.3 to 4.5).
 
 use image::{Rgb, RgbImage};
 
@@ -39,7 +39,7 @@ fn three_steps(light: f64) -> [f64; 3] {
     })
 }
 
-/// Bright and dark bands that flow into each other, as what polished metal mirrors.
+/// Bright and dark bands that flow into each other, like reflections in polished metal.
 fn metallic(light: f64) -> [f64; 3] {
     const BANDS: [(f64, f64); 8] = [
         (0.0, 0.18),
@@ -59,7 +59,7 @@ fn metallic(light: f64) -> [f64; 3] {
     [value, value, value + 0.04 * (1.0 - value)]
 }
 
-/// The colours of the rainbow, from violet to red.
+/// The colors of the rainbow, from violet to red.
 fn spectrum(light: f64) -> [f64; 3] {
     const COLORS: [[f64; 3]; 7] = [
         [0.45, 0.0, 0.75],

@@ -1,5 +1,5 @@
-//! A small part as from a CAD program: an angle bracket with a bored upright
-//! plate and a rib in the corner.
+//! A small part in the style of CAD: an angle bracket with a bored upright plate and a
+//! rib in the corner.
 //!
 //! ```text
 //!        y                      upright plate from the front
@@ -60,10 +60,10 @@ fn centred([x, y, z]: Point) -> Point {
     [x, y - H / 2.0, z - D / 2.0]
 }
 
-/// The faces of both plates but for the two that the hole goes through.
+/// The faces of both plates, except the two that the hole goes through.
 fn plates() -> Vec<Vec<Point>> {
-    // From the inner corner, so that a fan of triangles fills the angle; on the
-    // right, the others run the other way around.
+    // From the inner corner, so that a fan of triangles fills the angle; those on the
+    // right run the other way around.
     let angle = [[T, T], [H, T], [H, 0.0], [0.0, 0.0], [0.0, D], [T, D]];
     let side = |x: f64| angle.map(|[y, z]| [x, y, z]).to_vec();
     let mut right = side(W);
@@ -141,8 +141,8 @@ fn sides(points: &[FlatPoint]) -> Vec<[FlatPoint; 2]> {
 /// Triangles that fill the space between two loops around the hole's axis; both
 /// run counter-clockwise.
 ///
-/// Walks along both at once and takes the step whose middle comes first as seen
-/// from the axis. So every corner gets the part of the circle that faces it.
+/// Walks along both at once and takes the step whose middle comes first, seen from the
+/// axis, so that every corner gets the part of the circle that faces it.
 fn between_loops(outer: &[FlatPoint], inner: &[FlatPoint]) -> Vec<[FlatPoint; 3]> {
     let first = nearest(outer[0], inner);
     let outer_at = |i: usize| outer[i % outer.len()];

@@ -29,8 +29,8 @@ pub(crate) fn cube_grid(cells: u32) -> Vec<[Point; 4]> {
     quads
 }
 
-/// Side by side the axes come in turn (y and z on the x side), so that columns
-/// and rows run counter-clockwise; on the opposite side the columns run back.
+/// The axes of a side follow its own in turn (y and z on the x side), so that columns and
+/// rows run counter-clockwise; on the opposite side the columns run backward.
 fn grid_point(axis: usize, sign: f64, [column, row]: [u32; 2], cells: u32) -> Point {
     let along = |step: u32| (2.0 * f64::from(step) - f64::from(cells)) / f64::from(cells);
     let mut point = [0.0; 3];

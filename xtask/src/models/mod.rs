@@ -1,7 +1,7 @@
 //! `cargo xtask models`: the project's own models.
 //!
 //! Up is +Y. Faces run counter-clockwise as seen from outside. The models are
-//! centred and one to two units across, so the same camera suits them all.
+//! centered and one to two units across, so the same camera suits them all.
 
 mod bracket;
 mod cube;
@@ -76,7 +76,7 @@ mod tests {
             for &[from, to] in &edges {
                 assert_ne!(from, to, "{name}: an edge without length");
                 let reverse = edges.binary_search(&[to, from]);
-                assert!(reverse.is_ok(), "{name}: edge {from} -> {to} has one face only");
+                assert!(reverse.is_ok(), "{name}: edge {from} -> {to} has only one face");
             }
         }
     }

@@ -6,7 +6,7 @@
 use super::polygon_mesh::PolygonMesh;
 use super::vector::{Point, turn};
 
-/// A multiple of 8, so that the square gets its corners.
+/// A multiple of 8, so that the square has its corners.
 const STEPS: u32 = 64;
 const RINGS: u32 = 12;
 
@@ -52,9 +52,9 @@ mod tests {
             .filter(|&&[from, to]| edges.binary_search(&[to, from]).is_err())
             .copied()
             .collect();
-        assert_eq!(alone.len(), 2 * 64, "an edge a step around each loop");
+        assert_eq!(alone.len(), 2 * 64, "an edge per step around each loop");
 
-        // Each walk follows the boundary from its first edge until it is back.
+        // Each walk follows the boundary from its first edge until it closes.
         let mut left = alone.clone();
         let mut loop_count = 0;
         while let Some([start, mut at]) = left.pop() {

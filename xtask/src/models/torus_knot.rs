@@ -30,8 +30,8 @@ pub(crate) fn mesh() -> PolygonMesh {
     mesh
 }
 
-/// A point of the tube. The ring stands upright on the knot and is turned by
-/// the torus's own normal there, which comes around to itself without a twist.
+/// A point of the tube. The ring is normal to the knot and oriented by the normal of the
+/// torus, which closes without a twist.
 fn point(ring: u32, side: u32) -> Point {
     let (axis_sine, axis_cosine) = turn(AROUND_AXIS * ring, RINGS);
     let (hole_sine, hole_cosine) = turn(THROUGH_HOLE * ring, RINGS);

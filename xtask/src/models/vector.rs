@@ -1,4 +1,4 @@
-//! What the generators need of vectors.
+//! Vectors for the generators.
 
 use std::f64::consts::TAU;
 
@@ -21,14 +21,14 @@ pub(crate) fn cross(a: Point, b: Point) -> Point {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The vector at length 1; a vector without length stays as it is.
+/// The vector at length 1; the zero vector stays as it is.
 pub(crate) fn unit(a: Point) -> Point {
     let length = dot(a, a).sqrt();
     if length > 0.0 { scale(a, 1.0 / length) } else { a }
 }
 
-/// Sine and cosine of `step` of `steps` parts of a turn. Step `steps` is step 0
-/// again, to the last bit.
+/// Sine and cosine of `step` of `steps` parts of a turn. Step `steps` equals step 0 to the
+/// last bit.
 pub(crate) fn turn(step: u32, steps: u32) -> (f64, f64) {
     (TAU * f64::from(step % steps) / f64::from(steps)).sin_cos()
 }

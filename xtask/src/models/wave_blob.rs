@@ -1,5 +1,5 @@
-//! A ball with waves on it: hardly a sharp edge, but folds that hide parts of
-//! themselves, so contours run and end inside the outline.
+//! A ball with waves: few sharp edges, but folds that hide parts of themselves, so that
+//! contours run and end inside the outline.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -7,15 +7,15 @@ use super::cube::cube_grid;
 use super::polygon_mesh::PolygonMesh;
 use super::vector::{Point, add, dot, scale, unit};
 
-/// Quads along each edge of the cube that is blown up to the ball: 2,402 points.
+/// Quads along each edge of the cube that becomes the ball: 2,402 points.
 const CELLS: u32 = 20;
 
 const RADIUS: f64 = 0.75;
 
-/// Where the waves move the middle; the blob is moved back by it.
+/// The shift of the middle by the waves, which is subtracted.
 const MIDDLE: Point = [-0.05, 0.15, -0.04];
 
-/// A wave through space: where it runs, its height, where it begins.
+/// A wave through space: its direction, height and phase.
 struct Wave {
     direction: Point,
     height: f64,

@@ -1,5 +1,5 @@
-//! What the manifests ask for: crates that have no place where they are, crates that
-//! nothing uses, features that would have everything built twice.
+//! Dependencies in the manifests: crates in the wrong place, crates that nothing uses,
+//! features that would build everything twice.
 
 use std::collections::BTreeSet;
 use std::process::Command;
@@ -11,11 +11,11 @@ use toml::{Table, Value};
 use super::source::first_segments;
 use super::{assert_none, sources};
 
-/// Crates that have no place in `edgemesh`: it runs without a GPU, a window, a picture.
+/// Crates that `edgemesh` must not depend on: it has no GPU, window or picture.
 const FOREIGN: [&str; 6] = ["wgpu", "naga", "winit", "egui", "eframe", "image"];
 
-/// The packages: the folder, and what `[dependencies]` are for; all other code is for
-/// `[dev-dependencies]`. The whole of `testkit` and of `fuzz` is tests.
+/// The packages: the folder, and the folders whose code uses `[dependencies]`; all other
+/// code uses `[dev-dependencies]`. `testkit` and `fuzz` consist of tests.
 const PACKAGES: [(&str, &[&str]); 10] = [
     ("brushes", &["src"]),
     ("crates/edgemesh", &["src"]),
@@ -29,18 +29,18 @@ const PACKAGES: [(&str, &[&str]); 10] = [
     ("xtask", &["src"]),
 ];
 
-/// Packages whose library has another name.
+/// Packages with a library of another name.
 const RENAMED: [(&str, &str); 1] = [("obj-rs", "obj")];
 
-/// Dependencies that no code names, and what they are for.
+/// Dependencies that no code names, with their purpose.
 const UNNAMED: [(&str, &str, &str); 1] =
     [("tests", "getrandom", "its features: see `the_demo_builds_what_the_tests_use`")];
 
-/// What `cargo tree` prints, a package a line; `None` where it cannot run.
+/// The lines of `cargo tree`, one per package; `None` if it cannot run.
 fn cargo_tree(arguments: &[&str]) -> Option<Vec<String>> {
     let manifest = workspace_root().join("Cargo.toml");
     if fs::metadata(&manifest).is_err() {
-        eprintln!("left out the dependencies: no {}", manifest.display());
+        eprintln!("skipped the dependencies: no {}", manifest.display());
         return None;
     }
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
@@ -51,7 +51,7 @@ fn cargo_tree(arguments: &[&str]) -> Option<Vec<String>> {
         .arg(&manifest)
         .output();
     let Ok(output) = output else {
-        eprintln!("left out the dependencies: no cargo to ask");
+        eprintln!("skipped the dependencies: no cargo");
         return None;
     };
     let stderr = String::from_utf8_lossy(&output.stderr);
@@ -60,14 +60,14 @@ fn cargo_tree(arguments: &[&str]) -> Option<Vec<String>> {
     Some(lines.lines().map(|line| line.trim_end_matches(" (*)").to_owned()).collect())
 }
 
-/// The name of a crate in a line such as `glam v0.34.0`.
+/// The name of the crate in a line such as `glam v0.34.0`.
 fn name(line: &str) -> &str {
     line.split_whitespace().next().unwrap_or("")
 }
 
 fn is_foreign(name: &str) -> bool {
     FOREIGN.iter().any(|foreign| {
-        // wgpu-core and egui_extras are as foreign as wgpu and egui themselves.
+        // wgpu-core and egui_extras are as foreign as wgpu and egui.
         name.strip_prefix(foreign)
             .is_some_and(|rest| rest.is_empty() || rest.starts_with(['-', '_']))
     })
@@ -93,10 +93,10 @@ fn foreign_crates_are_known_by_their_names() {
     }
 }
 
-/// Tests turn features of shared crates on, by what only tests depend on. Where the demo is
-/// built without them, everything above such a crate is built twice. A line here is a
-/// package with its features in the demo: ask for those of the tests in `tests/Cargo.toml`,
-/// as is done for `getrandom`.
+/// Dependencies of tests turn on features of shared crates. If the demo is built without
+/// them, everything that depends on such a crate is built twice. A failure lists the
+/// packages with their features in the demo: add those of the tests to `tests/Cargo.toml`,
+/// as for `getrandom`.
 #[test]
 fn the_demo_builds_what_the_tests_use() {
     let packages = |edges: &str| {
@@ -119,7 +119,7 @@ fn the_demo_builds_what_the_tests_use() {
     assert_none(&twice);
 }
 
-/// The names of code that a folder's files begin paths with, tests and all.
+/// The first names of all paths in the code of a folder, including tests.
 fn named_in(folders: &[String]) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     for (file, text) in folders.iter().flat_map(|folder| sources(folder)) {
@@ -128,7 +128,7 @@ fn named_in(folders: &[String]) -> BTreeSet<String> {
     names
 }
 
-/// The names in a manifest's tables of one kind, those for some systems too.
+/// The names in a manifest's tables of one kind, including those of some systems.
 fn asked_for(manifest: &Table, kind: &str) -> Vec<String> {
     let targets = manifest.get("target").and_then(Value::as_table);
     let targets = targets.into_iter().flat_map(Table::values).filter_map(Value::as_table);
@@ -145,7 +145,7 @@ fn manifest(folder: &str) -> Option<Table> {
     Some(text.parse().unwrap_or_else(|error| panic!("{}: {error}", path.display())))
 }
 
-/// Dependencies of one package that its code does not name.
+/// The dependencies of a package that its code does not name.
 fn unused(
     folder: &str,
     asked: &[String],
@@ -162,7 +162,7 @@ fn unused(
 #[test]
 fn every_dependency_is_used() {
     let Some(workspace) = manifest("") else {
-        return eprintln!("left out the dependencies: no source");
+        return eprintln!("skipped the dependencies: no source");
     };
     let mut lines = Vec::new();
     let mut asked_by_all = BTreeSet::new();
@@ -185,6 +185,22 @@ fn every_dependency_is_used() {
     let nobodys = known.keys().filter(|name| !asked_by_all.contains(*name));
     lines.extend(nobodys.map(|name| format!("the workspace: {name}")));
     assert_none(&lines);
+}
+
+/// A package that the profile does not list is optimized like a dependency and has no line
+/// numbers in backtraces.
+#[test]
+fn the_profile_lists_every_package() {
+    let Some(workspace) = manifest("") else {
+        return eprintln!("skipped the profile: no source");
+    };
+    let members = workspace["workspace"]["members"].as_array().unwrap().iter();
+    let packages: BTreeSet<String> = members
+        .map(|folder| manifest(folder.as_str().unwrap()).unwrap())
+        .map(|manifest| manifest["package"]["name"].as_str().unwrap().to_owned())
+        .collect();
+    let listed = workspace["profile"]["dev"]["package"].as_table().unwrap();
+    assert_eq!(packages, listed.keys().cloned().collect());
 }
 
 #[test]

@@ -1,8 +1,8 @@
-//! Who names whom: the modules of crates and the paths in them, read by `syn`.
+//! The modules of crates and the paths in them, read by `syn`.
 //!
-//! Code under `#[cfg(test)]` and doc comments do not count. What a macro is given is not
-//! parsed; paths are picked out of its tokens. Methods and fields name no file, so they
-//! are not seen.
+//! Code under `#[cfg(test)]` and doc comments do not count. Arguments of macros are not
+//! parsed; paths are extracted from their tokens. Methods and fields name no file, so they
+//! are ignored.
 
 use std::collections::BTreeMap;
 
@@ -10,20 +10,20 @@ use proc_macro2::{TokenStream, TokenTree};
 use syn::visit::{self, Visit};
 use syn::{Attribute, Item, Meta, UseTree, Visibility};
 
-/// A path as it is written, one segment a string; a leading `::` is an empty segment.
+/// The segments of a path; a leading `::` is an empty segment.
 pub(super) type Path = Vec<String>;
 
 /// One module: a file, or a `mod name { ... }` within one.
 #[derive(Debug, Default)]
 pub(super) struct Module {
-    /// The file, from the root of the workspace.
+    /// The path of the file from the root of the workspace.
     pub(super) file: String,
     pub(super) parent: Option<usize>,
     pub(super) children: BTreeMap<String, usize>,
-    /// Names of what is defined here.
+    /// The names of its definitions.
     pub(super) items: Vec<String>,
     pub(super) imports: Vec<Import>,
-    /// The paths in its code, without those of `use`.
+    /// The paths in its code, except in `use`.
     pub(super) paths: Vec<Path>,
 }
 
@@ -33,12 +33,12 @@ pub(super) struct Import {
     /// The name here; `*` for all names.
     pub(super) name: String,
     pub(super) path: Path,
-    /// Whether others see it: `pub use`, `pub(crate) use` and the like.
+    /// Whether other modules see it: `pub use`, `pub(crate) use` and the like.
     pub(super) is_door: bool,
 }
 
-/// Reads a file as one module, and those within it. `modules` gets them; the answer has
-/// the modules in files of their own: the module that declares each, and its name.
+/// Reads a file as a module with the modules in it, and adds them to `modules`. Returns the
+/// modules that are separate files: the module that declares each, and its name.
 pub(super) fn read_file(
     file: &str,
     text: &str,
@@ -53,7 +53,7 @@ pub(super) fn read_file(
     Ok(reader.declared)
 }
 
-/// The first segments of all paths of a file, those of tests too.
+/// The first segments of all paths of a file, including tests.
 pub(super) fn first_segments(text: &str) -> Result<Vec<String>, syn::Error> {
     let mut paths = Vec::new();
     paths_of_tokens(text.parse()?, &mut paths);
@@ -136,7 +136,7 @@ impl<'ast> Visit<'ast> for Reader<'_> {
     }
 }
 
-/// Takes a `use` apart into the names that it brings in.
+/// Splits a `use` into the names that it brings in.
 fn imports_of_tree(tree: &UseTree, path: &[String], is_door: bool, imports: &mut Vec<Import>) {
     let with = |name: &syn::Ident| [path, &[name.to_string()]].concat();
     let mut add = |name: String, path: Path| imports.push(Import { name, path, is_door });
@@ -159,10 +159,10 @@ fn imports_of_tree(tree: &UseTree, path: &[String], is_door: bool, imports: &mut
     }
 }
 
-/// Picks paths out of tokens: names with `::` between them, and names alone.
+/// Extracts paths from tokens: single names, and names joined by `::`.
 fn paths_of_tokens(tokens: TokenStream, paths: &mut Vec<Path>) {
     let mut path = Path::new();
-    // The sign before a name, and how often it is repeated.
+    // The punctuation before a name, and its number of repetitions.
     let mut sign = (' ', 0);
     for token in tokens {
         match token {
@@ -172,7 +172,7 @@ fn paths_of_tokens(tokens: TokenStream, paths: &mut Vec<Path>) {
                     (':', 2) => {}
                     _ => finish_path(&mut path, paths),
                 }
-                // A field, a method, a lifetime and what a macro binds are no paths.
+                // Fields, methods, lifetimes and variables of macros are no paths.
                 if !matches!(sign, ('.', 1) | ('\'' | '$', _)) {
                     path.push(ident.to_string());
                 }
@@ -202,7 +202,7 @@ fn finish_path(path: &mut Path, paths: &mut Vec<Path>) {
     }
 }
 
-/// Whether a `cfg` leaves code out of everything but tests.
+/// Whether a `cfg` is for tests alone.
 fn is_for_tests(attributes: &[Attribute]) -> bool {
     attributes.iter().any(|attribute| {
         attribute.path().is_ident("test")

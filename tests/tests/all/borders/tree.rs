@@ -1,26 +1,26 @@
-//! Which file names what in which other file: paths followed to where they lead.
+//! Resolves the paths in each file to the files that define them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::source::{Import, Module, Path, read_file};
 
-/// What a file names.
+/// The target of a path.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Named {
-    /// Something that is defined in a file of the workspace.
+    /// A definition in a file of the workspace.
     Item { file: String, name: String },
-    /// A module of the workspace, and nothing in it.
+    /// A module of the workspace, without a name in it.
     Module { file: String },
-    /// Something of another crate; the first segment is the crate's name.
+    /// An item of another crate; the first segment is the name of the crate.
     Foreign(Path),
 }
 
-/// A file and something that it names.
+/// A file with an item that it names.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Use {
     pub(super) from: String,
     pub(super) to: Named,
-    /// Whether it is only handed on, by `pub use`.
+    /// Whether it is only exported again, by `pub use`.
     pub(super) is_door: bool,
 }
 
@@ -28,7 +28,7 @@ pub(super) struct Use {
 #[derive(Debug, Default)]
 pub(super) struct Tree {
     modules: Vec<Module>,
-    /// The libraries by the names that code has for them.
+    /// The libraries by their names in code.
     libraries: BTreeMap<String, usize>,
 }
 
@@ -74,7 +74,7 @@ impl Tree {
         self.modules.iter().map(|module| module.file.as_str()).collect()
     }
 
-    /// Everything that is named, without what a file names of itself.
+    /// All uses, except those of a file's own items.
     pub(super) fn uses(&self) -> BTreeSet<Use> {
         let mut uses = BTreeSet::new();
         for (index, module) in self.modules.iter().enumerate() {
@@ -93,8 +93,8 @@ impl Tree {
         uses
     }
 
-    /// Where a path in a module leads; `None` for what is the language's own or local.
-    /// `import` is the `use` whose own path this is: it does not explain itself.
+    /// The target of a path in a module; `None` for local and built-in names. `import` is
+    /// the `use` that the path is from: it does not resolve its own path.
     fn follow(
         &self,
         module: usize,
@@ -111,7 +111,7 @@ impl Tree {
             "super" => self.walk(self.modules[module].parent?, rest, import, depth),
             name if self.knows(module, name, import) => self.walk(module, path, import, depth),
             name if self.libraries.contains_key(name) => Some(self.follow_foreign(path, depth)),
-            // A variable, a type parameter, something of the prelude.
+            // A variable, a type parameter, an item of the prelude.
             _ if rest.is_empty() && import.is_none() => None,
             _ => Some(Named::Foreign(path.to_vec())),
         }
@@ -124,7 +124,7 @@ impl Tree {
             .unwrap_or_else(|| Named::Foreign(path.to_vec()))
     }
 
-    /// Goes from a module along a path.
+    /// Follows a path from a module.
     fn walk(
         &self,
         mut module: usize,
@@ -176,7 +176,7 @@ impl Tree {
         })
     }
 
-    /// The module that a `use path::*` opens, where it is one of the workspace.
+    /// The module of a `use path::*`, if it is in the workspace.
     fn glob_target(&self, module: usize, import: &Import) -> Option<usize> {
         let (first, rest) = import.path.split_first()?;
         let mut at = match first.as_str() {
@@ -204,7 +204,7 @@ impl Tree {
     }
 }
 
-/// One file that names another.
+/// A file that names another.
 #[derive(Debug)]
 pub(super) struct Arrow {
     pub(super) from: String,
@@ -216,8 +216,8 @@ type Arrows<'a> = BTreeMap<&'a str, BTreeMap<&'a str, BTreeSet<String>>>;
 
 /// The arrows of each group of files that name each other in a circle.
 ///
-/// What a file takes from the `mod.rs` of a folder that it lies in does not count: that is
-/// what the files of a folder have in common. Nor does `pub use`, which only hands on.
+/// Items of the `mod.rs` of a file's own folder do not count, since the files of a folder
+/// share them. Nor does `pub use`, which only exports again.
 pub(super) fn circles(uses: &BTreeSet<Use>) -> Vec<Vec<Arrow>> {
     let mut arrows = Arrows::new();
     for Use { from, to, is_door } in uses {
@@ -257,7 +257,7 @@ fn is_of_own_folder(from: &str, file: &str) -> bool {
     file.strip_suffix("mod.rs").is_some_and(|folder| from.starts_with(folder))
 }
 
-/// The files that one comes to by one arrow or more.
+/// The files that can be reached by one arrow or more.
 fn reached<'a>(start: &'a str, arrows: &Arrows<'a>) -> BTreeSet<&'a str> {
     let mut reached = BTreeSet::new();
     let mut open = vec![start];
