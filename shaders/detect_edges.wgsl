@@ -1,14 +1,12 @@
-// Finds the edges to draw and lists them by layer, in each in the order of the
-// records: each invocation marks the live edges of a run and counts them, one
-// workgroup scans the counts, each invocation writes its run from its base on.
+// Finds the edges to draw and lists them by layer, then by record: each invocation
+// marks and counts the live edges of a run, one workgroup scans the counts, and each
+// invocation writes its run.
 //
-// Only what a view changes is worked out for it: which edges are drawn without a
-// contour is found once (find_static), and runs whose faces all look one way
-// have no contours.
+// A view looks only for contours: the edges that are drawn in every view are found once
+// (find_static), and runs whose faces all face one way are skipped.
 //
-// No racing appends: the list, and with it the picture, is the same every time.
-// No barriers over all edges either: software drivers run those slowly, and
-// runs that are scanned by one small workgroup need next to none.
+// Rejected: appending with atomics, which changes the order of the list and with it the
+// picture. Rejected: barriers over all edges, which are slow on software drivers.
 #import <common/edge_faces.wgsl>
 #import <common/frame.wgsl>
 #import <common/normal_cone.wgsl>
@@ -24,11 +22,11 @@ struct DetectUniform {
     sets: array<DetectedSet, MAX_STROKE_SETS>,
 }
 
-// What detection must know of a stroke set.
+// A stroke set, as detection needs it.
 struct DetectedSet {
     layer: u32,
     indices_per_edge: u32,
-    // 1 if none of its strokes is expanded.
+    // 1 if its strokes are drawn from the live list and never expanded.
     is_listed: u32,
     // 1 if its strokes are linked.
     is_linked: u32,
@@ -36,9 +34,9 @@ struct DetectedSet {
 
 @group(1) @binding(0) var<uniform> detect: DetectUniform;
 @group(2) @binding(6) var<storage, read> run_cones: array<NormalCone>;
-// Of the runs and the tallies of all chunks, one after another.
+// The runs of all chunks, one chunk after another; `tallies` has one element per chunk.
 @group(3) @binding(1) var<storage, read_write> runs: array<RunState>;
-// Live edges of each run, layer by layer; then where they begin in the list.
+// Live edges of each run, layer by layer; after scan_runs, their places in the list.
 @group(3) @binding(2) var<storage, read_write> counts: array<u32>;
 @group(3) @binding(3) var<storage, read_write> live: array<u32>;
 @group(3) @binding(4) var<storage, read_write> tallies: array<Tally>;
@@ -49,18 +47,19 @@ fn line_of(edge: u32) -> Line {
     return classify_edge(edge_word(edge), faces, detect.classes, object.eye_is_outside != 0u);
 }
 
-// The first edge of a run, and the one behind its last.
+// The first edge of a run, and the one after its last.
 fn edges_of(run: u32) -> vec2u {
     let first = run * EDGES_PER_RUN;
     return vec2u(first, min(first + EDGES_PER_RUN, chunk.edge_count));
 }
 
-// The bit of the k-th edge of a run.
+// The bit of edge k of a run.
 fn bit_of(k: u32) -> vec2u {
     return select(vec2u(0u, 1u << (k & 31u)), vec2u(1u << k, 0u), k < 32u);
 }
 
-// What no view changes: runs once, and again when the classes change.
+// Finds the edges that are drawn in every view. Runs once, and again when the classes or
+// thresholds change.
 @compute @workgroup_size(64)
 fn find_static(@builtin(global_invocation_id) id: vec3u) {
     let run = id.x;
@@ -88,7 +87,7 @@ fn find_static(@builtin(global_invocation_id) id: vec3u) {
         }
     }
     runs[chunk.first_run + run] = state;
-    // Sums of whole numbers: the same in any order.
+    // Sums of integers are the same in any order.
     for (var class_index = 0u; class_index < LINE_CLASS_COUNT; class_index++) {
         let count = counts_of_run[class_index];
         if count > 0u {
@@ -126,7 +125,7 @@ struct LiveBits {
     contour: vec2u,
 }
 
-// The live edges of a run that may have contours, one bit each.
+// The live edges of a run that can have contours, one bit each.
 fn look_at_each(run: u32) -> LiveBits {
     let edges = edges_of(run);
     var found = LiveBits();
@@ -159,7 +158,7 @@ fn count_layers(run: u32, live_bits: vec2u) {
 const SCAN_WIDTH: u32 = 256u;
 var<workgroup> sums: array<u32, SCAN_WIDTH>;
 
-// One workgroup: turns the counts into bases, and sets the draws' arguments.
+// One workgroup: replaces the counts by places in the list, and sets the draw arguments.
 @compute @workgroup_size(SCAN_WIDTH)
 fn scan_runs(@builtin(local_invocation_index) lane: u32) {
     let size = detect.layer_count * chunk.run_count;
@@ -212,7 +211,7 @@ fn set_arguments(set_index: u32) {
     let first = first_of(stroke_set.layer);
     let count = first_of(stroke_set.layer + 1u) - first;
     let expanded = select(min(count, chunk.capacity), 0u, stroke_set.is_listed != 0u);
-    // What is linked is not drawn edge by edge.
+    // Linked edges are not drawn one by one.
     let linked = min(first + count, chunk.node_capacity) - min(first, chunk.node_capacity);
     let done = select(expanded, linked, stroke_set.is_linked != 0u);
     let indices_per_edge = stroke_set.indices_per_edge;

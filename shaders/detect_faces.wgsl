@@ -1,6 +1,6 @@
-// One facing bit a face, 32 to a word, one word an invocation: a run of faces
-// each keeps the cost per invocation small, and needs no atomics. Most words need
-// one look at the cone around their normals.
+// One facing bit per face (McGuire and Hughes, Equation 1). Each invocation writes one
+// word of 32 faces, so no atomics are needed; for most words, one test of the cone of
+// normals is enough.
 #import <common/facing.wgsl>
 #import <common/frame.wgsl>
 #import <common/normal_cone.wgsl>

@@ -1,14 +1,14 @@
-// Works out the vertices of each stroke once: the vertex shader that draws them
-// has nothing left to do, however often the rasterizer asks for a vertex.
+// Computes the vertices of each stroke once. The vertex shader that draws them only
+// passes them on, however often the rasterizer asks for a vertex.
 #import <common/edge_source.wgsl>
 #import <common/stroke_style.wgsl>
 
 @group(3) @binding(0) var<storage, read> live: array<u32>;
 @group(3) @binding(1) var<storage, read> draws: array<DrawArguments>;
-// Five words a vertex: position, u, then v and opacity in 16 bits each.
+// Five words per vertex: position (3), u, then v and opacity in 16 bits each.
 @group(3) @binding(2) var<storage, read_write> vertices: array<u32>;
 
-// Vertices an edge.
+// Vertices per edge.
 override VERTEX_COUNT: u32 = 10u;
 
 @compute @workgroup_size(64)

@@ -1,5 +1,5 @@
-// The surface itself: depth for the strokes to be tested against, and one flat
-// color. Both sides of a face are filled.
+// Fills the surface: depth, against which strokes are tested, and one flat color. Both
+// sides of a face are filled.
 #import <common/frame.wgsl>
 
 // Rust twin: FillUniform in crates/strokes/src/draw/fill.rs.
@@ -10,7 +10,7 @@ struct FillUniform {
 @group(1) @binding(0) var<uniform> fill: FillUniform;
 
 struct FillVarying {
-    // The same depth in every pass, so that a second one can ask for it.
+    // Invariant, so that a later pass gets the same depth.
     @builtin(position) @invariant position: vec4f,
     @location(0) point_in_world: vec3f,
 }

@@ -1,4 +1,5 @@
-// Every edge of the indexed layout through the vertex shader.
+// Draws every edge of the indexed layout; the vertex shader decides which are features
+// (McGuire and Hughes, section 3).
 #import <common/faces_planes.wgsl>
 #import <common/stroke_classified.wgsl>
 

@@ -1,4 +1,4 @@
-// Strokes whose vertices are worked out already.
+// Draws strokes from the vertices that expand_strokes.wgsl computed.
 #import <common/stroke_ink.wgsl>
 
 @vertex

@@ -1,6 +1,6 @@
-// Card and Mitchell's fins as they wrote them (Listing 1), to compare with: every
-// edge a quad, pushed out where one face normal looks at the eye and the other
-// away, else without any width.
+// Card and Mitchell's fins as printed (Listing 1), for comparison: every edge is a quad,
+// which is pushed out if one face normal points toward the eye and the other away, and
+// has no width otherwise.
 #import <common/stroke_ink.wgsl>
 
 struct FinVertex {

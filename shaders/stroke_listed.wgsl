@@ -1,4 +1,4 @@
-// Strokes straight from the live list: what found no room in the expansion.
+// Draws strokes straight from the live list: those that did not fit into the expansion.
 //
 //        6                          9
 //      . |  3 ----------------- 2   | .

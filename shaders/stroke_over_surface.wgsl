@@ -1,11 +1,11 @@
-// The fragments of contours that lie inside of their edge, or centerd on it: over
-// the surface that they bound.
+// Fragments of contours placed inside their edge, or centered on it: over the surface
+// that they bound.
 //
-// That surface turns toward the eye faster than any one face tells, and would
-// swallow them if each fragment were tested where it is. So these ask whether the
-// edge is visible: a little outside of it, where nothing of its own surface lies.
-// Silhouettes ask there as well whether it is their own object. What lies off the
-// surface asks where it is, as the depth test would.
+// That surface rises toward the eye faster than the faces at the edge do, and would cover
+// the stroke if each fragment were tested at its own place. So these fragments test
+// whether the edge is visible, a little outside it, where its own surface does not lie.
+// Silhouettes also test there whether the object is their own. Fragments off the surface
+// are tested where they are, as the depth test would.
 //
 //   on the screen:                      from the side, the eye on the right:
 //
@@ -16,10 +16,10 @@
 #import <common/stroke_ink.wgsl>
 #import <common/silhouette.wgsl>
 
-// Whether what is hidden is drawn, and what is visible is not.
+// Whether hidden lines are drawn instead of visible ones.
 override IS_HIDDEN: bool = false;
 
-// The fill's depth and its objects, in pictures of one sample a pixel and of four.
+// Depth and objects of the fill, in pictures of one and of four samples per pixel.
 @group(0) @binding(1) var fill_depth: texture_depth_2d;
 @group(0) @binding(2) var fill_depth_of_samples: texture_depth_multisampled_2d;
 @group(0) @binding(3) var fill_object: texture_2d<u32>;
@@ -27,7 +27,7 @@ override IS_HIDDEN: bool = false;
 
 @fragment
 fn over_surface_of_pixels(in: StrokeVarying) -> @location(0) vec4f {
-    // Before anything is discarded: these take derivatives.
+    // Before any discard, because these take derivatives.
     let color = cut(in.position, ink(in.uv, in.opacity));
     let at = places_of(in);
     if !is_drawn(in, depths_of_pixels(at)) {
@@ -98,30 +98,31 @@ fn depths_of_samples(at: Places, sample: u32) -> vec3f {
     );
 }
 
-// The pixels where a fragment asks what was filled: its own, the one where its
-// stroke starts over the surface, the one beside the edge.
+// The pixels at which a fragment reads the fill: its own, the one where its stroke starts
+// over the surface, and the one outside the edge.
 struct Places {
     here: vec2i,
     start: vec2i,
     foot: vec2i,
 }
 
-// Far enough over the surface for every sample of the pixel to be on it.
+// Far enough over the surface that every sample of the pixel is on it.
 const START_PX: f32 = 1.5;
 
-// How much nearer than the edge its own surface may be, or farther, in heights of
-// the picture.
+// How much nearer or farther than the edge its own surface may be, in heights of the
+// picture.
 const OWN_REACH: f32 = 0.5;
 
 fn places_of(in: StrokeVarying) -> Places {
-    // A pixel further in is a pixel further over the surface.
+    // over_px grows by one per pixel inward, so its gradient is the inward direction.
     let inward = vec2f(dpdx(in.over_px), dpdy(in.over_px));
     let foot = foot_of(in);
     let start = foot + inward * (FOOT_PX + START_PX);
     return Places(pixel_of(in.position.xy), pixel_of(start), pixel_of(foot));
 }
 
-// Whether the edge is between its own object and anything else (section 3.4).
+// Whether the edge separates its own object from anything else (McGuire and Hughes,
+// section 3.4).
 fn is_around(in: StrokeVarying, objects: vec3u) -> bool {
     let own = objects.y;
     return own != NO_OBJECT && own != select(objects.x, objects.z, in.over_px > 0.0);
@@ -139,14 +140,13 @@ fn pixel_of(position_px: vec2f) -> vec2i {
     return clamp(vec2i(floor(position_px)), vec2i(0), vec2i(frame.viewport_px) - 1);
 }
 
-// `depths` are those of the fill at the three places; reversed: 1 near, 0 far and
-// where nothing was filled.
+// `depths` are those of the fill at the three places, reversed: 1 near, 0 far or empty.
 fn is_drawn(in: StrokeVarying, depths: vec3f) -> bool {
     if in.over_px <= 0.0 {
         return (in.position.z < depths.x) == IS_HIDDEN;
     }
     let edge = in.foot.z;
-    // Beyond the picture nothing is known to hide it.
+    // Outside the picture there is no depth that could hide it.
     let is_hidden = edge < depths.z && is_in_picture(foot_of(in));
     if is_hidden != IS_HIDDEN {
         return false;
@@ -157,16 +157,16 @@ fn is_drawn(in: StrokeVarying, depths: vec3f) -> bool {
     return is_own_surface(edge, depths.x) && is_own_surface(edge, depths.y);
 }
 
-// Whether what was filled there can be the surface that the edge bounds, by how
-// far before or behind the edge it lies. Where edges are small, a stroke reaches
-// past that surface, over what is elsewhere; and something else can lie before it.
+// Whether the fill there can be the surface that the edge bounds, judged by its distance
+// from the edge in depth. A stroke on small faces can reach past that surface, and
+// something else can lie in front of it.
 fn is_own_surface(edge: f32, filled: f32) -> bool {
     if filled <= 0.0 {
         return false;
     }
     let edge_distance = distance_of(edge);
-    // A wall seen nearly edge on comes nearer by its whole length within a pixel;
-    // and as far its fill is pushed back, by a pixel of slope.
+    // A wall seen nearly edge-on comes nearer by its whole length within a pixel, and its
+    // fill is pushed back just as far, by a pixel of slope.
     let away_px = abs(edge_distance - distance_of(filled)) * px_per_unit_at(edge_distance);
     return away_px <= OWN_REACH * frame.picture_px.y;
 }

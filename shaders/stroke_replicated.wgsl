@@ -1,5 +1,5 @@
-// The paper's own layout and path in 32-bit floats: four copies of an edge as
-// vertices, told apart by the corner index i alone, and no storage buffer.
+// The layout and method of McGuire and Hughes (section 3) in 32-bit floats: four copies of
+// an edge as vertices that differ only in the corner index i, and no storage buffer.
 #import <common/replicated_corner.wgsl>
 
 struct EdgeVertex {

@@ -1,5 +1,5 @@
-// The paper's own layout and path at 16 bits. Vertex formats come in twos and
-// fours, so the eighteen numbers arrive in fours and are taken apart here.
+// The layout and method of McGuire and Hughes (section 3) at 16 bits. Vertex formats have
+// two or four components, so the eighteen numbers arrive in fours and are split here.
 #import <common/replicated_corner.wgsl>
 
 struct EdgeVertex16 {

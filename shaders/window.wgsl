@@ -1,13 +1,13 @@
-// The picture in the window, texel by pixel, over white where nothing was drawn.
+// The picture in the window, one texel per pixel, over white.
 
-// Whether the window wants linear values, which it makes sRGB values itself.
+// Whether the window's target takes linear values and converts them to sRGB.
 override IS_LINEAR: bool = false;
 
 @group(0) @binding(0) var picture: texture_2d<f32>;
 
 struct PictureVarying {
     @builtin(position) position: vec4f,
-    // In texels, at their middles.
+    // In texels; whole numbers are corners of texels.
     @location(0) place: vec2f,
 }
 

@@ -1,4 +1,4 @@
-// An edge with its faces, in the object's space, and what a view makes of it.
+// An edge with its faces in object space, and the same edge in clip space.
 #import <common/facing.wgsl>
 #import <common/frame.wgsl>
 #import <common/stroke_vertex.wgsl>
@@ -6,7 +6,7 @@
 struct EdgeGeometry {
     p0: vec3f,
     p1: vec3f,
-    // Third vertices of face A and B; equal to p0 where there is no such face.
+    // Third vertices of face A and face B; equal to p0 if there is no such face.
     p2: vec3f,
     p3: vec3f,
     n0: vec3f,
@@ -34,7 +34,7 @@ fn clip_edge(edge: EdgeGeometry) -> ClipEdge {
     );
 }
 
-// The faces of an edge of whose faces nobody kept the planes.
+// The facing of an edge's two faces, from vertices alone: for layouts without planes.
 fn faces_of_geometry(edge: EdgeGeometry) -> EdgeFaces {
     let has_a = any(edge.p2 != edge.p0);
     let has_b = any(edge.p3 != edge.p0);

@@ -1,5 +1,5 @@
-// What detectors measure at a texel, each by its paper's formula. Textures are passed, so
-// that one detector can measure several things.
+// What detectors measure at a texel, by the formulas of the NPRView thesis (section 3.3).
+// Textures are passed as arguments, so that one detector can measure several of them.
 #import <common/encode.wgsl>
 #import <common/frame.wgsl>
 #import <common/taps.wgsl>
@@ -8,13 +8,13 @@ fn normal_at(normals: texture_2d<f32>, texel: vec2i) -> vec3f {
     return normal_of_rgb(textureLoad(normals, within(texel, textureDimensions(normals)), 0).rgb);
 }
 
-// Eye-space depth from the depth buffer: Equation 3.11 for the projection in use.
+// Eye-space depth from the depth buffer: Equation 3.11, for the current projection.
 fn distance_at(depths: texture_depth_2d, texel: vec2i) -> f32 {
     return distance_of(textureLoad(depths, within(texel, textureDimensions(depths)), 0));
 }
 
-// Thesis, Equations 3.7 and 3.8: the least dot product of the normal with those of the
-// four neighbors, and their sum.
+// The smallest dot product of the normal with those of the four neighbors, and the sum of
+// all four (thesis, Equations 3.7 and 3.8).
 fn dot_products(normals: texture_2d<f32>, texel: vec2i) -> vec2f {
     let center = normal_at(normals, texel);
     var least = 1.0e9;
@@ -27,7 +27,7 @@ fn dot_products(normals: texture_2d<f32>, texel: vec2i) -> vec2f {
     return vec2f(least, sum);
 }
 
-// Thesis, Equation 3.12: the largest difference of depth to a neighbor.
+// The largest difference in depth from a neighbor (thesis, Equation 3.12).
 fn depth_delta(depths: texture_depth_2d, texel: vec2i) -> f32 {
     let center = distance_at(depths, texel);
     var most = 0.0;
@@ -37,7 +37,7 @@ fn depth_delta(depths: texture_depth_2d, texel: vec2i) -> f32 {
     return most;
 }
 
-// Thesis, Equation 3.13: the size of the Laplacian of the depth.
+// The absolute Laplacian of the depth (thesis, Equation 3.13).
 fn depth_laplacian(depths: texture_depth_2d, texel: vec2i) -> f32 {
     var sum = -4.0 * distance_at(depths, texel);
     for (var tap = 0; tap < 4; tap++) {
@@ -46,7 +46,7 @@ fn depth_laplacian(depths: texture_depth_2d, texel: vec2i) -> f32 {
     return abs(sum);
 }
 
-// Whether a neighbor is of another region.
+// Whether a neighbor belongs to another region (thesis, section 3.3.3).
 fn regions_differ(ids: texture_2d<f32>, texel: vec2i) -> bool {
     let size = textureDimensions(ids);
     let center = textureLoad(ids, within(texel, size), 0).rgb;
@@ -57,7 +57,7 @@ fn regions_differ(ids: texture_2d<f32>, texel: vec2i) -> bool {
     return differ;
 }
 
-// The point of the world at a texel.
+// The point at a texel, in world space.
 fn world_at(depths: texture_depth_2d, texel: vec2i) -> vec3f {
     let size = textureDimensions(depths);
     let inside = within(texel, size);
@@ -66,10 +66,10 @@ fn world_at(depths: texture_depth_2d, texel: vec2i) -> vec3f {
     return world_of(place_px, depth);
 }
 
-// How far neighbors are from the plane through a texel, in pixels: no more than rounding
-// on a plane, however steep it is seen. Of a pair the smaller distance counts, of either
-// from the other's plane, so that both sides of a step are edges and a smooth bend is
-// none. Against the background there is an edge in any case.
+// The largest distance of a neighbor from the plane through a texel, in pixels. On a
+// plane, however steep, it is zero but for rounding. Each of two neighbors has a distance
+// from the other's plane; the smaller one counts, so that both sides of a step are edges
+// and a smooth bend is not. The border with the background is always an edge.
 fn plane_distance_px(
     depths: texture_depth_2d,
     normals: texture_2d<f32>,
@@ -102,7 +102,7 @@ fn unit_normal_at(normals: texture_2d<f32>, texel: vec2i) -> vec3f {
     return select(vec3f(0.0), normal / length, length > 0.0);
 }
 
-// A mixture of two colors with straight alpha, premultiplied.
+// A mix of two colors with straight alpha; the result is premultiplied.
 fn line_color(strength: f32, line: vec4f, background: vec4f) -> vec4f {
     let color = mix(background, line, clamp(strength, 0.0, 1.0));
     return vec4f(color.rgb * color.a, color.a);

@@ -1,5 +1,5 @@
-// The edges of a mesh in the paper's replicated layout, 32-bit floats,
-// read as words: of the four copies of an edge the first.
+// The edges of a mesh in the replicated layout of McGuire and Hughes (section 3.1), 32-bit
+// floats, read as words from the first of an edge's four copies.
 #import <common/edge_geometry.wgsl>
 
 @group(2) @binding(2) var<storage, read> words: array<u32>;
@@ -10,7 +10,7 @@ fn edge_word(edge: u32) -> u32 {
     return words[WORDS_PER_EDGE * edge + 19u] >> 8u;
 }
 
-// Where an edge begins and ends.
+// The two ends of an edge, in object space.
 fn edge_ends(edge: u32) -> array<vec3f, 2> {
     let at = WORDS_PER_EDGE * edge;
     return array<vec3f, 2>(vector_at(at), vector_at(at + 3u));

@@ -1,5 +1,5 @@
-// The edges of a mesh in the paper's replicated layout, 16-bit numbers,
-// read as words: of the four copies of an edge the first.
+// The edges of a mesh in the replicated layout of McGuire and Hughes (section 3.1), 16-bit
+// integers, read as words from the first of an edge's four copies.
 #import <common/edge_geometry.wgsl>
 
 @group(2) @binding(2) var<storage, read> words: array<u32>;
@@ -10,7 +10,7 @@ fn edge_word(edge: u32) -> u32 {
     return words[WORDS_PER_EDGE * edge + 9u] >> 8u;
 }
 
-// Where an edge begins and ends.
+// The two ends of an edge, in object space.
 fn edge_ends(edge: u32) -> array<vec3f, 2> {
     let at = WORDS_PER_EDGE * edge;
     return array<vec3f, 2>(position_at(at, 0u), position_at(at, 3u));
@@ -37,13 +37,13 @@ fn normal_at(at: u32, first: u32) -> vec3f {
     return steps_at(at, first) / 32767.0;
 }
 
-// Three of the 16-bit numbers of an edge vertex.
+// Three consecutive 16-bit integers of an edge vertex.
 fn steps_at(at: u32, first: u32) -> vec3f {
     return vec3f(step_at(at, first), step_at(at, first + 1u), step_at(at, first + 2u));
 }
 
 fn step_at(at: u32, index: u32) -> f32 {
-    // The upper half is shifted out and the lower one back with its sign.
+    // Moves the wanted half to the top, then shifts it back with its sign.
     let word = words[at + index / 2u];
     return f32(bitcast<i32>(word << (16u * (1u - index % 2u))) >> 16u);
 }

@@ -1,4 +1,4 @@
-// Normals, depths and ids as colors, and back.
+// Normals and ids as colors.
 
 // A direction as a color: each axis from -1..1 to 0..1 (NPRView thesis, section 3.3.1).
 fn rgb_of_normal(normal: vec3f) -> vec3f {
@@ -9,8 +9,8 @@ fn normal_of_rgb(rgb: vec3f) -> vec3f {
     return 2.0 * rgb - 1.0;
 }
 
-// A color of 24 bits for each whole number from 1 to 2^24 - 1, no two alike: the
-// factor is odd, so that the product can be undone. 0 is black.
+// A distinct 24-bit color for each integer from 1 to 2^24 - 1; 0 is black. Colors are
+// distinct because the factor is odd, which makes the product invertible.
 fn rgb_of_id(id: u32) -> vec3f {
     let bits = (id * 0x9e3779u) & 0xffffffu;
     return vec3f(vec3u(bits >> 16u, bits >> 8u, bits) & vec3u(0xffu)) / 255.0;

@@ -1,4 +1,4 @@
-// How a view sees the faces of an edge, from facing bits.
+// The facing of an edge's two faces, from the facing bits of detect_faces.wgsl.
 #import <common/facing.wgsl>
 #import <common/feature.wgsl>
 
@@ -16,6 +16,6 @@ fn edge_faces(edge: u32) -> EdgeFaces {
 }
 
 fn looks_at_eye(face: u32) -> bool {
-    // A line that is no edge of a face has none that could look anywhere.
+    // A line along no edge has no faces.
     return face != NONE && (facing[face >> 5u] & (1u << (face & 31u))) != 0u;
 }

@@ -1,5 +1,5 @@
-// How a view sees the faces of an edge, from the planes of the faces: the vertex
-// shader that draws every edge has no facing bits.
+// The facing of an edge's two faces, from their planes: the vertex shader that draws every
+// edge has no facing bits.
 #import <common/edges_indexed.wgsl>
 
 @group(3) @binding(0) var<storage, read> planes: array<FacePlane>;

@@ -1,4 +1,4 @@
-// How a view sees the faces of an edge, from its own four vertices.
+// The facing of an edge's two faces, from the edge's four vertices.
 #import <common/edge_source.wgsl>
 
 fn edge_faces(edge: u32) -> EdgeFaces {

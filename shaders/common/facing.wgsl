@@ -1,5 +1,6 @@
-// Which side of a face the eye is on (McGuire and Hughes, Equation 1); zero
-// counts as back. Rust twin: crates/edgemesh/src/view/facing.rs.
+// Which side of a face the eye is on (McGuire and Hughes, Equation 1); zero counts as
+// back. `eye` is in object space: a point with w = 1, or a direction with w = 0.
+// Rust twin: crates/edgemesh/src/view/facing.rs.
 #import <common/mesh.wgsl>
 
 fn faces_eye(plane: FacePlane, eye: vec4f) -> bool {
@@ -7,8 +8,8 @@ fn faces_eye(plane: FacePlane, eye: vec4f) -> bool {
     return dot(plane.normal.xyz, to_eye) > 0.0;
 }
 
-// The same of a face whose plane nobody kept. The corners are taken from the
-// smallest on, so that both edges of two that share a face get the same sign.
+// The same, from the corners of a face. They are rotated so that the smallest comes first,
+// so all edges of a face get the same sign.
 fn triangle_faces_eye(a: vec3f, b: vec3f, c: vec3f, eye: vec4f) -> bool {
     var first = a;
     var second = b;
@@ -26,8 +27,8 @@ fn triangle_faces_eye(a: vec3f, b: vec3f, c: vec3f, eye: vec4f) -> bool {
     return dot(normal, even(eye.xyz - eye.w * first)) > 0.0;
 }
 
-// The same direction, with a largest component of 1: products of tiny or huge
-// vectors would leave the range of 32 bits.
+// Scales a vector so that its largest component is 1: products of tiny or huge vectors
+// would leave the range of 32-bit floats.
 fn even(vector: vec3f) -> vec3f {
     let largest = max(max(abs(vector.x), abs(vector.y)), abs(vector.z));
     return select(vector / largest, vec3f(0.0), largest <= 0.0);
@@ -43,8 +44,8 @@ fn is_before(a: vec3f, b: vec3f) -> bool {
     return a.z < b.z;
 }
 
-// The cosine between the normal of a face and the line of sight to its first
-// corner, without its sign; 0 for a face without area.
+// The absolute cosine between a face's normal and the line of sight to its first corner; 0
+// for a face without area.
 fn facing_cosine(a: vec3f, b: vec3f, c: vec3f, eye: vec4f) -> f32 {
     let normal = cross(even(b - a), even(c - a));
     let to_eye = even(eye.xyz - eye.w * a);

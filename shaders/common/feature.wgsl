@@ -1,6 +1,6 @@
 // Which edges are features of a view (McGuire and Hughes, Equation 1).
-// Rust twins: EdgeFlags in crates/edgemesh/src/edge_mesh/edge_flags.rs, the crease's angle in
-// edge_word.rs, the rest in crates/edgemesh/src/view/feature.rs.
+// Rust twins: EdgeFlags in crates/edgemesh/src/edge_mesh/edge_flags.rs, the crease angle in
+// edge_word.rs beside it, all else in crates/edgemesh/src/view/feature.rs.
 #import <common/line_class.wgsl>
 
 const BOUNDARY: u32 = 1u;
@@ -20,8 +20,8 @@ const CONCAVE: u32 = 0x800000u;
 const LEAST_GROOVE_STEPS: u32 = 45u;
 const MOST_GROOVE_STEPS: u32 = 6750u;
 
-// Line bits: what a view says of an edge. The live list carries the first three
-// above the edge's index.
+// Line bits: the state of an edge in a view. The live list stores the first three above
+// the edge's index.
 const CONTOUR: u32 = 0x80000000u;
 const A_FACES: u32 = 0x40000000u;
 const BEHIND_SOLID: u32 = 0x20000000u;
@@ -39,7 +39,7 @@ struct Line {
     layer: u32,
 }
 
-// The bits of the classes that an edge is of in every view.
+// The classes of an edge that do not depend on the view, one bit each.
 fn static_classes(word: u32, table: ClassTable) -> u32 {
     let steps = (word >> CREASE_SHIFT) & CREASE_STEPS;
     let is_concave = (word & CONCAVE) != 0u;
@@ -69,11 +69,11 @@ fn is_groove(word: u32) -> bool {
 fn classify_edge(word: u32, faces: EdgeFaces, table: ClassTable, eye_is_outside: bool) -> Line {
     let b_faces = faces.b_faces != ((word & CLASH) != 0u);
     let is_manifold = faces.has_b && (word & NON_MANIFOLD) == 0u;
-    // Contour where exactly one of the two faces looks at the eye.
+    // A contour has exactly one face toward the eye.
     let is_contour = is_manifold && faces.a_faces != b_faces;
     let classes = (static_classes(word, table) | (u32(is_contour) << CLASS_CONTOUR)) & table.drawn;
-    // The solid itself hides what turns away from an eye outside of it, and the
-    // contours in its grooves.
+    // A solid hides its edges that face away from an eye outside it, and the contours in
+    // its grooves.
     let is_turned_away = !faces.a_faces && !b_faces;
     let is_behind = eye_is_outside && (word & SOLID) != 0u
         && (is_turned_away || (is_contour && is_groove(word)));

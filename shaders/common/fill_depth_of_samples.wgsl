@@ -1,5 +1,5 @@
-// The depth that was filled, in a picture of four samples a pixel; reversed: 1 near, 0
-// far and where nothing was filled.
+// The depth of the fill in a picture of four samples per pixel, reversed: 1 near, 0 far or
+// empty.
 
 @group(0) @binding(2) var fill_depth: texture_depth_multisampled_2d;
 

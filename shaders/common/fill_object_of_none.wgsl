@@ -1,4 +1,4 @@
-// The objects that were filled, in a picture without a stencil: nobody knows.
+// The object that was filled, in a picture without a stencil: always unknown.
 #import <common/silhouette.wgsl>
 
 fn filled_object(pixel: vec2i) -> u32 {

@@ -1,4 +1,4 @@
-// The objects that were filled, in a picture of one sample a pixel.
+// The object that was filled, in a picture of one sample per pixel.
 
 @group(0) @binding(3) var fill_object: texture_2d<u32>;
 

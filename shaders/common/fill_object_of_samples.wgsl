@@ -1,5 +1,4 @@
-// The objects that were filled, in a picture of four samples a pixel, of which one is
-// asked.
+// The object that was filled, in a picture of four samples per pixel: the first sample's.
 
 @group(0) @binding(4) var fill_object: texture_multisampled_2d<u32>;
 

@@ -21,8 +21,8 @@ fn intensity(color: vec3f) -> f32 {
     return dot(color, vec3f(0.3, 0.6, 0.1));
 }
 
-// The material of a range, its diffuse and ambient colors times the model's texture
-// where it has texture coordinates.
+// The material of a range; its diffuse and ambient colors are multiplied by the base
+// texture if the model has texture coordinates.
 fn material_at(material_range: u32, texel: vec4f) -> MaterialUniform {
     let of_range = surface_ranges[material_range];
     var material = materials[of_range.material];

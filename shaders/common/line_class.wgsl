@@ -1,10 +1,10 @@
-// Line classes and the table of those that a drawing has.
+// Line classes, and the table that assigns them to layers.
 // Rust twins: LineClass and ClassTable in crates/edgemesh/src/line/class.rs.
 
 const LINE_CLASS_COUNT: u32 = 7u;
 const MAX_LINE_CLASSES: u32 = 32u;
 
-// The number of each class, the strongest first: LineClass::Contour and so on.
+// The number of each class, strongest first: LineClass::Contour and so on.
 const CLASS_CONTOUR: u32 = 0u;
 const CLASS_MARKED: u32 = 1u;
 const CLASS_BOUNDARY: u32 = 2u;
@@ -21,14 +21,14 @@ struct ClassTable {
     layers: array<vec4u, MAX_LINE_CLASSES / 16u>,
     // One bit per class.
     drawn: u32,
-    // Thresholds in steps; 0 for the creases as built.
+    // Thresholds in steps of 1/45 degree; 0 for the creases of the mesh.
     ridge_steps: u32,
     valley_steps: u32,
-    // 1 if edges that their own solid hides are kept.
+    // 1 if edges hidden by their own solid are kept.
     keeps_hidden: u32,
 }
 
-// The layer of the class with this number. Rust twin: ClassTable::layer.
+// Rust twin: ClassTable::layer.
 fn layer_of_class(table: ClassTable, class_index: u32) -> u32 {
     let word = (class_index / 4u) % (MAX_LINE_CLASSES / 4u);
     let words = table.layers[word / 4u];

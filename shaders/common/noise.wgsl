@@ -1,9 +1,8 @@
 // Smooth noise in space, of any wavelength.
 #import <common/mesh.wgsl>
 
-// From -1 to 1. The values lie on a lattice whose cells are powers of two, and two
-// lattices are blended: a change of the wavelength, however small, changes the noise
-// as little.
+// From -1 to 1. The values lie on lattices whose cells are powers of two, and two lattices
+// are blended, so a small change of the wavelength changes the noise only a little.
 fn noise_of(position: vec3f, wavelength: f32, seed: u32) -> f32 {
     let level = log2(max(wavelength, 1e-20));
     let octave = floor(level);
@@ -14,7 +13,7 @@ fn noise_of(position: vec3f, wavelength: f32, seed: u32) -> f32 {
     return mix(near, far, smoothstep(0.0, 1.0, level - octave));
 }
 
-// Smooth noise from -1 to 1 with one value a cell.
+// Smooth noise from -1 to 1 with one value per cell.
 fn value_noise(position: vec3f, seed: u32) -> f32 {
     let cell = floor(position);
     let t = smoothstep(vec3f(0.0), vec3f(1.0), position - cell);

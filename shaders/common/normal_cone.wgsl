@@ -1,12 +1,11 @@
-// Whether all faces of a cluster look at the eye, or all away from it (Johnson
-// and Cohen 2001). Rust twin: crates/edgemesh/src/edge_mesh/normal_cone.rs.
+// Whether all faces of a cluster face the eye, or all face away (Johnson and Cohen 2001).
+// Rust twin: crates/edgemesh/src/edge_mesh/normal_cone.rs.
 
 struct NormalCone {
-    // A sphere around the points of the faces.
+    // A sphere around the points of the faces, in object space.
     center: vec3f,
     radius: f32,
-    // A cone around their normals; the cosine of its half angle is not positive
-    // where there is none.
+    // A cone around their normals; without one, the cosine of its half angle is 0 or less.
     axis: vec3f,
     cosine: f32,
 }
@@ -27,7 +26,7 @@ fn cone_facing(cone: NormalCone, eye: vec4f) -> u32 {
     let across = sqrt(max(distance * distance - along * along, 0.0));
     let sine = sqrt(max(1.0 - cone.cosine * cone.cosine, 0.0));
     let reach = abs(eye.w) * cone.radius;
-    // Rounding must not make a claim.
+    // Rounding must not decide.
     let bound = reach + CONE_MARGIN * (distance + reach);
     if along * cone.cosine - across * sine > bound {
         return ALL_FACE;

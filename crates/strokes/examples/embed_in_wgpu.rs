@@ -17,7 +17,7 @@ use strokes::wgpu::util::{BufferInitDescriptor, DeviceExt as _};
 use strokes::{
     Drawing, DrawingStyle, Fill, FrameRequest, FrameUniform, Gpu, Layer, Layout, MeshBuffers,
     MeshInstance, Renderer, RendererOptions, StrokeStyle, Surroundings, TargetFormats,
-    TargetTextures, Targets, Tile, ViewState, read_picture, wgpu,
+    TargetTextures, Targets, Tile, ViewState, push_away, read_picture, wgpu,
 };
 
 const SIZE_PX: [u32; 2] = [1024, 768];
@@ -203,7 +203,7 @@ fn fill_pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
             depth_compare: Some(wgpu::CompareFunction::Greater),
             stencil: wgpu::StencilState::default(),
             // Surfaces lie a little behind the lines on them.
-            bias: strokes::draw::fill::push_away(),
+            bias: push_away(),
         }),
         multisample: wgpu::MultisampleState { count: SAMPLES, ..Default::default() },
         multiview_mask: None,

@@ -26,7 +26,8 @@ pub(crate) struct Easel<'a> {
 
 impl<'a> Easel<'a> {
     pub(crate) fn new<'m>(gpu: &'a Gpu, meshes: impl IntoIterator<Item = &'m EdgeMesh>) -> Self {
-        let loaded = |mesh: &EdgeMesh| LoadedMesh::new("test".into(), mesh.clone(), Report::default());
+        let loaded =
+            |mesh: &EdgeMesh| LoadedMesh::new("test".into(), mesh.clone(), Report::default());
         let scene = Scene::of(meshes.into_iter().map(loaded).collect());
         Self { gpu, scene, renderers: Vec::new() }
     }

@@ -66,8 +66,9 @@ fn render(
             renderer.reload(input, &options).unwrap();
             renderer
         }
-        None => renderer
-            .insert(AnySizeRenderer::with_tiles(gpu(), input, &options, tile_px).unwrap()),
+        None => {
+            renderer.insert(AnySizeRenderer::with_tiles(gpu(), input, &options, tile_px).unwrap())
+        }
     };
     let mut reports = Vec::new();
     let picture = renderer.render(camera, &mut |done, total| {

@@ -121,7 +121,7 @@ fn brush_of(pass: &Pass, view: &Strokes, folders: &[PathBuf]) -> Result<Option<B
 
 #[cfg(test)]
 mod tests {
-    use strokes::style::link_style::{End, LinkStyle};
+    use strokes::{End, LinkStyle};
 
     use super::*;
     use crate::pass_graph::strokes_of;
