@@ -24,7 +24,7 @@ use strokes::render::renderer::Renderer;
 use strokes::render::scene_view::SceneView;
 use strokes::style::drawing_style::{DrawingStyle, Layer, StrokeStyle, Width};
 use strokes::style::link_style::{End, Join, LinkStyle};
-use viewer::technique::brush_file::shipped_brush;
+use viewer::technique::shipped_brush;
 
 use crate::gpu_device::gpu;
 use crate::random::Random;

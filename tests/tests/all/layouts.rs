@@ -33,8 +33,7 @@ use strokes::style::link_style::{End, Join, MITRE_LIMIT};
 use strokes::view::detect::DetectUniform;
 use strokes::view::frame::{FrameUniform, MAX_CLIP_PLANES, ObjectUniform};
 use strokes::view::live_lists::{DrawArguments, RunState, Tally};
-use viewer::pass_graph::material::MaterialUniform;
-use viewer::pass_graph::surface::SurfaceRange;
+use viewer::pass_graph::{MaterialUniform, SurfaceRange};
 
 use crate::shaders::shader_files;
 
