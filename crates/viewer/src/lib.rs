@@ -14,7 +14,7 @@
 //! | [`scene`] | models in their places, light and cuts |
 //! | [`pass_graph`] | a plan on the GPU: pipelines, textures, steps |
 //! | [`picture`] | a picture of any size, PNG files, turntables |
-//! | [`comparison`] | stroke textures, measured along camera paths |
+//! | `comparison` | stroke textures, measured along camera paths |
 //! | `arguments` | a picture as the words of a command line |
 //! | `window` | the window, a feature that is on by default |
 //! | [`command`] | the verbs of `viewer`; `main.rs` only calls it |
@@ -25,8 +25,8 @@
 
 mod arguments;
 pub mod command;
-pub mod comparison;
-pub mod error;
+mod comparison;
+mod error;
 pub mod pass_graph;
 pub mod picture;
 pub mod scene;
@@ -35,4 +35,4 @@ pub mod watch;
 #[cfg(feature = "window")]
 pub mod window;
 
-pub use error::Error;
+pub use error::{Error, ImageError, SceneFileError};

@@ -16,7 +16,7 @@ use strokes::{
     MeshOptions, Renderer, RendererOptions, Ribbon, SceneView, StrokeStyle, TargetFormats, Targets,
     Width, read_texels,
 };
-use viewer::technique::brush_file::shipped_brush;
+use viewer::technique::shipped_brush;
 
 use crate::gpu_device::gpu;
 use crate::random::Random;

@@ -27,8 +27,7 @@ use strokes::{
     Element, End, FrameUniform, GraphHeader, Join, LinkNode, MAX_CLIP_PLANES, PathPoint, Ribbon,
     Stroke, Tally,
 };
-use viewer::pass_graph::material::MaterialUniform;
-use viewer::pass_graph::surface::SurfaceRange;
+use viewer::pass_graph::{MaterialUniform, SurfaceRange};
 
 use crate::shaders::shader_files;
 

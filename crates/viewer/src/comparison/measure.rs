@@ -19,9 +19,9 @@ const POP: f32 = 0.25;
 
 /// Sums over frames, from which the measures are computed.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Sums {
+pub(crate) struct Sums {
     /// Length of all lines in pixels.
-    pub length_px: f64,
+    pub(crate) length_px: f64,
     breaks: f64,
     strokes: f64,
     stretch: f64,
@@ -41,7 +41,7 @@ fn phase_distance(a: f32, b: f32) -> f32 {
 
 impl Sums {
     /// Adds one frame. `texture_px` is the length of the brush in pixels.
-    pub fn add_frame(&mut self, lines: &FrameLines, layer: usize, texture_px: f32) {
+    pub(crate) fn add_frame(&mut self, lines: &FrameLines, layer: usize, texture_px: f32) {
         let mut is_joined = false;
         let mut of_layer = lines.stretches.iter().peekable();
         while let Some(stretch) = of_layer.next() {
@@ -69,7 +69,7 @@ impl Sums {
     }
 
     /// Adds the changes between two frames.
-    pub fn add_step(
+    pub(crate) fn add_step(
         &mut self,
         before: &FrameLines,
         lines: &FrameLines,
@@ -98,7 +98,7 @@ impl Sums {
     }
 
     /// Adds the sums of other frames.
-    pub fn add(&mut self, other: &Self) {
+    pub(crate) fn add(&mut self, other: &Self) {
         self.length_px += other.length_px;
         self.breaks += other.breaks;
         self.strokes += other.strokes;
@@ -113,37 +113,37 @@ impl Sums {
 
     /// Breaks per 1000 px of lines.
     #[must_use]
-    pub fn breaks(&self) -> f64 {
+    pub(crate) fn breaks(&self) -> f64 {
         share(1000.0 * self.breaks, self.length_px)
     }
 
     /// Pieces without a break, per 1000 px.
     #[must_use]
-    pub fn strokes(&self) -> f64 {
+    pub(crate) fn strokes(&self) -> f64 {
         share(1000.0 * self.strokes, self.length_px)
     }
 
     /// Mean stretch, in powers of two.
     #[must_use]
-    pub fn stretch(&self) -> f64 {
+    pub(crate) fn stretch(&self) -> f64 {
         share(self.stretch, self.length_px)
     }
 
     /// Pixels per frame by which the brush slides over the surface.
     #[must_use]
-    pub fn slide(&self) -> f64 {
+    pub(crate) fn slide(&self) -> f64 {
         share(self.slid_px, self.held_px)
     }
 
     /// Pixels that jump, of 1000 px that are in both frames.
     #[must_use]
-    pub fn pops(&self) -> f64 {
+    pub(crate) fn pops(&self) -> f64 {
         share(1000.0 * self.popped_px, self.tracked_px)
     }
 
     /// Pixels that are new, of 1000 px.
     #[must_use]
-    pub fn changed(&self) -> f64 {
+    pub(crate) fn changed(&self) -> f64 {
         share(1000.0 * self.changed_px, self.second_px)
     }
 }

@@ -11,9 +11,9 @@
 //!     samples of a frame and of the frame before --> sums (measure) --> CSV, page
 //! ```
 
-pub mod measure;
-pub mod page;
-pub mod samples;
+pub(crate) mod measure;
+pub(crate) mod page;
+pub(crate) mod samples;
 
 use std::f64::consts::TAU;
 
@@ -23,7 +23,7 @@ use glam::DQuat;
 
 /// How a brush is mapped along strokes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Way {
+pub(crate) enum Way {
     /// The paper's, along each edge from a random start.
     ObjectSpace,
     /// The paper's, by position on the screen.
@@ -34,11 +34,11 @@ pub enum Way {
 
 impl Way {
     /// All three.
-    pub const ALL: [Self; 3] = [Self::ObjectSpace, Self::ScreenSpace, Self::Chained];
+    pub(crate) const ALL: [Self; 3] = [Self::ObjectSpace, Self::ScreenSpace, Self::Chained];
 
     /// The name in tables.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::ObjectSpace => "object-space",
             Self::ScreenSpace => "screen-space",
@@ -48,7 +48,7 @@ impl Way {
 
     /// The settings that select it in a technique.
     #[must_use]
-    pub const fn settings(self) -> &'static [&'static str] {
+    pub(crate) const fn settings(self) -> &'static [&'static str] {
         match self {
             Self::ObjectSpace => &["strokes.parameterization=object"],
             Self::ScreenSpace => &["strokes.parameterization=screen"],
@@ -59,7 +59,7 @@ impl Way {
 
 /// How the camera moves from frame to frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum CameraPath {
+pub(crate) enum CameraPath {
     /// One degree around the model.
     Turntable,
     /// Sideways, by half a percent of the distance.
@@ -74,11 +74,12 @@ pub enum CameraPath {
 
 impl CameraPath {
     /// All paths.
-    pub const ALL: [Self; 5] = [Self::Turntable, Self::Pan, Self::Dolly, Self::Zoom, Self::Roll];
+    pub(crate) const ALL: [Self; 5] =
+        [Self::Turntable, Self::Pan, Self::Dolly, Self::Zoom, Self::Roll];
 
     /// The name in tables.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Turntable => "turntable",
             Self::Pan => "pan",
@@ -90,7 +91,7 @@ impl CameraPath {
 
     /// The camera of a frame; frame 0 is the default view.
     #[must_use]
-    pub fn camera(self, bounds: &Bounds, frame: u32) -> Camera {
+    pub(crate) fn camera(self, bounds: &Bounds, frame: u32) -> Camera {
         let start = Camera::default_view(bounds);
         let frame = f64::from(frame);
         let sight = start.target - start.eye;

@@ -10,37 +10,37 @@ use super::measure::Sums;
 
 /// One row of the results.
 #[derive(Debug, Clone)]
-pub struct Row {
+pub(crate) struct Row {
     /// Name of the model.
-    pub model: String,
+    pub(crate) model: String,
     /// Name of the camera path.
-    pub path: &'static str,
+    pub(crate) path: &'static str,
     /// Name of the line class.
-    pub class: &'static str,
+    pub(crate) class: &'static str,
     /// Name of the brush.
-    pub brush: String,
+    pub(crate) brush: String,
     /// How the brush is mapped.
-    pub way: Way,
+    pub(crate) way: Way,
     /// The measurements.
-    pub sums: Sums,
+    pub(crate) sums: Sums,
     /// Milliseconds per frame, for all classes together.
-    pub frame_ms: f64,
+    pub(crate) frame_ms: f64,
 }
 
 /// A picture of the page.
 #[derive(Debug, Clone)]
-pub struct Sheet {
+pub(crate) struct Sheet {
     /// The caption.
-    pub title: String,
+    pub(crate) title: String,
     /// The PNG.
-    pub png: Vec<u8>,
+    pub(crate) png: Vec<u8>,
 }
 
 /// A measure: its name, its unit, and its value.
-pub type Measure = (&'static str, &'static str, fn(&Row) -> f64);
+pub(crate) type Measure = (&'static str, &'static str, fn(&Row) -> f64);
 
 /// All measures.
-pub const MEASURES: [Measure; 7] = [
+pub(crate) const MEASURES: [Measure; 7] = [
     ("breaks", "per 1000 px", |row| row.sums.breaks()),
     ("strokes", "per 1000 px", |row| row.sums.strokes()),
     ("stretch", "powers of two", |row| row.sums.stretch()),
@@ -52,7 +52,7 @@ pub const MEASURES: [Measure; 7] = [
 
 /// The rows as comma-separated values.
 #[must_use]
-pub fn csv(rows: &[Row]) -> String {
+pub(crate) fn csv(rows: &[Row]) -> String {
     let mut text = String::from(
         "model,path,class,brush,parameterization,length_px,breaks_per_1000_px,strokes_per_1000_px,\
          stretch_log2,slide_px,pops_per_1000_px,changed_per_1000_px,frame_ms\n",
@@ -102,7 +102,7 @@ fn escaped(text: &str) -> String {
 
 /// The HTML page.
 #[must_use]
-pub fn html(adapter: &str, rows: &[Row], sheets: &[Sheet]) -> String {
+pub(crate) fn html(adapter: &str, rows: &[Row], sheets: &[Sheet]) -> String {
     let mut page = String::from(HEAD);
     let _ = write!(page, "<p>Drawn on {}. {INTRODUCTION}</p>", escaped(adapter));
     page.push_str("<h2>All results</h2>");

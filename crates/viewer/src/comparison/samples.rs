@@ -13,60 +13,60 @@ use strokes::{Element, GraphReadback, Ribbon};
 
 /// A stretch of a line between two places where u is known.
 #[derive(Debug, Clone, Copy)]
-pub struct Stretch {
+pub(crate) struct Stretch {
     /// Length in pixels.
-    pub length_px: f32,
+    pub(crate) length_px: f32,
     /// Repeats of the brush at the start and at the end.
-    pub u: [f32; 2],
+    pub(crate) u: [f32; 2],
     /// Index of the layer.
-    pub layer: usize,
+    pub(crate) layer: usize,
     /// Whether the next stretch begins at the end of this one.
-    pub is_followed: bool,
+    pub(crate) is_followed: bool,
 }
 
 /// An edge that can be found again in the next frame.
 #[derive(Debug, Clone, Copy)]
-pub struct Track {
+pub(crate) struct Track {
     /// Index of the edge record.
-    pub edge: u32,
+    pub(crate) edge: u32,
     /// Index of the layer.
-    pub layer: usize,
+    pub(crate) layer: usize,
     /// Length on the screen in pixels.
-    pub length_px: f32,
+    pub(crate) length_px: f32,
     /// Repeats of the brush at the middle.
-    pub u: f32,
+    pub(crate) u: f32,
 }
 
 /// The lines of a frame in one parameterization.
 #[derive(Debug, Clone, Default)]
-pub struct FrameLines {
+pub(crate) struct FrameLines {
     /// All stretches, in order.
-    pub stretches: Vec<Stretch>,
+    pub(crate) stretches: Vec<Stretch>,
     /// The edges, in the order of the records.
-    pub tracks: Vec<Track>,
+    pub(crate) tracks: Vec<Track>,
 }
 
 /// The frame to sample.
 #[derive(Debug, Clone, Copy)]
-pub struct FrameSource<'a> {
+pub(crate) struct FrameSource<'a> {
     /// The mesh.
-    pub mesh: &'a EdgeMesh,
+    pub(crate) mesh: &'a EdgeMesh,
     /// The view.
-    pub view: &'a View,
+    pub(crate) view: &'a View,
     /// Size of the picture in pixels.
-    pub viewport_px: Vec2,
+    pub(crate) viewport_px: Vec2,
     /// Width of the strokes in pixels.
-    pub width_px: f32,
+    pub(crate) width_px: f32,
     /// Length of the brush divided by its height.
-    pub brush_aspect: f32,
+    pub(crate) brush_aspect: f32,
     /// The linked strokes of the GPU.
-    pub graph: &'a GraphReadback,
+    pub(crate) graph: &'a GraphReadback,
 }
 
 impl FrameSource<'_> {
     /// The lines with u along linked strokes.
     #[must_use]
-    pub fn chained(&self) -> FrameLines {
+    pub(crate) fn chained(&self) -> FrameLines {
         let graph = self.graph;
         let mut lines = FrameLines::default();
         for (at, ribbon) in graph.ribbons.iter().enumerate().filter(|(_, r)| r.is_drawn()) {
@@ -100,7 +100,7 @@ impl FrameSource<'_> {
 
     /// The same lines, edge by edge, in one of the paper's parameterizations.
     #[must_use]
-    pub fn edge_by_edge(&self, parameterization: Parameterization) -> FrameLines {
+    pub(crate) fn edge_by_edge(&self, parameterization: Parameterization) -> FrameLines {
         let graph = self.graph;
         let mut is_covered = vec![false; graph.elements.len()];
         self.covered().for_each(|(_, element)| is_covered[element] = true);

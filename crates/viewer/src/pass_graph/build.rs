@@ -28,7 +28,7 @@ use crate::technique::plan::{PassPlan, Plan, TexturePlan};
 
 /// The difference between a graph and the one for another input.
 #[derive(Debug)]
-pub struct GraphChange {
+pub(crate) struct GraphChange {
     /// None to keep the framebuffer.
     framebuffer: Option<Targets>,
     textures: Vec<TextureChange>,
@@ -57,7 +57,7 @@ enum SurfacesChange {
 impl PassGraph {
     /// A graph without passes, whose picture is one transparent pixel.
     #[must_use]
-    pub fn empty(gpu: &Gpu) -> Self {
+    pub(crate) fn empty(gpu: &Gpu) -> Self {
         let device = &gpu.device;
         Self {
             framebuffer: Targets::new(device, [1; 2], TargetFormats::new(1)),
@@ -80,7 +80,7 @@ impl PassGraph {
     ///
     /// # Errors
     /// As [`Self::change`].
-    pub fn new(gpu: &Gpu, input: &GraphInput) -> Result<Self, Error> {
+    pub(crate) fn new(gpu: &Gpu, input: &GraphInput) -> Result<Self, Error> {
         let mut graph = Self::empty(gpu);
         let change = graph.change(gpu, input)?;
         graph.apply(change);
@@ -93,7 +93,7 @@ impl PassGraph {
     /// # Errors
     /// If a mesh or texture is too large for the adapter, an image cannot be read, or the
     /// programs of a pass do not fit together.
-    pub fn change(&mut self, gpu: &Gpu, input: &GraphInput) -> Result<GraphChange, Error> {
+    pub(crate) fn change(&mut self, gpu: &Gpu, input: &GraphInput) -> Result<GraphChange, Error> {
         let GraphInput { technique, plan, overrides, options, .. } = *input;
         let device = &gpu.device;
         let formats = match stroke_pass::needs_stencil(technique, overrides) {
@@ -131,7 +131,7 @@ impl PassGraph {
     }
 
     /// Applies a change that was built from this graph.
-    pub fn apply(&mut self, change: GraphChange) {
+    pub(crate) fn apply(&mut self, change: GraphChange) {
         let GraphChange { framebuffer, textures, instances, surfaces, steps } = change;
         if let Some(framebuffer) = framebuffer {
             self.framebuffer = framebuffer;

@@ -40,7 +40,7 @@ impl MaterialUniform {
     /// Many exporters write an ambient color of pure white by default, so it counts as
     /// missing.
     #[must_use]
-    pub fn of(material: &Material) -> Self {
+    pub(crate) fn of(material: &Material) -> Self {
         let default = Self::default();
         let [r, g, b, _] = match material.diffuse_texture {
             Some(_) => [1.0; 4],

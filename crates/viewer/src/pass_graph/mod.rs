@@ -23,7 +23,7 @@ mod blend;
 mod build;
 mod builder;
 mod copy_pass;
-pub mod material;
+pub(crate) mod material;
 mod params;
 mod ping_pong;
 mod pipeline;
@@ -33,7 +33,7 @@ mod scene_pass;
 mod screen_pass;
 mod stroke_pass;
 mod stroke_style;
-pub mod surface;
+pub(crate) mod surface;
 pub(crate) mod textures;
 
 use edgemesh::view::View;
@@ -43,14 +43,15 @@ use strokes::{
 };
 
 use self::bindings::Sources;
-pub use self::build::GraphChange;
 use self::copy_pass::CopyPass;
+pub use self::material::MaterialUniform;
 use self::ping_pong::PingPong;
 use self::pipeline_cache::PipelineCache;
 use self::scene_buffers::SceneBuffers;
 use self::scene_pass::ScenePass;
 use self::screen_pass::ScreenPass;
 use self::stroke_pass::{StrokeGroup, StrokeRenderers};
+pub use self::surface::SurfaceRange;
 use self::surface::Surfaces;
 use crate::error::Error;
 use crate::scene::models::Scene;
@@ -63,41 +64,41 @@ use crate::technique::value::Value;
 
 /// The scene and the technique of a graph.
 #[derive(Debug, Clone, Copy)]
-pub struct GraphInput<'a> {
+pub(crate) struct GraphInput<'a> {
     /// The objects.
-    pub scene: &'a Scene,
+    pub(crate) scene: &'a Scene,
     /// The technique of the scene.
-    pub technique: &'a Technique,
+    pub(crate) technique: &'a Technique,
     /// The plan of the technique.
-    pub plan: &'a Plan,
+    pub(crate) plan: &'a Plan,
     /// Techniques of objects, by `PlacedObject::override_index`: the values of their
     /// passes replace those of passes with the same name and component, and their passes
     /// of strokes replace all passes of strokes.
-    pub overrides: &'a [Technique],
+    pub(crate) overrides: &'a [Technique],
     /// Options that do not depend on the technique.
-    pub options: &'a GraphOptions,
+    pub(crate) options: &'a GraphOptions,
 }
 
 /// Options that do not depend on the technique.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct GraphOptions {
+pub(crate) struct GraphOptions {
     /// Width and height of the picture in pixels.
-    pub size: [u32; 2],
+    pub(crate) size: [u32; 2],
     /// Samples per pixel, 1 or 4.
-    pub samples: u32,
+    pub(crate) samples: u32,
     /// Memory layout of the edges.
-    pub layout: Layout,
+    pub(crate) layout: Layout,
     /// The detection stage.
-    pub stage: DetectionStage,
+    pub(crate) stage: DetectionStage,
     /// Whether the background is transparent.
-    pub is_transparent: bool,
+    pub(crate) is_transparent: bool,
     /// Whether there are clip planes; without them surfaces are drawn faster.
-    pub clips: bool,
+    pub(crate) clips: bool,
 }
 
 /// A technique and a scene on the GPU.
 #[derive(Debug)]
-pub struct PassGraph {
+pub(crate) struct PassGraph {
     framebuffer: Targets,
     /// The eye.
     view: ViewState,
@@ -149,23 +150,23 @@ struct ScheduleKey {
 
 /// The input of a frame.
 #[derive(Debug, Clone, Copy)]
-pub struct FrameInput<'a> {
+pub(crate) struct FrameInput<'a> {
     /// The view of the whole picture.
-    pub view: &'a View,
+    pub(crate) view: &'a View,
     /// Light and clip planes.
-    pub around: &'a Surroundings,
+    pub(crate) around: &'a Surroundings,
     /// The tile that is drawn; none for the whole picture.
-    pub tile: Option<TileInput<'a>>,
+    pub(crate) tile: Option<TileInput<'a>>,
 }
 
 /// A tile of a picture that is too large for a texture.
 #[derive(Debug, Clone, Copy)]
-pub struct TileInput<'a> {
+pub(crate) struct TileInput<'a> {
     /// The tile.
-    pub tile: Tile,
+    pub(crate) tile: Tile,
     /// The whole picture in a smaller size, whose depth decides where linked strokes are
     /// hidden.
-    pub overview: Option<&'a Targets>,
+    pub(crate) overview: Option<&'a Targets>,
 }
 
 /// State that steps share while a frame is encoded.
@@ -186,20 +187,20 @@ struct Encoding<'a> {
 impl PassGraph {
     /// The picture of the last submitted frame.
     #[must_use]
-    pub const fn picture(&self) -> &wgpu::Texture {
+    pub(crate) const fn picture(&self) -> &wgpu::Texture {
         self.framebuffer.picture()
     }
 
     /// The texture `<generated>:name`.
     #[must_use]
-    pub fn generated(&self, plan: &Plan, name: &str) -> Option<&wgpu::Texture> {
+    pub(crate) fn generated(&self, plan: &Plan, name: &str) -> Option<&wgpu::Texture> {
         let at = plan.textures.iter().position(|texture| texture.name == name)?;
         Some(self.sources.generated.get(at)?.read_texture())
     }
 
     /// The names of all timings, in order.
     #[must_use]
-    pub fn time_names(&self) -> Vec<String> {
+    pub(crate) fn time_names(&self) -> Vec<String> {
         let mut names = Vec::new();
         for step in &self.steps {
             match step.kind {
@@ -224,7 +225,7 @@ impl PassGraph {
     ///
     /// # Errors
     /// If the device is lost.
-    pub fn tally(&self, gpu: &Gpu) -> Result<Option<Tally>, strokes::ReadbackError> {
+    pub(crate) fn tally(&self, gpu: &Gpu) -> Result<Option<Tally>, strokes::ReadbackError> {
         let objects = self.counted_objects();
         if objects.is_empty() {
             return Ok(None);
@@ -241,13 +242,13 @@ impl PassGraph {
 
     /// The picture with its depth.
     #[must_use]
-    pub const fn framebuffer(&self) -> &Targets {
+    pub(crate) const fn framebuffer(&self) -> &Targets {
         &self.framebuffer
     }
 
     /// Clears the textures of `plan`, the plan of this graph, so that the next frame is
     /// drawn as the first one.
-    pub fn forget_frames(&mut self, device: &wgpu::Device, plan: &Plan) {
+    pub(crate) fn forget_frames(&mut self, device: &wgpu::Device, plan: &Plan) {
         for (texture, plan) in self.sources.generated.iter_mut().zip(&plan.textures) {
             texture.renew(device, plan, self.framebuffer.size);
         }
@@ -258,7 +259,7 @@ impl PassGraph {
 
     /// Changes the size of the picture. Only textures whose size depends on it are made
     /// again; `plan` is the plan of this graph.
-    pub fn resize(&mut self, device: &wgpu::Device, plan: &Plan, size: [u32; 2]) {
+    pub(crate) fn resize(&mut self, device: &wgpu::Device, plan: &Plan, size: [u32; 2]) {
         let formats = *self.framebuffer.formats();
         self.framebuffer = Targets::new(device, size, formats);
         let mut is_new = Vec::with_capacity(plan.textures.len());
@@ -281,7 +282,7 @@ impl PassGraph {
     ///
     /// # Errors
     /// If an image cannot be read.
-    pub fn encode(
+    pub(crate) fn encode(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,

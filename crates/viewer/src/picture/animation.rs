@@ -20,7 +20,7 @@ const GIF_SPEED: i32 = 10;
 
 /// File format of an animation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AnimationKind {
+pub(crate) enum AnimationKind {
     /// `.gif`
     Gif,
     /// `.apng`
@@ -30,7 +30,7 @@ pub enum AnimationKind {
 impl AnimationKind {
     /// The format by the ending of `path`; `None` for any other ending.
     #[must_use]
-    pub fn of(path: &Path) -> Option<Self> {
+    pub(crate) fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?;
         if ending.eq_ignore_ascii_case("gif") {
             Some(Self::Gif)
@@ -47,7 +47,7 @@ impl AnimationKind {
 ///
 /// # Errors
 /// The first error of `draw`, or [`Error::Encode`].
-pub fn encode_animation(
+pub(crate) fn encode_animation(
     kind: AnimationKind,
     count: u32,
     size: [u32; 2],

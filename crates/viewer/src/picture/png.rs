@@ -9,18 +9,18 @@ use crate::error::{Error, ImageError};
 
 /// Two pixels differ if a channel differs by more than this, of 255. Adapters round
 /// differently by less; a larger value would hide a gray stroke.
-pub const PIXEL_TOLERANCE: u8 = 16;
+pub(crate) const PIXEL_TOLERANCE: u8 = 16;
 
 /// The default share of pixels that may differ: 0.04 %, which other renderers found between
 /// drivers.
-pub const DEFAULT_REFERENCE_THRESHOLD: f64 = 0.0004;
+pub(crate) const DEFAULT_REFERENCE_THRESHOLD: f64 = 0.0004;
 
 /// Encodes a picture with premultiplied alpha as PNG: with straight alpha if
 /// `is_transparent`, else over white.
 ///
 /// # Errors
 /// [`Error::Encode`].
-pub fn encode_png(picture: &RgbaImage, is_transparent: bool) -> Result<Vec<u8>, Error> {
+pub(crate) fn encode_png(picture: &RgbaImage, is_transparent: bool) -> Result<Vec<u8>, Error> {
     encode_png_with_text(picture, is_transparent, None)
 }
 
@@ -28,7 +28,7 @@ pub fn encode_png(picture: &RgbaImage, is_transparent: bool) -> Result<Vec<u8>, 
 ///
 /// # Errors
 /// As [`encode_png`].
-pub fn encode_png_with_text(
+pub(crate) fn encode_png_with_text(
     picture: &RgbaImage,
     is_transparent: bool,
     text: Option<(&str, &str)>,
@@ -63,7 +63,7 @@ pub fn encode_png_with_text(
 
 /// The text under a keyword in a PNG; `None` if there is none.
 #[must_use]
-pub fn read_png_text(path: &Path, keyword: &str) -> Option<String> {
+pub(crate) fn read_png_text(path: &Path, keyword: &str) -> Option<String> {
     let file = std::io::BufReader::new(std::fs::File::open(path).ok()?);
     let reader = png::Decoder::new(file).read_info().ok()?;
     let chunk = reader.info().utf8_text.iter().find(|chunk| chunk.keyword == keyword)?;
@@ -72,7 +72,7 @@ pub fn read_png_text(path: &Path, keyword: &str) -> Option<String> {
 
 /// The colors as files store them: with straight alpha if `is_transparent`, else over white.
 #[must_use]
-pub fn as_stored(picture: &RgbaImage, is_transparent: bool) -> RgbaImage {
+pub(crate) fn as_stored(picture: &RgbaImage, is_transparent: bool) -> RgbaImage {
     let mut pixels = picture.clone();
     for pixel in pixels.pixels_mut() {
         *pixel = if is_transparent { straight(*pixel) } else { over_white(*pixel) };
@@ -111,7 +111,7 @@ pub fn read_png(path: &Path) -> Result<RgbaImage, Error> {
 #[derive(Debug)]
 pub struct Difference {
     /// Number of pixels that differ by more than [`PIXEL_TOLERANCE`].
-    pub wrong_pixels: usize,
+    pub(crate) wrong_pixels: usize,
     /// The share of these pixels, 0 to 1.
     pub share: f64,
     /// The absolute difference of each channel, opaque.

@@ -122,7 +122,7 @@ impl FrameStatistics {
     /// Adds the times of another tile of the same picture. The counts are those of the
     /// whole scene in both.
     #[must_use]
-    pub fn plus(mut self, other: Self) -> Self {
+    pub(crate) fn plus(mut self, other: Self) -> Self {
         for (sum, time) in self.passes.iter_mut().zip(other.passes) {
             sum.1 = sum.1.zip(time.1).map(|(one, other)| one + other);
         }
@@ -132,7 +132,7 @@ impl FrameStatistics {
 
 /// Statistics that are not read yet.
 #[derive(Debug)]
-pub struct PendingStatistics {
+pub(crate) struct PendingStatistics {
     tallies: Vec<PendingRead<Tally>>,
     ticks: Option<PendingRead<u64>>,
     started: Instant,
@@ -197,7 +197,7 @@ impl PictureRenderer {
     /// # Errors
     /// If the size is too large for the adapter, or memory runs out; the renderer then draws
     /// one transparent pixel until a [`Self::reload`].
-    pub fn resize(&mut self, size: [u32; 2]) -> Result<(), Error> {
+    pub(crate) fn resize(&mut self, size: [u32; 2]) -> Result<(), Error> {
         check_size(&self.gpu, size)?;
         let (gpu, plan, samples) = (&self.gpu, &self.plan, self.options.samples);
         gpu.make(|| self.graph.resize(&gpu.device, plan, size))
@@ -222,7 +222,7 @@ impl PictureRenderer {
 
     /// Sets light and clip planes. Returns false, and changes nothing, if the first plane
     /// comes or the last one goes, which needs a [`Self::reload`].
-    pub fn set_lighting(&mut self, lighting: &Lighting) -> bool {
+    pub(crate) fn set_lighting(&mut self, lighting: &Lighting) -> bool {
         let is_cut = |lighting: &Lighting| !lighting.clip_planes.is_empty();
         let can = is_cut(lighting) == is_cut(&self.options.lighting);
         if can {
@@ -247,7 +247,7 @@ impl PictureRenderer {
     ///
     /// # Errors
     /// As [`Self::render`].
-    pub fn render_tile(
+    pub(crate) fn render_tile(
         &mut self,
         view: &View,
         tile: Tile,
@@ -263,7 +263,7 @@ impl PictureRenderer {
     ///
     /// # Errors
     /// If an image cannot be read.
-    pub fn draw_overview(&mut self, view: &View) -> Result<(), Error> {
+    pub(crate) fn draw_overview(&mut self, view: &View) -> Result<(), Error> {
         self.draw_first(view, None)
     }
 
@@ -293,7 +293,7 @@ impl PictureRenderer {
     ///
     /// # Errors
     /// If the device is lost.
-    pub fn read_graph(&self, object: usize) -> Result<Option<GraphReadback>, Error> {
+    pub(crate) fn read_graph(&self, object: usize) -> Result<Option<GraphReadback>, Error> {
         let group = self.graph.stroke_groups().next();
         let Some(object) = group.and_then(|group| group.drawing.objects().get(object)) else {
             return Ok(None);
@@ -320,7 +320,7 @@ impl PictureRenderer {
 
     /// The texture of the last submitted picture.
     #[must_use]
-    pub const fn picture(&self) -> &wgpu::Texture {
+    pub(crate) const fn picture(&self) -> &wgpu::Texture {
         self.graph.picture()
     }
 
@@ -328,14 +328,14 @@ impl PictureRenderer {
     ///
     /// # Errors
     /// If an image cannot be read.
-    pub fn draw(&mut self, camera: &Camera) -> Result<(), Error> {
+    pub(crate) fn draw(&mut self, camera: &Camera) -> Result<(), Error> {
         let view = self.view(camera, self.options.size);
         self.submit(&view, None)
     }
 
     /// The view of a camera in a picture of a size in pixels.
     #[must_use]
-    pub fn view(&self, camera: &Camera, [width, height]: [u32; 2]) -> View {
+    pub(crate) fn view(&self, camera: &Camera, [width, height]: [u32; 2]) -> View {
         camera.view(&self.bounds, f64::from(width) / f64::from(height))
     }
 
@@ -356,7 +356,7 @@ impl PictureRenderer {
     ///
     /// # Errors
     /// If the device is lost.
-    pub fn begin_statistics(&self) -> Result<PendingStatistics, Error> {
+    pub(crate) fn begin_statistics(&self) -> Result<PendingStatistics, Error> {
         let objects = self.graph.counted_objects().iter();
         let tallies = objects.map(|object| object.begin_read_tallies(&self.gpu));
         let tallies = tallies.collect::<Result<Vec<_>, _>>()?;
@@ -370,7 +370,7 @@ impl PictureRenderer {
     ///
     /// # Errors
     /// If the device is lost.
-    pub fn statistics(
+    pub(crate) fn statistics(
         &self,
         pending: &PendingStatistics,
     ) -> Result<Option<FrameStatistics>, Error> {

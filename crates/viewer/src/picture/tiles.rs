@@ -67,7 +67,11 @@ impl AnySizeRenderer {
     ///
     /// # Errors
     /// As [`PictureRenderer::new`], but no size is too large.
-    pub fn new(gpu: &Gpu, input: PictureInput, options: &PictureOptions) -> Result<Self, Error> {
+    pub(crate) fn new(
+        gpu: &Gpu,
+        input: PictureInput,
+        options: &PictureOptions,
+    ) -> Result<Self, Error> {
         let limit = gpu.device.limits().max_texture_dimension_2d;
         let fits = options.size.iter().all(|&side| side <= limit)
             && Targets::byte_count(options.size, options.samples) <= MAX_BYTES;
@@ -75,8 +79,8 @@ impl AnySizeRenderer {
         Self::with_tiles(gpu, input, options, max_tile_px)
     }
 
-    /// As [`Self::new`], in tiles with sides of at most `max_tile_px` pixels, including
-    /// margins; at once if the picture is no larger.
+    /// As [`PictureRenderer::new`], for tiles with sides of at most `max_tile_px` pixels,
+    /// including margins; at once if the picture is no larger.
     ///
     /// # Errors
     /// As [`PictureRenderer::new`].
@@ -110,7 +114,11 @@ impl AnySizeRenderer {
     ///
     /// # Errors
     /// As [`PictureRenderer::reload`].
-    pub fn reload(&mut self, input: PictureInput, options: &PictureOptions) -> Result<(), Error> {
+    pub(crate) fn reload(
+        &mut self,
+        input: PictureInput,
+        options: &PictureOptions,
+    ) -> Result<(), Error> {
         let reload = |renderer: &mut PictureRenderer| {
             let options = PictureOptions { size: renderer.options().size, ..options.clone() };
             renderer.reload(input, &options)

@@ -15,7 +15,7 @@ use crate::picture::png::{as_stored, encode_png};
 
 /// The camera at `step` of `steps` around its target, turning left.
 #[must_use]
-pub fn camera_at(camera: &Camera, step: u32, steps: u32) -> Camera {
+pub(crate) fn camera_at(camera: &Camera, step: u32, steps: u32) -> Camera {
     let axis = camera.up.normalize_or_zero();
     let turn = DQuat::from_axis_angle(axis, TAU * f64::from(step) / f64::from(steps));
     Camera { eye: camera.target + turn * (camera.eye - camera.target), ..*camera }
@@ -26,7 +26,7 @@ pub fn camera_at(camera: &Camera, step: u32, steps: u32) -> Camera {
 ///
 /// # Errors
 /// The first error of `draw`, [`Error::Encode`] or [`Error::Write`].
-pub fn write(
+pub(crate) fn write(
     path: &Path,
     steps: u32,
     size: [u32; 2],

@@ -72,7 +72,7 @@ impl Lighting {
 ///
 /// # Errors
 /// The expected form.
-pub fn parse_light(text: &str) -> Result<Light, String> {
+pub(crate) fn parse_light(text: &str) -> Result<Light, String> {
     let (kind, numbers) = text.split_once(':').unwrap_or(("camera", text));
     let what = || {
         "needs three numbers as X,Y,Z (right, up, toward the viewer), world:X,Y,Z or point:X,Y,Z"
@@ -93,7 +93,7 @@ pub fn parse_light(text: &str) -> Result<Light, String> {
 ///
 /// # Errors
 /// The expected form.
-pub fn parse_clip_plane(text: &str) -> Result<[f64; 4], String> {
+pub(crate) fn parse_clip_plane(text: &str) -> Result<[f64; 4], String> {
     let what = || "needs four numbers as NX,NY,NZ,D".to_owned();
     let plane: [f64; 4] = numbers_of(text).ok_or_else(what)?;
     if plane[..3] == [0.0; 3] {

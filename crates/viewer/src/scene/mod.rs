@@ -1,11 +1,11 @@
 //! Scenes: models in their places, and the light.
 //!
-//! - [`scene_file`]: scene files.
-//! - [`models`]: models in memory, with their places.
-//! - [`object_techniques`]: the overrides of scene files.
-//! - [`lighting`]: light and clip planes.
+//! - `scene_file`: scene files.
+//! - `models`: models in memory, with their places.
+//! - `object_techniques`: the overrides of scene files.
+//! - `lighting`: light and clip planes.
 
 pub mod lighting;
 pub mod models;
-pub mod object_techniques;
+pub(crate) mod object_techniques;
 pub mod scene_file;

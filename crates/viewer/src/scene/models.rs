@@ -22,7 +22,7 @@ pub struct Scene {
     /// The mesh frame of all models.
     pub frame: MeshFrame,
     /// The crease angles of the meshes in radians, for ridges and valleys.
-    pub thresholds: [f64; 2],
+    pub(crate) thresholds: [f64; 2],
 }
 
 /// A model in its place.

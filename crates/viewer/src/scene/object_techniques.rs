@@ -11,7 +11,7 @@ use crate::technique::mistake::Mistakes;
 ///
 /// # Errors
 /// [`Error::Technique`], [`Error::ObjectSetting`].
-pub fn object_techniques(
+pub(crate) fn object_techniques(
     objects: &[SceneObject],
     library: &Library,
     default: &Technique,

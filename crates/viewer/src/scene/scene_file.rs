@@ -26,13 +26,13 @@ use crate::error::SceneFileError;
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneObject {
     /// The model's file.
-    pub model: PathBuf,
+    pub(crate) model: PathBuf,
     /// Transform from the model to the scene, in units of the files.
-    pub scene_from_model: DMat4,
+    pub(crate) scene_from_model: DMat4,
     /// Name or file of the technique; `None` for that of the command line.
-    pub technique: Option<String>,
+    pub(crate) technique: Option<String>,
     /// Settings of the technique.
-    pub settings: Vec<String>,
+    pub(crate) settings: Vec<String>,
 }
 
 impl SceneObject {
@@ -73,7 +73,7 @@ enum Scale {
 
 /// Whether a path names a scene file.
 #[must_use]
-pub fn is_scene_file(path: &Path) -> bool {
+pub(crate) fn is_scene_file(path: &Path) -> bool {
     path.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"))
 }
 
@@ -81,7 +81,7 @@ pub fn is_scene_file(path: &Path) -> bool {
 ///
 /// # Errors
 /// As [`read_scene_file`].
-pub fn objects_of(paths: &[PathBuf]) -> Result<Vec<SceneObject>, SceneFileError> {
+pub(crate) fn objects_of(paths: &[PathBuf]) -> Result<Vec<SceneObject>, SceneFileError> {
     let mut objects = Vec::new();
     for path in paths {
         if is_scene_file(path) {
@@ -95,7 +95,7 @@ pub fn objects_of(paths: &[PathBuf]) -> Result<Vec<SceneObject>, SceneFileError>
 
 /// # Errors
 /// [`SceneFileError`], if the file cannot be read, or for the first wrong line.
-pub fn read_scene_file(path: &Path) -> Result<Vec<SceneObject>, SceneFileError> {
+pub(crate) fn read_scene_file(path: &Path) -> Result<Vec<SceneObject>, SceneFileError> {
     let text = std::fs::read_to_string(path)
         .map_err(|reason| SceneFileError::Io { path: path.to_owned(), reason })?;
     parse(path, &text)

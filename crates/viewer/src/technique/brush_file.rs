@@ -7,6 +7,7 @@ use thiserror::Error;
 
 /// Why an image cannot be a brush.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum BrushFileError {
     /// It is not a PNG.
     #[error("{name}: not a readable PNG: {reason}")]
@@ -41,7 +42,7 @@ pub fn shipped_brush(name: &str) -> Option<Result<Brush, BrushFileError>> {
 ///
 /// # Errors
 /// If the image cannot be read, or a side is longer than [`Brush::MAX_SIDE`].
-pub fn brush_from_png(name: &str, png: &[u8]) -> Result<Brush, BrushFileError> {
+pub(crate) fn brush_from_png(name: &str, png: &[u8]) -> Result<Brush, BrushFileError> {
     let wrong = |reason| BrushFileError::Picture { name: name.to_owned(), reason };
     let mut reader = image::ImageReader::with_format(Cursor::new(png), image::ImageFormat::Png);
     // Enough for the largest brush with 16 bits per channel.

@@ -14,7 +14,7 @@ use super::value::{Value, VariableType, color_text};
 /// [`Technique::set`] changes a pass and all passes split from it. So splits come first, then
 /// values of the other passes, then values of the split ones.
 #[must_use]
-pub fn changes(before: &Technique, after: &Technique) -> Option<Vec<String>> {
+pub(crate) fn changes(before: &Technique, after: &Technique) -> Option<Vec<String>> {
     let mut settings = Vec::new();
     let mut reached = before.clone();
     let is_new = |pass: &&Pass| before.pass(&pass.name).is_none();
@@ -51,7 +51,7 @@ fn add(
 
 /// The text of a value for [`VariableType::parse`].
 #[must_use]
-pub fn argument(kind: VariableType, value: &Value) -> String {
+pub(crate) fn argument(kind: VariableType, value: &Value) -> String {
     match value {
         Value::Numbers(numbers) => match color_text(numbers).filter(|_| kind.is_color()) {
             Some(color) => color,

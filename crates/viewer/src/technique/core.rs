@@ -21,7 +21,7 @@ pub enum CoreComponent {
 
 impl CoreComponent {
     /// All core components.
-    pub const ALL: [Self; 7] = [
+    pub(crate) const ALL: [Self; 7] = [
         Self::SimpleRender,
         Self::Strokes,
         Self::ProcessTexture,
@@ -33,7 +33,7 @@ impl CoreComponent {
 
     /// The name that descriptors give as `core`.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::SimpleRender => "simple_render",
             Self::Strokes => "strokes",
@@ -47,7 +47,7 @@ impl CoreComponent {
 
     /// The core component of a name.
     #[must_use]
-    pub fn of_name(name: &str) -> Option<Self> {
+    pub(crate) fn of_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|core| core.name() == name)
     }
 }

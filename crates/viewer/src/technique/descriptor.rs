@@ -24,38 +24,38 @@ pub struct VariableDescriptor {
     /// Its type.
     pub kind: VariableType,
     /// What it does, in one line for users.
-    pub about: String,
+    pub(crate) about: String,
     /// Its value in passes that do not set it; without a default every pass must set it.
     pub default: Option<Value>,
     /// The smallest value, per component of a vector.
-    pub minimum: Option<Value>,
+    pub(crate) minimum: Option<Value>,
     /// The largest value, per component of a vector.
-    pub maximum: Option<Value>,
+    pub(crate) maximum: Option<Value>,
     /// The low end of sliders; the minimum if it is not set.
-    pub ui_minimum: Option<Value>,
+    pub(crate) ui_minimum: Option<Value>,
     /// The high end of sliders; the maximum if it is not set.
-    pub ui_maximum: Option<Value>,
+    pub(crate) ui_maximum: Option<Value>,
     /// Whether the window shows it without a way to change it.
-    pub read_only: bool,
+    pub(crate) read_only: bool,
     /// Whether the window hides it.
     pub internal: bool,
     /// Whether its value goes to the field of this name in the vertex program's `Params`.
-    pub vertex_parameter: bool,
+    pub(crate) vertex_parameter: bool,
     /// Whether its value goes to the field of this name in the fragment program's
     /// `Params`.
-    pub fragment_parameter: bool,
+    pub(crate) fragment_parameter: bool,
     /// The allowed values of a string; empty if all are allowed. A shader gets the index.
-    pub one_of: Vec<String>,
+    pub(crate) one_of: Vec<String>,
     /// The image directory that bare image names are searched in.
-    pub directory: Option<String>,
+    pub(crate) directory: Option<String>,
     /// The place of its description.
-    pub place: Place,
+    pub(crate) place: Place,
 }
 
 impl VariableDescriptor {
     /// A variable with a name and a type and no other properties.
     #[must_use]
-    pub fn new(name: &str, kind: VariableType, place: Place) -> Self {
+    pub(crate) fn new(name: &str, kind: VariableType, place: Place) -> Self {
         Self {
             name: name.to_owned(),
             kind,
@@ -77,14 +77,14 @@ impl VariableDescriptor {
 
     /// Whether its value goes to a shader.
     #[must_use]
-    pub const fn is_parameter(&self) -> bool {
+    pub(crate) const fn is_parameter(&self) -> bool {
         self.vertex_parameter || self.fragment_parameter
     }
 
     /// Adds the variable's directory to an image without one and returns all other values
     /// unchanged. Returns none for such an image if the variable has no directory.
     #[must_use]
-    pub fn in_directory(&self, value: Value) -> Option<Value> {
+    pub(crate) fn in_directory(&self, value: Value) -> Option<Value> {
         let Value::Texture(TextureName {
             source: TextureSource::Image { directory: None, image },
             is_filtered,
@@ -98,7 +98,7 @@ impl VariableDescriptor {
 
     /// The index of a word in [`Self::one_of`].
     #[must_use]
-    pub fn word_index(&self, word: &str) -> Option<usize> {
+    pub(crate) fn word_index(&self, word: &str) -> Option<usize> {
         self.one_of.iter().position(|known| known == word)
     }
 }
@@ -107,17 +107,17 @@ impl VariableDescriptor {
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComponentDescriptor {
     /// Its name.
-    pub name: String,
+    pub(crate) name: String,
     /// What it does, in one line for users.
-    pub about: String,
+    pub(crate) about: String,
     /// The core component that implements it.
     pub core: CoreComponent,
     /// The component that it modifies; none for core components.
-    pub inherits: Option<String>,
+    pub(crate) inherits: Option<String>,
     /// Its variables: inherited ones first.
     pub variables: Vec<VariableDescriptor>,
     /// The place of its description.
-    pub place: Place,
+    pub(crate) place: Place,
 }
 
 impl ComponentDescriptor {
@@ -128,17 +128,17 @@ impl ComponentDescriptor {
     }
 
     /// The names of all variables, in order.
-    pub fn variable_names(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn variable_names(&self) -> impl Iterator<Item = &str> {
         self.variables.iter().map(|variable| variable.name.as_str())
     }
 
     /// The variables whose values go to shaders, with their indices.
-    pub fn parameters(&self) -> impl Iterator<Item = (usize, &VariableDescriptor)> {
+    pub(crate) fn parameters(&self) -> impl Iterator<Item = (usize, &VariableDescriptor)> {
         self.variables.iter().enumerate().filter(|(_, variable)| variable.is_parameter())
     }
 
     /// The texture variables, with their indices.
-    pub fn textures(&self) -> impl Iterator<Item = (usize, &VariableDescriptor)> {
+    pub(crate) fn textures(&self) -> impl Iterator<Item = (usize, &VariableDescriptor)> {
         let all = self.variables.iter().enumerate();
         all.filter(|(_, variable)| variable.kind == VariableType::Texture)
     }
@@ -150,7 +150,7 @@ pub(super) const RENDER: &str = "render";
 /// The variables of every pass, whatever its component: `render`, which switches it on,
 /// and `run`, a [`RunMode`].
 #[must_use]
-pub fn automatic_variables(place: &Place) -> Vec<VariableDescriptor> {
+pub(crate) fn automatic_variables(place: &Place) -> Vec<VariableDescriptor> {
     let mut render = VariableDescriptor::new(RENDER, VariableType::Bool, place.clone());
     render.about = "draw this pass".into();
     render.default = Some(Value::Bool(true));
@@ -163,4 +163,4 @@ pub fn automatic_variables(place: &Place) -> Vec<VariableDescriptor> {
 }
 
 /// A descriptor that passes share.
-pub type SharedDescriptor = Arc<ComponentDescriptor>;
+pub(crate) type SharedDescriptor = Arc<ComponentDescriptor>;

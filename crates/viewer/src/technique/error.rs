@@ -31,7 +31,7 @@ pub enum TechniqueError {
 #[error("{assignment}: {what}")]
 pub struct SettingError {
     /// The setting.
-    pub assignment: String,
+    pub(crate) assignment: String,
     /// The mistake, with the names that exist.
-    pub what: String,
+    pub(crate) what: String,
 }

@@ -10,7 +10,7 @@ use super::texture_name::{TextureName, TextureSource};
 
 /// An image that was found.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub enum ImageFile {
+pub(crate) enum ImageFile {
     /// A built-in image, by its index in [`IMAGES`].
     Shipped(usize),
     /// A file, by its path.
@@ -22,7 +22,7 @@ impl ImageFile {
     ///
     /// # Errors
     /// If the file cannot be read.
-    pub fn bytes(&self) -> std::io::Result<std::borrow::Cow<'static, [u8]>> {
+    pub(crate) fn bytes(&self) -> std::io::Result<std::borrow::Cow<'static, [u8]>> {
         match self {
             Self::Shipped(at) => Ok(IMAGES[*at].png.into()),
             Self::File(path) => std::fs::read(path).map(Into::into),
@@ -31,7 +31,7 @@ impl ImageFile {
 
     /// Time of the last change; `None` for built-in images.
     #[must_use]
-    pub fn changed(&self) -> Option<SystemTime> {
+    pub(crate) fn changed(&self) -> Option<SystemTime> {
         match self {
             Self::Shipped(_) => None,
             Self::File(path) => path.metadata().and_then(|data| data.modified()).ok(),
@@ -40,7 +40,7 @@ impl ImageFile {
 
     /// The name of its directory.
     #[must_use]
-    pub fn directory(&self) -> Option<&str> {
+    pub(crate) fn directory(&self) -> Option<&str> {
         match self {
             Self::Shipped(at) => Some(IMAGES[*at].directory),
             Self::File(path) => path.parent()?.file_name()?.to_str(),
@@ -49,7 +49,7 @@ impl ImageFile {
 
     /// Its name for messages: `directory:image` or a path.
     #[must_use]
-    pub fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         match self {
             Self::Shipped(at) => format!("{}:{}", IMAGES[*at].directory, IMAGES[*at].name),
             Self::File(path) => path.display().to_string(),
@@ -109,7 +109,7 @@ pub(crate) fn find(
 /// The images of a directory with their names: those of the first folder first, built-in
 /// ones last.
 #[must_use]
-pub fn images_of(directory: &str, folders: &[PathBuf]) -> Vec<(String, ImageFile)> {
+pub(crate) fn images_of(directory: &str, folders: &[PathBuf]) -> Vec<(String, ImageFile)> {
     let mut images = Vec::new();
     for folder in folders {
         for path in [folder.join(directory), folder.join("images").join(directory)] {

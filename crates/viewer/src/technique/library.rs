@@ -44,7 +44,7 @@ impl Library {
     /// The built-in files and those in `folder`. Mistakes in the user's component files are
     /// in [`Self::mistakes`]; all other components can be used.
     #[must_use]
-    pub fn load(folder: Option<&Path>) -> Self {
+    pub(crate) fn load(folder: Option<&Path>) -> Self {
         let mut mistakes = Mistakes::default();
         let shipped = COMPONENTS.iter().map(|(name, text)| {
             SourceText::new(format!("techniques/components/{name}.toml"), *text)
@@ -76,7 +76,7 @@ impl Library {
     /// The user's folder by default: `edgemesh` in `$XDG_CONFIG_HOME` or `~/.config`; `None`
     /// if it does not exist.
     #[must_use]
-    pub fn default_folder() -> Option<PathBuf> {
+    pub(crate) fn default_folder() -> Option<PathBuf> {
         let config = std::env::var_os("XDG_CONFIG_HOME").filter(|path| !path.is_empty());
         let home = || Some(PathBuf::from(std::env::var_os("HOME")?).join(".config"));
         let folder = config.map(PathBuf::from).or_else(home)?.join("edgemesh");
@@ -85,14 +85,8 @@ impl Library {
 
     /// The mistakes in component files.
     #[must_use]
-    pub const fn mistakes(&self) -> &Mistakes {
+    pub(crate) const fn mistakes(&self) -> &Mistakes {
         &self.mistakes
-    }
-
-    /// The user's folder.
-    #[must_use]
-    pub fn folder(&self) -> Option<&Path> {
-        self.folder.as_deref()
     }
 
     /// All components by name.

@@ -14,7 +14,7 @@ use naga::{
 
 /// Loop iterations of an invocation, all loops together: far more than effects need, and
 /// few enough that the slowest adapter draws a picture that uses all of them in seconds.
-pub const MAX_ITERATIONS: u32 = 1 << 14;
+pub(crate) const MAX_ITERATIONS: u32 = 1 << 14;
 
 /// Adds the limit to all loops of a valid module.
 pub(crate) fn bound_loops(module: &mut Module) {

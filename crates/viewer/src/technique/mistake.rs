@@ -14,17 +14,17 @@ use codespan_reporting::term;
 
 /// A text with a name for messages.
 #[derive(Debug, PartialEq, Eq)]
-pub struct SourceText {
+pub(crate) struct SourceText {
     /// The path of the file, or of a built-in one in the repository.
-    pub name: String,
+    pub(crate) name: String,
     /// The whole text.
-    pub text: String,
+    pub(crate) text: String,
 }
 
 impl SourceText {
     /// A text with a name.
     #[must_use]
-    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Arc<Self> {
+    pub(crate) fn new(name: impl Into<String>, text: impl Into<String>) -> Arc<Self> {
         Arc::new(Self { name: name.into(), text: text.into() })
     }
 
@@ -45,7 +45,7 @@ impl SourceText {
     /// The byte range of `length` bytes from a line and a column in bytes, both counted
     /// from 1; cut off at the end of the text.
     #[must_use]
-    pub fn span(&self, line: usize, column: usize, length: usize) -> Range<usize> {
+    pub(crate) fn span(&self, line: usize, column: usize, length: usize) -> Range<usize> {
         let line_start = match line {
             0 | 1 => 0,
             _ => self.text.match_indices('\n').nth(line - 2).map_or(self.text.len(), |at| at.0 + 1),
@@ -57,26 +57,16 @@ impl SourceText {
 
 /// A range of a text.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Place {
+pub(crate) struct Place {
     /// The text.
-    pub source: Arc<SourceText>,
+    pub(crate) source: Arc<SourceText>,
     /// The byte range.
-    pub span: Range<usize>,
-}
-
-impl Place {
-    /// The line, and the column in characters, both counted from 1.
-    #[must_use]
-    pub fn line_and_column(&self) -> (usize, usize) {
-        let before = self.source.text.get(..self.span.start).unwrap_or(&self.source.text);
-        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-        (1 + before.matches('\n').count(), 1 + before[line_start..].chars().count())
-    }
+    pub(crate) span: Range<usize>,
 }
 
 /// Whether a technique with a mistake can be drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Severity {
+pub(crate) enum Severity {
     /// It cannot.
     Error,
     /// It can, with a value other than the given one.
@@ -85,33 +75,33 @@ pub enum Severity {
 
 /// A mistake in a text file or in an assignment.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Mistake {
+pub(crate) struct Mistake {
     /// An error or a warning.
-    pub severity: Severity,
+    pub(crate) severity: Severity,
     /// The mistake in one line.
-    pub message: String,
+    pub(crate) message: String,
     /// Places with a text for each, which can be empty; the first is that of the mistake.
-    pub labels: Vec<(Place, String)>,
+    pub(crate) labels: Vec<(Place, String)>,
     /// Hints, one line each.
-    pub notes: Vec<String>,
+    pub(crate) notes: Vec<String>,
 }
 
 impl Mistake {
     /// An error at a place.
     #[must_use]
-    pub fn error(place: &Place, message: impl Into<String>) -> Self {
+    pub(crate) fn error(place: &Place, message: impl Into<String>) -> Self {
         Self::new(Severity::Error, Some(place), message)
     }
 
     /// An error outside of any text.
     #[must_use]
-    pub fn without_place(message: impl Into<String>) -> Self {
+    pub(crate) fn without_place(message: impl Into<String>) -> Self {
         Self::new(Severity::Error, None, message)
     }
 
     /// A warning.
     #[must_use]
-    pub fn warning(place: Option<&Place>, message: impl Into<String>) -> Self {
+    pub(crate) fn warning(place: Option<&Place>, message: impl Into<String>) -> Self {
         Self::new(Severity::Warning, place, message)
     }
 
@@ -133,7 +123,7 @@ impl Mistake {
 
     /// Sets the text at the place of the mistake.
     #[must_use]
-    pub fn label(mut self, text: impl Into<String>) -> Self {
+    pub(crate) fn label(mut self, text: impl Into<String>) -> Self {
         if let Some(first) = self.labels.first_mut() {
             first.1 = text.into();
         }
@@ -142,14 +132,14 @@ impl Mistake {
 
     /// Adds another place with a text.
     #[must_use]
-    pub fn also(mut self, place: &Place, text: impl Into<String>) -> Self {
+    pub(crate) fn also(mut self, place: &Place, text: impl Into<String>) -> Self {
         self.labels.push((place.clone(), text.into()));
         self
     }
 
     /// Adds a hint.
     #[must_use]
-    pub fn note(mut self, note: impl Into<String>) -> Self {
+    pub(crate) fn note(mut self, note: impl Into<String>) -> Self {
         self.notes.push(note.into());
         self
     }
@@ -157,7 +147,7 @@ impl Mistake {
     /// Adds a hint with the names that are possible, and suggests the one that is nearest
     /// to `given`, if any is near.
     #[must_use]
-    pub fn names<'a>(self, given: &str, names: impl IntoIterator<Item = &'a str>) -> Self {
+    pub(crate) fn names<'a>(self, given: &str, names: impl IntoIterator<Item = &'a str>) -> Self {
         let names: Vec<&str> = names.into_iter().collect();
         let list = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
         let suggesting = match closest(given, &names) {
@@ -172,25 +162,25 @@ impl Mistake {
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Mistakes {
     /// The mistakes.
-    pub list: Vec<Mistake>,
+    pub(crate) list: Vec<Mistake>,
 }
 
 impl Mistakes {
     /// One mistake.
     #[must_use]
-    pub fn of(mistake: Mistake) -> Self {
+    pub(crate) fn of(mistake: Mistake) -> Self {
         Self { list: vec![mistake] }
     }
 
     /// Adds a mistake, unless the same one is there.
-    pub fn add(&mut self, mistake: Mistake) {
+    pub(crate) fn add(&mut self, mistake: Mistake) {
         if !self.list.contains(&mistake) {
             self.list.push(mistake);
         }
     }
 
     /// Adds the mistakes of another check.
-    pub fn append(&mut self, others: Self) {
+    pub(crate) fn append(&mut self, others: Self) {
         for mistake in others.list {
             self.add(mistake);
         }
@@ -198,12 +188,12 @@ impl Mistakes {
 
     /// Whether any of them is an error.
     #[must_use]
-    pub fn has_errors(&self) -> bool {
+    pub(crate) fn has_errors(&self) -> bool {
         self.list.iter().any(|mistake| mistake.severity == Severity::Error)
     }
 
     /// Removes and returns the warnings.
-    pub fn take_warnings(&mut self) -> Self {
+    pub(crate) fn take_warnings(&mut self) -> Self {
         let (warnings, errors) = std::mem::take(&mut self.list)
             .into_iter()
             .partition(|mistake| mistake.severity == Severity::Warning);
@@ -214,7 +204,7 @@ impl Mistakes {
     /// The text of all mistakes, without the word `error:` before the first one and without
     /// the last line break.
     #[must_use]
-    pub fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         let text = self.to_string();
         text.strip_prefix("error: ").unwrap_or(&text).trim_end().to_owned()
     }
@@ -223,7 +213,7 @@ impl Mistakes {
     ///
     /// # Errors
     /// All mistakes, if any of them is an error.
-    pub fn or<T>(self, value: T) -> Result<(T, Self), Self> {
+    pub(crate) fn or<T>(self, value: T) -> Result<(T, Self), Self> {
         if self.has_errors() { Err(self) } else { Ok((value, self)) }
     }
 }
@@ -278,7 +268,7 @@ fn report(mistake: &Mistake) -> String {
 /// The name with the smallest edit distance to `given`: at most a third of its letters, and
 /// none for names of one or two letters.
 #[must_use]
-pub fn closest<'a>(given: &str, names: &[&'a str]) -> Option<&'a str> {
+pub(crate) fn closest<'a>(given: &str, names: &[&'a str]) -> Option<&'a str> {
     let largest = match given.chars().count() {
         0..3 => 0,
         length => (length / 3).max(1),
@@ -329,7 +319,6 @@ mod tests {
     fn a_mistake_is_underlined_in_its_line() {
         let source = SourceText::new("a.toml", "[[pass]]\ncomponent = \"phong\"\n");
         let place = Place { source: source.clone(), span: 21..28 };
-        assert_eq!(place.line_and_column(), (2, 13));
         let mistake = Mistake::error(&place, "unknown component 'phong'")
             .names("phong", ["render_phong", "phon"]);
         let text = Mistakes::of(mistake).to_string();

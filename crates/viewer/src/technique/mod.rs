@@ -10,47 +10,52 @@
 //!                                              crate::pass_graph: pipelines, textures, pictures
 //! ```
 //!
-//! - [`value`], [`texture_name`]: types and values of variables.
-//! - [`descriptor`], [`core`]: components and their variables.
-//! - [`core_view`]: the variables of a pass, typed, for the Rust code of its component.
-//! - [`library`]: built-in files, and those in the user's folder.
-//! - [`error`]: why a technique cannot be drawn.
-//! - [`mistake`]: errors in a file, underlined in its text.
-//! - [`program`]: shader programs, with their parameters by reflection.
-//! - [`loop_bound`]: a limit for loops of user shaders.
-//! - [`plan`]: a checked technique.
-//! - [`changes`], [`mod@write`]: a changed technique as settings and as a file.
+//! - `value`, `texture_name`: types and values of variables.
+//! - `descriptor`, `core`: components and their variables.
+//! - `core_view`: the variables of a pass, typed, for the Rust code of its component.
+//! - `library`: built-in files, and those in the user's folder.
+//! - `error`: why a technique cannot be drawn.
+//! - `mistake`: errors in a file, underlined in its text.
+//! - `program`: shader programs, with their parameters by reflection.
+//! - `loop_bound`: a limit for loops of user shaders.
+//! - `plan`: a checked technique.
+//! - `changes`, `write`: a changed technique as settings and as a file.
 
-pub mod brush_file;
-pub mod changes;
+pub(crate) mod brush_file;
+pub(crate) mod changes;
 pub(crate) mod class_pass;
 mod component_file;
 pub mod core;
-pub mod core_view;
-pub mod descriptor;
-pub mod error;
-pub mod image_file;
+pub(crate) mod core_view;
+pub(crate) mod descriptor;
+pub(crate) mod error;
+pub(crate) mod image_file;
 pub mod library;
-pub mod loop_bound;
-pub mod mistake;
+pub(crate) mod loop_bound;
+pub(crate) mod mistake;
 pub mod pass;
 pub mod plan;
 mod plan_params;
-pub mod print;
+pub(crate) mod print;
 pub mod program;
 mod technique_file;
 pub mod texture_format;
-pub mod texture_name;
+pub(crate) mod texture_name;
 mod toml_file;
 pub mod value;
-pub mod word;
-pub mod write;
+pub(crate) mod word;
+pub(crate) mod write;
 
 use std::path::PathBuf;
 
-use self::error::SettingError;
-use self::mistake::{Mistake, Mistakes};
+pub use self::brush_file::{BrushFileError, shipped_brush};
+pub use self::descriptor::{ComponentDescriptor, VariableDescriptor};
+pub use self::error::{SettingError, TechniqueError};
+use self::mistake::Mistake;
+pub use self::mistake::Mistakes;
 use self::pass::Pass;
+pub use self::texture_name::TextureName;
+pub use self::write::WriteTechniqueError;
 
 /// A technique: a list of passes.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,7 +63,7 @@ pub struct Technique {
     /// Its name: that of its file, without the ending.
     pub name: String,
     /// What it shows, in one line for users.
-    pub about: String,
+    pub(crate) about: String,
     /// Its passes, in the order of drawing.
     pub passes: Vec<Pass>,
     /// The folders that are searched for its shaders and images, before the built-in ones.
@@ -119,7 +124,7 @@ impl Technique {
     ///
     /// # Errors
     /// If there is no such pass.
-    pub fn set_brush_file(&mut self, path: &str) -> Result<(), SettingError> {
+    pub(crate) fn set_brush_file(&mut self, path: &str) -> Result<(), SettingError> {
         let wrong = |what| SettingError { assignment: format!("strokes.brush={path}"), what };
         let source = texture_name::TextureSource::File(path.to_owned());
         let name = texture_name::TextureName { source, is_filtered: None };

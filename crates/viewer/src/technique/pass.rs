@@ -18,9 +18,9 @@ pub struct Pass {
     /// Where each value was set; none for defaults and command lines.
     places: Vec<Option<Place>>,
     /// The place of the pass in its file.
-    pub place: Place,
+    pub(crate) place: Place,
     /// The pass that this one was split from for a line class, if any.
-    pub split_from: Option<String>,
+    pub(crate) split_from: Option<String>,
 }
 
 /// Compares what passes do; the places of values do not count.
@@ -84,7 +84,7 @@ impl Pass {
 
     /// Sets the variable at `index`, clamped to its limits. A value that the variable
     /// cannot have is a mistake and changes nothing.
-    pub fn set_value(
+    pub(crate) fn set_value(
         &mut self,
         index: usize,
         value: Value,
@@ -113,7 +113,7 @@ impl Pass {
 
     /// Whether the pass is drawn at all: its variable `render`.
     #[must_use]
-    pub fn is_rendered(&self) -> bool {
+    pub(crate) fn is_rendered(&self) -> bool {
         let found = self.component.variable(RENDER);
         found.is_some_and(|(index, _)| self.values[index] == Value::Bool(true))
     }

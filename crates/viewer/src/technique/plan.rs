@@ -28,33 +28,33 @@ use super::{Technique, image_file, plan_params};
 #[derive(Debug, Clone, Default)]
 pub struct Plan {
     /// One plan per pass of the technique.
-    pub passes: Vec<PassPlan>,
+    pub(crate) passes: Vec<PassPlan>,
     /// The textures between passes.
-    pub textures: Vec<TexturePlan>,
+    pub(crate) textures: Vec<TexturePlan>,
     /// Warnings about values that are replaced.
-    pub warnings: Mistakes,
+    pub(crate) warnings: Mistakes,
 }
 
 /// The requirements of a pass.
 #[derive(Debug, Clone)]
-pub struct PassPlan {
+pub(crate) struct PassPlan {
     /// The variables of its core component.
-    pub core: CoreView,
+    pub(crate) core: CoreView,
     /// The frames in which it runs.
-    pub run: RunMode,
+    pub(crate) run: RunMode,
     /// The target.
-    pub target: Target,
+    pub(crate) target: Target,
     /// Its programs.
-    pub programs: PassPrograms,
+    pub(crate) programs: PassPrograms,
     /// The textures that it reads.
-    pub reads: Vec<TextureRead>,
+    pub(crate) reads: Vec<TextureRead>,
     /// Whether it reads a texture that it writes.
-    pub is_in_place: bool,
+    pub(crate) is_in_place: bool,
 }
 
 /// The target of a pass.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Target {
+pub(crate) enum Target {
     /// The picture.
     Framebuffer,
     /// Textures, by their indices in the plan.
@@ -68,18 +68,18 @@ pub enum Target {
 
 /// A texture that a pass reads.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TextureRead {
+pub(crate) struct TextureRead {
     /// The variable with the texture.
-    pub variable: String,
+    pub(crate) variable: String,
     /// The texture.
-    pub source: ReadSource,
+    pub(crate) source: ReadSource,
     /// Whether it is filtered between texels.
-    pub is_filtered: bool,
+    pub(crate) is_filtered: bool,
 }
 
 /// The kinds of textures that a pass reads.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum ReadSource {
+pub(crate) enum ReadSource {
     /// No texture: one white texel.
     None,
     /// A texture of the plan, by its index.
@@ -90,15 +90,15 @@ pub enum ReadSource {
 
 /// A texture between passes.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TexturePlan {
+pub(crate) struct TexturePlan {
     /// Its name, without the directory `<generated>`.
-    pub name: String,
+    pub(crate) name: String,
     /// Its size.
-    pub size: TextureSize,
+    pub(crate) size: TextureSize,
     /// Its format.
-    pub format: TextureFormat,
+    pub(crate) format: TextureFormat,
     /// The variable of the first pass that writes it.
-    pub place: Place,
+    pub(crate) place: Place,
 }
 
 impl Plan {
@@ -149,7 +149,7 @@ impl Plan {
 impl Target {
     /// The indices of the textures that are written.
     #[must_use]
-    pub fn textures(&self) -> Vec<usize> {
+    pub(crate) fn textures(&self) -> Vec<usize> {
         match self {
             Self::Framebuffer => Vec::new(),
             Self::Textures { colors, depth } => colors.iter().copied().chain(*depth).collect(),

@@ -9,7 +9,7 @@ use super::plan::{PassPlan, Plan, ReadSource, Target};
 
 /// The passes and textures of a technique, for `viewer techniques print`.
 #[must_use]
-pub fn technique_text(technique: &Technique, plan: &Plan) -> String {
+pub(crate) fn technique_text(technique: &Technique, plan: &Plan) -> String {
     let mut text = format!("{}: {}\n", technique.name, technique.about);
     for (at, (pass, pass_plan)) in technique.passes.iter().zip(&plan.passes).enumerate() {
         text += "\n";

@@ -28,7 +28,7 @@ use super::mistake::{Mistake, Mistakes, Place, SourceText};
 
 /// The stage of a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum ProgramKind {
+pub(crate) enum ProgramKind {
     /// Places vertices.
     Vertex,
     /// Colors fragments.
@@ -53,93 +53,93 @@ impl ProgramKind {
 
 /// A valid program.
 #[derive(Debug, Clone)]
-pub struct Program {
+pub(crate) struct Program {
     /// Its name, `file:function`.
-    pub name: String,
+    pub(crate) name: String,
     /// Its function, the entry point.
-    pub function: String,
+    pub(crate) function: String,
     /// The text of its module with all imports.
-    pub source: Arc<ShaderSource>,
+    pub(crate) source: Arc<ShaderSource>,
     /// Its parameters and outputs.
-    pub interface: Interface,
+    pub(crate) interface: Interface,
     /// Whether it has the override `CLIPS`, which is 0 without clip planes.
-    pub asks_for_clips: bool,
+    pub(crate) asks_for_clips: bool,
     /// Whether its loops are limited: true for all but built-in programs.
-    pub is_bounded: bool,
+    pub(crate) is_bounded: bool,
 }
 
 /// The programs of a pass, as far as its component has them.
 #[derive(Debug, Clone, Default)]
-pub struct PassPrograms {
+pub(crate) struct PassPrograms {
     /// Places vertices.
-    pub vertex: Option<Program>,
+    pub(crate) vertex: Option<Program>,
     /// Colors fragments.
-    pub fragment: Option<Program>,
+    pub(crate) fragment: Option<Program>,
     /// Colors the background.
-    pub background: Option<Program>,
+    pub(crate) background: Option<Program>,
 }
 
 impl PassPrograms {
     /// All programs.
-    pub fn iter(&self) -> impl Iterator<Item = &Program> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Program> {
         [&self.vertex, &self.fragment, &self.background].into_iter().flatten()
     }
 
     /// The outputs of the fragment program.
     #[must_use]
-    pub fn outputs(&self) -> &[Output] {
+    pub(crate) fn outputs(&self) -> &[Output] {
         self.fragment.as_ref().map_or(&[], |program| &program.interface.outputs)
     }
 }
 
 /// The parameters and outputs of a program.
 #[derive(Debug, Clone, Default)]
-pub struct Interface {
+pub(crate) struct Interface {
     /// The uniform of its parameters.
-    pub params: Option<Params>,
+    pub(crate) params: Option<Params>,
     /// The textures that it reads.
-    pub textures: Vec<TextureSlot>,
+    pub(crate) textures: Vec<TextureSlot>,
     /// The samplers of its textures.
-    pub samplers: Vec<SamplerSlot>,
+    pub(crate) samplers: Vec<SamplerSlot>,
     /// What a fragment program returns, by location.
-    pub outputs: Vec<Output>,
+    pub(crate) outputs: Vec<Output>,
 }
 
 /// A uniform of parameters.
 #[derive(Debug, Clone)]
-pub struct Params {
+pub(crate) struct Params {
     /// Its `@group`.
-    pub group: u32,
+    pub(crate) group: u32,
     /// Its `@binding`.
-    pub binding: u32,
+    pub(crate) binding: u32,
     /// Its size in bytes.
-    pub size: u32,
+    pub(crate) size: u32,
     /// Its fields.
-    pub fields: Vec<Field>,
+    pub(crate) fields: Vec<Field>,
     /// Where the variable is declared.
-    pub place: Place,
+    pub(crate) place: Place,
 }
 
 /// A field of a uniform.
 #[derive(Debug, Clone)]
-pub struct Field {
+pub(crate) struct Field {
     /// Its name, that of a variable.
-    pub name: String,
+    pub(crate) name: String,
     /// Its offset in bytes.
-    pub offset: u32,
+    pub(crate) offset: u32,
     /// The count of its numbers, 1 to 4.
-    pub count: usize,
+    pub(crate) count: usize,
     /// The type of its numbers.
-    pub kind: FieldKind,
+    pub(crate) kind: FieldKind,
     /// Its type in WGSL.
-    pub type_name: String,
+    pub(crate) type_name: String,
     /// Where it is declared.
-    pub place: Place,
+    pub(crate) place: Place,
 }
 
 /// The type of numbers in a field, an output or a texture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FieldKind {
+pub(crate) enum FieldKind {
     /// `f32`
     Float,
     /// `i32`
@@ -150,20 +150,20 @@ pub enum FieldKind {
 
 /// A texture that a program reads.
 #[derive(Debug, Clone)]
-pub struct TextureSlot {
+pub(crate) struct TextureSlot {
     /// The name of its variable.
-    pub name: String,
+    pub(crate) name: String,
     /// Its `@group`.
-    pub group: u32,
+    pub(crate) group: u32,
     /// Its `@binding`.
-    pub binding: u32,
+    pub(crate) binding: u32,
     /// Its type.
-    pub kind: TextureKind,
+    pub(crate) kind: TextureKind,
 }
 
 /// The type of a texture in a shader.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TextureKind {
+pub(crate) enum TextureKind {
     /// `texture_2d<f32>`
     Float,
     /// `texture_2d<u32>`
@@ -174,24 +174,24 @@ pub enum TextureKind {
 
 /// The sampler of a texture.
 #[derive(Debug, Clone)]
-pub struct SamplerSlot {
+pub(crate) struct SamplerSlot {
     /// The name of the texture's variable.
-    pub texture: String,
+    pub(crate) texture: String,
     /// Its `@group`.
-    pub group: u32,
+    pub(crate) group: u32,
     /// Its `@binding`.
-    pub binding: u32,
+    pub(crate) binding: u32,
 }
 
 /// A value that a fragment program returns.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Output {
+pub(crate) struct Output {
     /// Its `@location`.
-    pub location: u32,
+    pub(crate) location: u32,
     /// The name of its field; `color` for a value that is not in a struct.
-    pub name: String,
+    pub(crate) name: String,
     /// The type of its numbers.
-    pub kind: FieldKind,
+    pub(crate) kind: FieldKind,
 }
 
 /// The shader files of programs.
@@ -250,7 +250,7 @@ impl ShaderFiles {
     ///
     /// # Errors
     /// Mistakes in the name or in the shader.
-    pub fn program(
+    pub(crate) fn program(
         &self,
         name: &str,
         kind: ProgramKind,

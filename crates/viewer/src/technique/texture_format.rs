@@ -33,7 +33,7 @@ pub enum TextureFormat {
 /// The most bytes that the color outputs of a pass may take together for a pixel:
 /// `maxColorAttachmentBytesPerSample`, which every adapter supports (WebGPU, 3.6.2
 /// Limits). A test in `pass_graph/textures.rs` compares it with wgpu's default.
-pub const MAX_OUTPUT_BYTES_PER_PIXEL: u32 = 32;
+pub(crate) const MAX_OUTPUT_BYTES_PER_PIXEL: u32 = 32;
 
 /// A texture between passes.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -46,7 +46,7 @@ pub struct PassTexture {
 
 impl TextureFormat {
     /// The formats that the variable `render_target_format` can name.
-    pub const OUTPUTS: [Self; 10] = [
+    pub(crate) const OUTPUTS: [Self; 10] = [
         Self::R8,
         Self::Rg8,
         Self::Rgba8,
@@ -60,14 +60,14 @@ impl TextureFormat {
     ];
 
     /// The format of copies of the picture.
-    pub const PICTURE: Self = Self::Rgba8;
+    pub(crate) const PICTURE: Self = Self::Rgba8;
 
     /// The format of depth textures.
-    pub const DEPTH: Self = Self::Depth32Float;
+    pub(crate) const DEPTH: Self = Self::Depth32Float;
 
     /// The word that files and messages use.
     #[must_use]
-    pub const fn word(self) -> &'static str {
+    pub(crate) const fn word(self) -> &'static str {
         match self {
             Self::R8 => "r8",
             Self::Rg8 => "rg8",
@@ -85,13 +85,13 @@ impl TextureFormat {
 
     /// The output format of a word.
     #[must_use]
-    pub fn of_word(word: &str) -> Option<Self> {
+    pub(crate) fn of_word(word: &str) -> Option<Self> {
         Self::OUTPUTS.into_iter().find(|format| format.word() == word)
     }
 
     /// The type of the numbers that a fragment program must return for it.
     #[must_use]
-    pub const fn number_kind(self) -> FieldKind {
+    pub(crate) const fn number_kind(self) -> FieldKind {
         match self {
             Self::R32Uint => FieldKind::Uint,
             _ => FieldKind::Float,
@@ -100,7 +100,7 @@ impl TextureFormat {
 
     /// Numbers per texel, 1 to 4.
     #[must_use]
-    pub const fn channel_count(self) -> u32 {
+    pub(crate) const fn channel_count(self) -> u32 {
         match self {
             Self::R8 | Self::R16Float | Self::R32Float | Self::R32Uint | Self::Depth32Float => 1,
             Self::Rg8 | Self::Rg16Float | Self::Rg32Float => 2,
@@ -110,7 +110,7 @@ impl TextureFormat {
 
     /// Bytes per texel in memory.
     #[must_use]
-    pub const fn bytes_per_texel(self) -> u32 {
+    pub(crate) const fn bytes_per_texel(self) -> u32 {
         let bytes_per_channel = match self {
             Self::R8 | Self::Rg8 | Self::Rgba8 => 1,
             Self::R16Float | Self::Rg16Float | Self::Rgba16Float => 2,
@@ -123,7 +123,7 @@ impl TextureFormat {
     /// Bytes per pixel that count toward [`MAX_OUTPUT_BYTES_PER_PIXEL`] ("render target
     /// pixel byte cost", WebGPU, 26.1.1): those in memory, but 8 for `rgba8`.
     #[must_use]
-    pub const fn output_bytes_per_pixel(self) -> u32 {
+    pub(crate) const fn output_bytes_per_pixel(self) -> u32 {
         match self {
             Self::Rgba8 => 8,
             _ => self.bytes_per_texel(),
@@ -132,7 +132,7 @@ impl TextureFormat {
 
     /// Whether every adapter can sample the format between texels.
     #[must_use]
-    pub const fn is_filterable(self) -> bool {
+    pub(crate) const fn is_filterable(self) -> bool {
         match self {
             Self::R8 | Self::Rg8 | Self::Rgba8 => true,
             Self::R16Float | Self::Rg16Float | Self::Rgba16Float => true,
@@ -143,27 +143,27 @@ impl TextureFormat {
 
     /// Whether every adapter can blend in the format.
     #[must_use]
-    pub const fn is_blendable(self) -> bool {
+    pub(crate) const fn is_blendable(self) -> bool {
         self.is_filterable()
     }
 }
 
 /// The size of a generated texture, absolute or relative to the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TextureSize {
+pub(crate) struct TextureSize {
     /// Width and height: pixels, or 0 for the picture's, or -n for an n-th of it.
-    pub sides: [i32; 2],
+    pub(crate) sides: [i32; 2],
     /// Factor of both.
-    pub scale: f32,
+    pub(crate) scale: f32,
 }
 
 impl TextureSize {
     /// The size of the picture.
-    pub const PICTURE: Self = Self { sides: [0; 2], scale: 1.0 };
+    pub(crate) const PICTURE: Self = Self { sides: [0; 2], scale: 1.0 };
 
     /// Width and height in pixels for a picture of `picture` pixels, each at least 1.
     #[must_use]
-    pub fn pixels(&self, picture: [u32; 2]) -> [u32; 2] {
+    pub(crate) fn pixels(&self, picture: [u32; 2]) -> [u32; 2] {
         std::array::from_fn(|axis| {
             let side = match self.sides[axis] {
                 0 => picture[axis],

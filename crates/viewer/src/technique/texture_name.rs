@@ -12,20 +12,20 @@
 use std::fmt;
 
 /// The directory of textures that passes draw.
-pub const GENERATED: &str = "<generated>";
+pub(crate) const GENERATED: &str = "<generated>";
 
 /// The name of a texture.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct TextureName {
     /// The texture without its filter.
-    pub source: TextureSource,
+    pub(crate) source: TextureSource,
     /// Whether it is filtered between texels; none for the default of its kind.
-    pub is_filtered: Option<bool>,
+    pub(crate) is_filtered: Option<bool>,
 }
 
 /// The kinds of textures.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub enum TextureSource {
+pub(crate) enum TextureSource {
     /// No texture.
     None,
     /// A texture that a pass draws, by its name without `<generated>`.
@@ -43,11 +43,11 @@ pub enum TextureSource {
 
 impl TextureName {
     /// No texture.
-    pub const NONE: Self = Self { source: TextureSource::None, is_filtered: None };
+    pub(crate) const NONE: Self = Self { source: TextureSource::None, is_filtered: None };
 
     /// A texture that a pass draws.
     #[must_use]
-    pub fn generated(name: impl Into<String>) -> Self {
+    pub(crate) fn generated(name: impl Into<String>) -> Self {
         Self { source: TextureSource::Generated(name.into()), is_filtered: None }
     }
 
@@ -55,7 +55,7 @@ impl TextureName {
     ///
     /// # Errors
     /// The expected form, if the text does not have it.
-    pub fn parse(text: &str) -> Result<Self, String> {
+    pub(crate) fn parse(text: &str) -> Result<Self, String> {
         let expected = || {
             "expected directory:image or directory:image:filter, where filter is 0 or 1".to_owned()
         };
@@ -90,19 +90,10 @@ impl TextureName {
         Ok(Self { source, is_filtered })
     }
 
-    /// The name of a generated texture; none for others.
-    #[must_use]
-    pub fn as_generated(&self) -> Option<&str> {
-        match &self.source {
-            TextureSource::Generated(name) => Some(name),
-            _ => None,
-        }
-    }
-
     /// Whether it is filtered between texels: by default images and files are, generated
     /// textures are not.
     #[must_use]
-    pub const fn filters(&self) -> bool {
+    pub(crate) const fn filters(&self) -> bool {
         match self.is_filtered {
             Some(is_filtered) => is_filtered,
             None => matches!(self.source, TextureSource::Image { .. } | TextureSource::File(_)),

@@ -39,7 +39,7 @@ pub enum Value {
     Bool(bool),
     /// Of [`VariableType::Int`].
     Int(i32),
-    /// Of numbers, vectors and colors: [`VariableType::number_count`] numbers.
+    /// Of numbers, vectors and colors: 1 to 4 numbers.
     Numbers(Vec<f32>),
     /// Of [`VariableType::String`].
     String(String),
@@ -49,7 +49,7 @@ pub enum Value {
 
 impl VariableType {
     /// All types.
-    pub const ALL: [Self; 10] = [
+    pub(crate) const ALL: [Self; 10] = [
         Self::Bool,
         Self::Int,
         Self::Number,
@@ -64,7 +64,7 @@ impl VariableType {
 
     /// The name of the type in files.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Bool => "bool",
             Self::Int => "int",
@@ -81,7 +81,7 @@ impl VariableType {
 
     /// The count of its floating-point numbers, 1 to 4; 0 for types of other values.
     #[must_use]
-    pub const fn number_count(self) -> usize {
+    pub(crate) const fn number_count(self) -> usize {
         match self {
             Self::Number => 1,
             Self::Vector2 => 2,
@@ -93,19 +93,19 @@ impl VariableType {
 
     /// Whether it is a color.
     #[must_use]
-    pub const fn is_color(self) -> bool {
+    pub(crate) const fn is_color(self) -> bool {
         matches!(self, Self::Rgb | Self::Rgba)
     }
 
     /// Whether it can have a minimum and a maximum: all but bool, string and texture.
     #[must_use]
-    pub const fn has_extremes(self) -> bool {
+    pub(crate) const fn has_extremes(self) -> bool {
         matches!(self, Self::Int) || self.number_count() > 0
     }
 
     /// A value in a file, for messages.
     #[must_use]
-    pub const fn expected(self) -> &'static str {
+    pub(crate) const fn expected(self) -> &'static str {
         match self {
             Self::Bool => "true or false",
             Self::Int => "an integer",
@@ -124,7 +124,7 @@ impl VariableType {
     /// a vector; the alpha of a color can be omitted. Returns none for any other count and
     /// for numbers that are not finite.
     #[must_use]
-    pub fn of_numbers(self, numbers: &[f64]) -> Option<Value> {
+    pub(crate) fn of_numbers(self, numbers: &[f64]) -> Option<Value> {
         let count = self.number_count();
         #[expect(clippy::cast_possible_truncation, reason = "variables have 32 bits")]
         let mut given: Vec<f32> = numbers.iter().map(|&number| number as f32).collect();
@@ -142,7 +142,7 @@ impl VariableType {
     ///
     /// # Errors
     /// The expected form, if the text does not have it.
-    pub fn parse(self, text: &str) -> Result<Value, String> {
+    pub(crate) fn parse(self, text: &str) -> Result<Value, String> {
         let text = text.trim();
         let wrong = || format!("expected {}", self.expected_text());
         Ok(match self {
@@ -184,7 +184,7 @@ impl VariableType {
 
 /// Reads `#rrggbb`, or `#rrggbbaa` for [`VariableType::Rgba`], as numbers from 0 to 1.
 #[must_use]
-pub fn parse_color(text: &str, of: VariableType) -> Option<Vec<f32>> {
+pub(crate) fn parse_color(text: &str, of: VariableType) -> Option<Vec<f32>> {
     let digits = text.strip_prefix('#')?;
     let fits = match of {
         VariableType::Rgb => digits.len() == 6,
@@ -204,7 +204,7 @@ pub fn parse_color(text: &str, of: VariableType) -> Option<Vec<f32>> {
 /// A color as `#rrggbb` or `#rrggbbaa`; none if [`parse_color`] would not read exactly the
 /// same numbers again.
 #[must_use]
-pub fn color_text(numbers: &[f32]) -> Option<String> {
+pub(crate) fn color_text(numbers: &[f32]) -> Option<String> {
     let of = match numbers.len() {
         3 => VariableType::Rgb,
         4 => VariableType::Rgba,
@@ -222,7 +222,7 @@ pub fn color_text(numbers: &[f32]) -> Option<String> {
 impl Value {
     /// The value between two limits of its type, per component.
     #[must_use]
-    pub fn clamped(&self, minimum: Option<&Self>, maximum: Option<&Self>) -> Self {
+    pub(crate) fn clamped(&self, minimum: Option<&Self>, maximum: Option<&Self>) -> Self {
         match self {
             Self::Int(value) => {
                 let mut value = *value;

@@ -1,7 +1,7 @@
 //! Words of string variables as values of Rust types.
 
 /// A type whose values are the words of a variable with `one_of`.
-pub trait Word: Copy + PartialEq + 'static {
+pub(crate) trait Word: Copy + PartialEq + 'static {
     /// Each word with its value, in the order of the descriptor.
     const WORDS: &'static [(&'static str, Self)];
 

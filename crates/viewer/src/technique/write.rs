@@ -28,7 +28,7 @@ pub enum WriteTechniqueError {
 ///
 /// # Errors
 /// If the text of the original file does not parse.
-pub fn file_text(technique: &Technique, about: &str) -> Result<String, WriteTechniqueError> {
+pub(crate) fn file_text(technique: &Technique, about: &str) -> Result<String, WriteTechniqueError> {
     let source = technique.passes.first().map_or("", |pass| &pass.place.source.text);
     let mut document: DocumentMut = source.parse()?;
     let tables = document.get("pass").and_then(Item::as_array_of_tables).cloned();

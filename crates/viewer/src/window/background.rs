@@ -9,22 +9,22 @@ use std::time::Instant;
 use crate::error::Error;
 
 /// Reports the stage that begins; returns false if the work is canceled.
-pub type Tell<'a> = &'a (dyn Fn(&str) -> bool + Sync);
+pub(crate) type Tell<'a> = &'a (dyn Fn(&str) -> bool + Sync);
 
 /// Work on another thread. Dropping it cancels it: it ends at its next stage.
 #[derive(Debug)]
-pub struct Background<T> {
+pub(crate) struct Background<T> {
     result: Receiver<Result<T, Error>>,
     stage: Arc<Mutex<String>>,
     is_canceled: Arc<AtomicBool>,
     /// When the work started.
-    pub started: Instant,
+    pub(crate) started: Instant,
 }
 
 impl<T: Send + 'static> Background<T> {
     /// Starts `body` on a thread. `wake` is called whenever the stage changes and at the end.
     #[must_use]
-    pub fn start(
+    pub(crate) fn start(
         wake: impl Fn() + Send + Sync + 'static,
         body: impl FnOnce(Tell) -> Result<T, Error> + Send + 'static,
     ) -> Self {
@@ -53,18 +53,18 @@ impl<T: Send + 'static> Background<T> {
 
     /// The current stage.
     #[must_use]
-    pub fn stage(&self) -> String {
+    pub(crate) fn stage(&self) -> String {
         self.stage.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// The result, once the work is done; `None` before, and after it was taken.
     #[must_use]
-    pub fn take(&self) -> Option<Result<T, Error>> {
+    pub(crate) fn take(&self) -> Option<Result<T, Error>> {
         self.result.try_recv().ok()
     }
 
     /// Ends the work at its next stage.
-    pub fn cancel(&self) {
+    pub(crate) fn cancel(&self) {
         self.is_canceled.store(true, Ordering::Relaxed);
     }
 

@@ -23,7 +23,7 @@ pub const LIGHT_KEY: Key = Key::L;
 pub const CUT_KEY: Key = Key::X;
 
 /// The text for a drag with a key held.
-pub fn drag_with(key: Key) -> String {
+pub(crate) fn drag_with(key: Key) -> String {
     format!("{} + drag", key.name())
 }
 
@@ -127,7 +127,7 @@ impl Command {
 
 impl Hands {
     /// Starts a flight to a viewpoint at `time`, the window's time in seconds.
-    pub fn go_to(&mut self, session: &Session, to: Viewpoint, time: f64) {
+    pub(crate) fn go_to(&mut self, session: &Session, to: Viewpoint, time: f64) {
         let from = session.recipe.viewpoint;
         self.flight = from.map(|from| Flight { from, to, since: time });
     }
@@ -179,7 +179,7 @@ impl Hands {
     }
 
     /// Handles held keys and flights; returns whether there is more to come.
-    pub fn go_on(&mut self, ui: &Ui, rect: Rect, session: &mut Session) -> bool {
+    pub(crate) fn go_on(&mut self, ui: &Ui, rect: Rect, session: &mut Session) -> bool {
         let Some(view) = session.recipe.viewpoint else { return false };
         let (time, seconds) = ui.input(|input| (input.time, f64::from(input.stable_dt.min(0.1))));
         let mut is_moving = false;
@@ -274,7 +274,7 @@ fn command_of(event: &egui::Event) -> Option<Command> {
 }
 
 /// Runs a command. `size` is that of the picture in pixels.
-pub fn run(command: Command, session: &mut Session, size: [u32; 2]) {
+pub(crate) fn run(command: Command, session: &mut Session, size: [u32; 2]) {
     let view = session.recipe.viewpoint;
     match command {
         Command::Side(side) => session.go_to_side(side),

@@ -16,9 +16,9 @@ pub struct Inspection {
     /// The texture.
     pub texture: PassTexture,
     /// The value shown as black.
-    pub low: f32,
+    pub(crate) low: f32,
     /// The value shown as white.
-    pub high: f32,
+    pub(crate) high: f32,
 }
 
 impl Inspection {
@@ -30,7 +30,7 @@ impl Inspection {
 
     /// Whether its values have a range that can be chosen.
     #[must_use]
-    pub fn has_range(&self) -> bool {
+    pub(crate) fn has_range(&self) -> bool {
         let format = self.texture.format;
         format != TextureFormat::DEPTH && format.number_kind() == FieldKind::Float
     }

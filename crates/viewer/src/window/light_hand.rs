@@ -10,7 +10,7 @@ use crate::scene::models::Scene;
 
 /// The direction to the light in camera space (right, up, toward the viewer), of length 1.
 #[must_use]
-pub fn in_camera(light: &Light, view: &Viewpoint, scene: &Scene) -> DVec3 {
+pub(crate) fn in_camera(light: &Light, view: &Viewpoint, scene: &Scene) -> DVec3 {
     let [right, up, back] = view.axes();
     let of_world = |v: DVec3| DVec3::new(v.dot(right), v.dot(up), v.dot(back));
     let direction = match light {
@@ -23,7 +23,7 @@ pub fn in_camera(light: &Light, view: &Viewpoint, scene: &Scene) -> DVec3 {
 
 /// A direction of camera space in world space.
 #[must_use]
-pub fn in_world(in_camera: DVec3, view: &Viewpoint) -> DVec3 {
+pub(crate) fn in_world(in_camera: DVec3, view: &Viewpoint) -> DVec3 {
     let [right, up, back] = view.axes();
     right * in_camera.x + up * in_camera.y + back * in_camera.z
 }
@@ -31,7 +31,12 @@ pub fn in_world(in_camera: DVec3, view: &Viewpoint) -> DVec3 {
 /// The light with another direction in camera space. A point light keeps its distance from
 /// the center of the scene.
 #[must_use]
-pub fn shone_from(light: &Light, direction: DVec3, view: &Viewpoint, scene: &Scene) -> Light {
+pub(crate) fn shone_from(
+    light: &Light,
+    direction: DVec3,
+    view: &Viewpoint,
+    scene: &Scene,
+) -> Light {
     match light {
         Light::Camera(_) => Light::Camera(rounded(direction)),
         Light::World(_) => Light::World(rounded(in_world(direction, view))),
@@ -44,14 +49,14 @@ pub fn shone_from(light: &Light, direction: DVec3, view: &Viewpoint, scene: &Sce
 
 /// A point two scene radii from the center of the scene, in a direction of camera space.
 #[must_use]
-pub fn point_at(in_camera: DVec3, view: &Viewpoint, scene: &Scene) -> DVec3 {
+pub(crate) fn point_at(in_camera: DVec3, view: &Viewpoint, scene: &Scene) -> DVec3 {
     rounded(middle(scene) + in_world(in_camera, view) * (2.0 * radius(scene)))
 }
 
 /// The light after a drag by `pixels`: it turns around the scene, half a turn over the height
 /// of the canvas, and can come behind the scene.
 #[must_use]
-pub fn light_dragged(
+pub(crate) fn light_dragged(
     light: &Light,
     view: &Viewpoint,
     scene: &Scene,
@@ -68,7 +73,7 @@ pub fn light_dragged(
 /// A plane (n, d) after a drag by `pixels`: it moves along its normal, as far as the pointer
 /// moves along the projected normal. If the normal points at the viewer, up moves it away.
 #[must_use]
-pub fn cut_dragged(
+pub(crate) fn cut_dragged(
     plane: [f64; 4],
     view: &Viewpoint,
     scene: &Scene,
@@ -99,7 +104,7 @@ pub fn cut_dragged(
 
 /// A vector with about four significant digits, for short command lines.
 #[must_use]
-pub fn rounded(vector: DVec3) -> DVec3 {
+pub(crate) fn rounded(vector: DVec3) -> DVec3 {
     let step = step_of(vector.abs().max_element());
     DVec3::from(vector.to_array().map(|number| in_steps(number, step)))
 }

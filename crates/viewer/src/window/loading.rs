@@ -37,49 +37,49 @@ pub(super) struct Loading {
 
 /// The input of [`load`].
 #[derive(Debug, Clone)]
-pub struct Request {
+pub(crate) struct Request {
     /// Models and scene files.
-    pub models: Vec<PathBuf>,
+    pub(crate) models: Vec<PathBuf>,
     /// How the models are read.
-    pub load: LoadOptions,
+    pub(crate) load: LoadOptions,
     /// The device to upload to; `None` to only read the models.
-    pub gpu: Option<Gpu>,
+    pub(crate) gpu: Option<Gpu>,
     /// Techniques and components.
-    pub library: Library,
+    pub(crate) library: Library,
     /// What the renderer is built for.
-    pub build_key: BuildKey,
+    pub(crate) build_key: BuildKey,
     /// Options of the first picture.
-    pub options: PictureOptions,
+    pub(crate) options: PictureOptions,
 }
 
 /// What a renderer is built for. All else can change without building again.
 #[derive(Debug, Clone, PartialEq)]
-pub struct BuildKey {
+pub(crate) struct BuildKey {
     /// The technique.
-    pub technique: Technique,
+    pub(crate) technique: Technique,
     /// Whether the background is transparent.
-    pub is_transparent: bool,
+    pub(crate) is_transparent: bool,
 }
 
 /// Models that were loaded.
 #[derive(Debug)]
-pub struct LoadedScene {
+pub(crate) struct LoadedScene {
     /// The files of the request.
-    pub models: Vec<PathBuf>,
+    pub(crate) models: Vec<PathBuf>,
     /// The models in memory.
-    pub scene: Arc<Scene>,
+    pub(crate) scene: Arc<Scene>,
     /// The objects of scene files.
-    pub objects: Vec<SceneObject>,
+    pub(crate) objects: Vec<SceneObject>,
     /// The renderer with what it was built for; `None` without a device, or if the technique
     /// has mistakes.
-    pub renderer: Option<(PictureRenderer, BuildKey)>,
+    pub(crate) renderer: Option<(PictureRenderer, BuildKey)>,
 }
 
 /// Reads the models of a request and uploads them.
 ///
 /// # Errors
 /// For the first model that cannot be loaded or is too large, or if `tell` cancels.
-pub fn load(request: Request, tell: Tell) -> Result<LoadedScene, Error> {
+pub(crate) fn load(request: Request, tell: Tell) -> Result<LoadedScene, Error> {
     let go_on = |what: &str| match tell(what) {
         true => ControlFlow::Continue(()),
         false => ControlFlow::Break(()),

@@ -22,9 +22,9 @@ use crate::scene::models::Scene;
 
 /// The state of marking.
 #[derive(Debug, Default)]
-pub struct Marking {
+pub(crate) struct Marking {
     /// Whether clicks mark edges.
-    pub is_on: bool,
+    pub(crate) is_on: bool,
     /// The start of the next path: a model and one of its vertices.
     from: Option<(usize, u32)>,
     /// Unsaved changes, in order.
@@ -41,22 +41,22 @@ struct MarkChange {
 
 /// An edge under the pointer.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PickedEdge {
+pub(crate) struct PickedEdge {
     /// Index of the object.
-    pub object: usize,
+    pub(crate) object: usize,
     /// Index of the object's model.
-    pub model: usize,
+    pub(crate) model: usize,
     /// The two mesh vertices.
-    pub edge: [u32; 2],
+    pub(crate) edge: [u32; 2],
     /// The vertex nearer to the pointer.
-    pub vertex: u32,
+    pub(crate) vertex: u32,
     /// The ends in the picture, in points.
-    pub ends: [DVec2; 2],
+    pub(crate) ends: [DVec2; 2],
 }
 
 /// The edge nearest to a position, among those of the triangle under it.
 #[must_use]
-pub fn edge_under(
+pub(crate) fn edge_under(
     scene: &Scene,
     view: &Viewpoint,
     canvas: &Canvas,
@@ -101,19 +101,19 @@ fn distance_to_segment(at: DVec2, [a, b]: [DVec2; 2]) -> f64 {
 
 impl Marking {
     /// Forgets all changes, for other models.
-    pub fn forget(&mut self) {
+    pub(crate) fn forget(&mut self) {
         self.from = None;
         self.changes.clear();
     }
 
     /// Whether there are unsaved changes.
     #[must_use]
-    pub const fn has_changes(&self) -> bool {
+    pub(crate) const fn has_changes(&self) -> bool {
         !self.changes.is_empty()
     }
 
     /// Marks an edge, or removes its mark.
-    pub fn toggle(&mut self, scene: &mut Arc<Scene>, picked: &PickedEdge) {
+    pub(crate) fn toggle(&mut self, scene: &mut Arc<Scene>, picked: &PickedEdge) {
         let mesh = &scene.models[picked.model].mesh;
         let is_marked = !is_marked(mesh, picked.edge);
         self.from = Some((picked.model, picked.vertex));
@@ -122,7 +122,11 @@ impl Marking {
 
     /// Marks the shortest path along edges from the vertex clicked last. Returns the number
     /// of edges on it; `None` if there is no path.
-    pub fn mark_path(&mut self, scene: &mut Arc<Scene>, picked: &PickedEdge) -> Option<usize> {
+    pub(crate) fn mark_path(
+        &mut self,
+        scene: &mut Arc<Scene>,
+        picked: &PickedEdge,
+    ) -> Option<usize> {
         let from = self.from.replace((picked.model, picked.vertex));
         let (_, start) = from.filter(|(model, _)| *model == picked.model)?;
         let mesh = &scene.models[picked.model].mesh;
@@ -150,7 +154,7 @@ impl Marking {
     }
 
     /// Undoes the last change.
-    pub fn undo(&mut self, scene: &mut Arc<Scene>) {
+    pub(crate) fn undo(&mut self, scene: &mut Arc<Scene>) {
         if let Some(change) = self.changes.pop() {
             apply(scene, &MarkChange { is_marked: !change.is_marked, ..change });
         }
@@ -161,7 +165,11 @@ impl Marking {
     ///
     /// # Errors
     /// [`Error::MarksWithoutFile`], or if a side file cannot be read or written.
-    pub fn save(&mut self, scene: &Scene, marks: Option<&Path>) -> Result<Vec<PathBuf>, Error> {
+    pub(crate) fn save(
+        &mut self,
+        scene: &Scene,
+        marks: Option<&Path>,
+    ) -> Result<Vec<PathBuf>, Error> {
         let mut by_model: BTreeMap<usize, Vec<&MarkChange>> = BTreeMap::new();
         for change in &self.changes {
             by_model.entry(change.model).or_default().push(change);

@@ -10,9 +10,9 @@ const NOTE_STAYS: Duration = Duration::from_secs(6);
 #[derive(Debug, Default)]
 pub struct Messages {
     /// The mistakes of the technique that cannot be drawn.
-    pub technique: Option<String>,
+    pub(crate) technique: Option<String>,
     /// Errors that are not dismissed yet.
-    pub errors: Vec<String>,
+    pub(crate) errors: Vec<String>,
     notes: Vec<(Instant, String)>,
 }
 
@@ -32,7 +32,7 @@ impl Messages {
     }
 
     /// The notes to show, and when the next of them ends.
-    pub fn notes(&mut self) -> (Vec<&str>, Option<Duration>) {
+    pub(crate) fn notes(&mut self) -> (Vec<&str>, Option<Duration>) {
         self.notes.retain(|(since, _)| since.elapsed() < NOTE_STAYS);
         let next = self.notes.iter().map(|(since, _)| NOTE_STAYS.saturating_sub(since.elapsed()));
         let next = next.min();

@@ -19,29 +19,30 @@
 //! - `app`: one frame. `hands`: pointer and keys. `panels`: everything beside the picture.
 
 mod app;
-pub mod background;
+mod background;
 mod canvas;
 mod desktop;
 mod device_loss;
 mod error_text;
 pub mod hands;
 pub mod inspection;
-pub mod light_hand;
-pub mod loading;
-pub mod marking;
-pub mod messages;
+mod light_hand;
+mod loading;
+mod marking;
+mod messages;
 pub mod navigation;
 mod opening;
 pub mod panels;
-pub mod picking;
+mod picking;
 mod picture_paint;
 pub mod recipe;
 pub mod remembered;
 pub mod saving;
 pub mod session;
 mod style;
-pub mod thumbnails;
+mod thumbnails;
 pub mod viewpoint;
-pub mod watching;
+mod watching;
 
+pub use messages::Messages;
 pub(crate) use opening::run;

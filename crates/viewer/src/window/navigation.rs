@@ -47,7 +47,7 @@ impl Canvas {
 
     /// The pixel (from the upper left) of a point; `None` behind the eye.
     #[must_use]
-    pub fn pixel_of(&self, view: &Viewpoint, point: DVec3) -> Option<DVec2> {
+    pub(crate) fn pixel_of(&self, view: &Viewpoint, point: DVec3) -> Option<DVec2> {
         let [right, up, back] = view.axes();
         let from_eye = point - view.eye;
         let depth = if view.is_orthographic { view.distance() } else { -from_eye.dot(back) };
@@ -59,7 +59,7 @@ impl Canvas {
 
     /// The ray under a pixel: its start and direction.
     #[must_use]
-    pub fn ray(&self, view: &Viewpoint, position: DVec2) -> (DVec3, DVec3) {
+    pub(crate) fn ray(&self, view: &Viewpoint, position: DVec2) -> (DVec3, DVec3) {
         let point = self.point_on_target_plane(view, position);
         if view.is_orthographic {
             // From far enough back that the whole model lies in front of it.
@@ -111,7 +111,7 @@ pub fn turned(
 
 /// Rolls the picture counterclockwise by an angle in radians.
 #[must_use]
-pub fn rolled(view: &Viewpoint, angle_rad: f64) -> Viewpoint {
+pub(crate) fn rolled(view: &Viewpoint, angle_rad: f64) -> Viewpoint {
     let [_, above, back] = view.axes();
     Viewpoint { up: DQuat::from_axis_angle(back, -angle_rad) * above, ..*view }
 }
@@ -134,14 +134,14 @@ pub fn zoomed(view: &Viewpoint, factor: f64, toward: DVec3) -> Viewpoint {
 
 /// Makes a point the target, seen from the same direction and distance.
 #[must_use]
-pub fn focused(view: &Viewpoint, point: DVec3) -> Viewpoint {
+pub(crate) fn focused(view: &Viewpoint, point: DVec3) -> Viewpoint {
     let by = point - view.target;
     Viewpoint { eye: view.eye + by, target: point, ..*view }
 }
 
 /// Moves to the right, up and forward, in distances to the target.
 #[must_use]
-pub fn flown(view: &Viewpoint, steps: DVec3) -> Viewpoint {
+pub(crate) fn flown(view: &Viewpoint, steps: DVec3) -> Viewpoint {
     let [right, above, back] = view.axes();
     let by = (right * steps.x + above * steps.y - back * steps.z) * view.distance();
     Viewpoint { eye: view.eye + by, target: view.target + by, ..*view }
@@ -149,7 +149,12 @@ pub fn flown(view: &Viewpoint, steps: DVec3) -> Viewpoint {
 
 /// Turns the line of sight around the eye.
 #[must_use]
-pub fn looked_around(view: &Viewpoint, up: UpAxis, canvas: Canvas, pixels: DVec2) -> Viewpoint {
+pub(crate) fn looked_around(
+    view: &Viewpoint,
+    up: UpAxis,
+    canvas: Canvas,
+    pixels: DVec2,
+) -> Viewpoint {
     // The target turns around the eye as the eye would around the target.
     let turned = turned(view, TurnMode::Turntable, up, canvas, pixels);
     let by = view.eye - turned.eye;
@@ -158,7 +163,7 @@ pub fn looked_around(view: &Viewpoint, up: UpAxis, canvas: Canvas, pixels: DVec2
 
 /// A view between two, at `share` from 0 to 1. The eye goes around the model, not through it.
 #[must_use]
-pub fn between(from: &Viewpoint, to: &Viewpoint, share: f64) -> Viewpoint {
+pub(crate) fn between(from: &Viewpoint, to: &Viewpoint, share: f64) -> Viewpoint {
     if share >= 1.0 {
         return *to;
     }

@@ -10,20 +10,20 @@ use crate::scene::models::Scene;
 
 /// The first intersection of a ray with the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hit {
+pub(crate) struct Hit {
     /// Index of the object.
-    pub object: usize,
+    pub(crate) object: usize,
     /// Index of the triangle in the object's mesh.
-    pub triangle: usize,
+    pub(crate) triangle: usize,
     /// The point, in units of the files.
-    pub point: DVec3,
+    pub(crate) point: DVec3,
     distance: f64,
 }
 
 /// The first triangle that a ray meets, from either side. Start and direction are in units of
 /// the files.
 #[must_use]
-pub fn hit(scene: &Scene, start: DVec3, direction: DVec3) -> Option<Hit> {
+pub(crate) fn hit(scene: &Scene, start: DVec3, direction: DVec3) -> Option<Hit> {
     let start = scene.frame.to_mesh(start);
     let hits = scene.objects.iter().enumerate().filter_map(|(at, object)| {
         let mesh = &scene.models[object.model].mesh;

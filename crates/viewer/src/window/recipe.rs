@@ -43,13 +43,13 @@ pub struct Appearance {
     /// Name or file of the technique.
     pub technique_name: String,
     /// The technique as in its file.
-    pub original: Technique,
+    pub(crate) original: Technique,
     /// The technique with the changes made in the window.
     pub technique: Technique,
     /// Light and clip planes.
     pub lighting: Lighting,
     /// Whether the background is transparent.
-    pub is_transparent: bool,
+    pub(crate) is_transparent: bool,
 }
 
 impl Recipe {
@@ -90,7 +90,7 @@ impl Recipe {
     ///
     /// # Errors
     /// [`Error::Camera`].
-    pub fn take_viewpoint(
+    pub(crate) fn take_viewpoint(
         &mut self,
         bounds: &edgemesh::edge_mesh::Bounds,
         frame: &MeshFrame,
@@ -123,7 +123,7 @@ impl Recipe {
 
     /// Options of a picture of a size in pixels.
     #[must_use]
-    pub fn picture_options(&self, size: [u32; 2]) -> PictureOptions {
+    pub(crate) fn picture_options(&self, size: [u32; 2]) -> PictureOptions {
         PictureOptions {
             is_transparent: self.appearance.is_transparent,
             ..self.arguments.picture_options(size, self.appearance.lighting.clone())
@@ -132,31 +132,31 @@ impl Recipe {
 
     /// How the models are read and built.
     #[must_use]
-    pub fn load_options(&self) -> LoadOptions {
+    pub(crate) fn load_options(&self) -> LoadOptions {
         self.arguments.input.load_options()
     }
 
     /// The file of marks, if one is named.
     #[must_use]
-    pub fn marks_file(&self) -> Option<&Path> {
+    pub(crate) fn marks_file(&self) -> Option<&Path> {
         self.arguments.input.marks.as_deref()
     }
 
     /// A part of the adapter's name, if one is given.
     #[must_use]
-    pub fn adapter(&self) -> Option<&str> {
+    pub(crate) fn adapter(&self) -> Option<&str> {
         self.arguments.adapter.as_deref()
     }
 
     /// The folder that replaces the shipped shaders.
     #[must_use]
-    pub fn shader_folder(&self) -> Option<&Path> {
+    pub(crate) fn shader_folder(&self) -> Option<&Path> {
         self.arguments.library.shaders.as_deref()
     }
 
     /// Reads techniques and components from their folders.
     #[must_use]
-    pub fn read_library(&self) -> Library {
+    pub(crate) fn read_library(&self) -> Library {
         self.arguments.library.load()
     }
 
@@ -174,7 +174,7 @@ impl Recipe {
 
     /// The name of the models, for the title of the window.
     #[must_use]
-    pub fn title(&self) -> String {
+    pub(crate) fn title(&self) -> String {
         let name = |path: &PathBuf| {
             path.file_name().map_or_else(
                 || path.display().to_string(),
@@ -195,7 +195,7 @@ impl Appearance {
     ///
     /// # Errors
     /// All mistakes in it.
-    pub fn take_technique(&mut self, library: &Library, name: &str) -> Result<(), Error> {
+    pub(crate) fn take_technique(&mut self, library: &Library, name: &str) -> Result<(), Error> {
         self.original = technique(library, name)?;
         self.technique = self.original.clone();
         name.clone_into(&mut self.technique_name);
@@ -207,7 +207,7 @@ impl Appearance {
     ///
     /// # Errors
     /// All mistakes in it.
-    pub fn read_again(&mut self, library: &Library) -> Result<(), Error> {
+    pub(crate) fn read_again(&mut self, library: &Library) -> Result<(), Error> {
         let settings = changes(&self.original, &self.technique).unwrap_or_default();
         let name = self.technique_name.clone();
         self.take_technique(library, &name)?;

@@ -14,21 +14,21 @@ const MOST_RECENT: usize = 10;
 #[serde(default)]
 pub struct Remembered {
     /// Recent files, the newest first. Files opened together are one entry.
-    pub recent: Vec<Vec<PathBuf>>,
+    pub(crate) recent: Vec<Vec<PathBuf>>,
     /// Whether the panels are shown.
     pub shows_panels: bool,
     /// The open panel.
     pub tab: Tab,
     /// How a drag turns the eye.
-    pub turn_mode: TurnMode,
+    pub(crate) turn_mode: TurnMode,
     /// The up axis of the models.
-    pub up: UpAxis,
+    pub(crate) up: UpAxis,
     /// Theme of the window.
-    pub theme: Theme,
+    pub(crate) theme: Theme,
     /// Width and height of saved pictures in pixels; `None` for the size in the window.
-    pub picture_size: Option<[u32; 2]>,
+    pub(crate) picture_size: Option<[u32; 2]>,
     /// Number of pictures of a turntable.
-    pub turntable_steps: u32,
+    pub(crate) turntable_steps: u32,
 }
 
 /// A panel at the side.
@@ -51,7 +51,7 @@ pub enum Tab {
 
 impl Tab {
     /// All tabs with their labels.
-    pub const ALL: [(Self, &'static str); 6] = [
+    pub(crate) const ALL: [(Self, &'static str); 6] = [
         (Self::Look, "Look"),
         (Self::Lines, "Lines"),
         (Self::Light, "Light"),
@@ -63,7 +63,7 @@ impl Tab {
 
 /// Theme of the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-pub enum Theme {
+pub(crate) enum Theme {
     /// As the desktop.
     #[default]
     System,
@@ -100,7 +100,7 @@ impl Default for Remembered {
 
 impl Remembered {
     /// Puts files first in the recent files; standard input and the demo are left out.
-    pub fn opened(&mut self, models: &[PathBuf]) {
+    pub(crate) fn opened(&mut self, models: &[PathBuf]) {
         let absolute = |path: &PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
         let is_file = |path: &PathBuf| path.is_file();
         if models.is_empty() || !models.iter().all(is_file) {
@@ -115,7 +115,7 @@ impl Remembered {
 
 /// The title of files opened together.
 #[must_use]
-pub fn name_of(models: &[PathBuf]) -> String {
+pub(crate) fn name_of(models: &[PathBuf]) -> String {
     let name = |path: &Path| {
         path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
     };

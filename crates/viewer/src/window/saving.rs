@@ -82,7 +82,11 @@ pub fn save(order: &Order, tell: Tell) -> Result<String, Error> {
 ///
 /// # Errors
 /// If they cannot be written.
-pub fn save_window(path: &Path, pixels: &egui::ColorImage, tell: Tell) -> Result<String, Error> {
+pub(crate) fn save_window(
+    path: &Path,
+    pixels: &egui::ColorImage,
+    tell: Tell,
+) -> Result<String, Error> {
     tell(&format!("writing {}", path.display()));
     let [width, height] = pixels.size.map(edgemesh::index::to_u32);
     let texels = pixels.pixels.iter().flat_map(egui::Color32::to_array).collect();

@@ -36,17 +36,17 @@ pub struct Session {
     /// The models, once they are loaded.
     pub scene: Option<Arc<Scene>>,
     /// The objects of scene files.
-    pub objects: Vec<SceneObject>,
+    pub(crate) objects: Vec<SceneObject>,
     /// Settings kept from one run to the next.
     pub remembered: Remembered,
     /// Messages to show.
     pub messages: Messages,
     /// Thumbnails of techniques.
-    pub thumbnails: Thumbnails,
+    pub(crate) thumbnails: Thumbnails,
     /// Statistics of the last pictures, the newest last; at most [`KEPT_FRAMES`].
-    pub statistics: Vec<FrameStatistics>,
+    pub(crate) statistics: Vec<FrameStatistics>,
     /// Name of the adapter.
-    pub adapter: String,
+    pub(crate) adapter: String,
     /// Whether the sheet of keys is shown.
     pub shows_keys: bool,
     /// Work on other threads.
@@ -58,11 +58,11 @@ pub struct Session {
     /// The texture shown in place of the picture.
     pub inspection: Option<Inspection>,
     /// The appearance that a debug view has replaced, to go back to.
-    pub before_debug_view: Option<Appearance>,
+    pub(crate) before_debug_view: Option<Appearance>,
     /// Index of the cut that drags move, if there are that many; else the last cut moves.
-    pub chosen_cut: usize,
+    pub(crate) chosen_cut: usize,
     /// Edges marked by hand.
-    pub marking: Marking,
+    pub(crate) marking: Marking,
     /// Another appearance shown beside this one.
     pub comparison: Option<Comparison>,
     undoer: Undoer<Appearance>,
@@ -74,7 +74,7 @@ pub struct Comparison {
     /// The appearance.
     pub appearance: Appearance,
     /// Position of the line: 0 at the left, 1 at the right.
-    pub share: f32,
+    pub(crate) share: f32,
 }
 
 /// Work on another thread.
@@ -91,18 +91,18 @@ pub struct Work {
 impl Work {
     /// Whether models are being loaded.
     #[must_use]
-    pub const fn is_loading(&self) -> bool {
+    pub(crate) const fn is_loading(&self) -> bool {
         self.saving.is_none()
     }
 }
 
 /// Thumbnails of techniques.
 #[derive(Default)]
-pub struct Thumbnails {
+pub(crate) struct Thumbnails {
     /// Textures by technique name.
-    pub textures: BTreeMap<String, egui::TextureHandle>,
+    pub(crate) textures: BTreeMap<String, egui::TextureHandle>,
     /// Whether they were requested.
-    pub are_wanted: bool,
+    pub(crate) are_wanted: bool,
 }
 
 impl std::fmt::Debug for Thumbnails {
@@ -156,7 +156,7 @@ pub(crate) const DEBUG_VIEWS: [(&str, &str); 5] = [
 const SLOW_MS: f64 = 2000.0;
 
 /// The number of frames whose statistics are kept.
-pub const KEPT_FRAMES: usize = 120;
+pub(crate) const KEPT_FRAMES: usize = 120;
 
 impl Session {
     /// A session without models.
@@ -192,7 +192,7 @@ impl Session {
 
     /// Prepares the session for another window and device: drops textures, statistics and
     /// work. The undo history starts a new clock.
-    pub fn move_on(&mut self) {
+    pub(crate) fn move_on(&mut self) {
         self.thumbnails = Thumbnails::default();
         self.statistics.clear();
         self.generated.clear();
@@ -202,7 +202,7 @@ impl Session {
     }
 
     /// Adds a request.
-    pub fn ask(&mut self, request: Request) {
+    pub(crate) fn ask(&mut self, request: Request) {
         self.requests.push(request);
     }
 
@@ -247,7 +247,7 @@ impl Session {
     ///
     /// # Errors
     /// All mistakes in the technique, which then stays as it was.
-    pub fn read_again(&mut self) -> Result<(), Error> {
+    pub(crate) fn read_again(&mut self) -> Result<(), Error> {
         let library = self.recipe.read_library();
         let mut appearance = self.recipe.appearance.clone();
         appearance.read_again(&library)?;
@@ -258,7 +258,7 @@ impl Session {
 
     /// The folders of the technique's files and of the user's shaders.
     #[must_use]
-    pub fn watched_folders(&self) -> Vec<PathBuf> {
+    pub(crate) fn watched_folders(&self) -> Vec<PathBuf> {
         let mut folders = self.recipe.appearance.technique.folders.clone();
         folders.extend(self.recipe.shader_folder().map(Path::to_owned));
         folders
@@ -311,7 +311,7 @@ impl Session {
     }
 
     /// Swaps the two sides of the comparison.
-    pub fn swap_sides(&mut self) {
+    pub(crate) fn swap_sides(&mut self) {
         if let Some(comparison) = &mut self.comparison {
             let (own, other) = (&mut self.recipe.appearance, &mut comparison.appearance);
             std::mem::swap(own, other);
@@ -334,7 +334,7 @@ impl Session {
     }
 
     /// Shows a debug view. The appearance before it is kept, with its changes.
-    pub fn show_debug_view(&mut self, name: &str) {
+    pub(crate) fn show_debug_view(&mut self, name: &str) {
         let before = self.recipe.appearance.clone();
         let was_debug_view = self.is_debug_view();
         self.take_technique(name);
@@ -345,13 +345,13 @@ impl Session {
 
     /// Whether a debug view is shown that can be left.
     #[must_use]
-    pub fn is_debug_view(&self) -> bool {
+    pub(crate) fn is_debug_view(&self) -> bool {
         let name = self.recipe.appearance.technique_name.as_str();
         self.before_debug_view.is_some() && DEBUG_VIEWS.iter().any(|(view, _)| *view == name)
     }
 
     /// Goes back to the appearance before the debug view.
-    pub fn leave_debug_view(&mut self) {
+    pub(crate) fn leave_debug_view(&mut self) {
         let is_debug_view = self.is_debug_view();
         if let Some(before) = self.before_debug_view.take().filter(|_| is_debug_view) {
             let now = &self.recipe.appearance;
@@ -371,7 +371,7 @@ impl Session {
     }
 
     /// Shows a side, and fits the models into the picture.
-    pub fn go_to_side(&mut self, view: NamedView) {
+    pub(crate) fn go_to_side(&mut self, view: NamedView) {
         if let Some(from) = self.recipe.viewpoint {
             let up = self.remembered.up;
             self.ask(Request::GoTo(self.fitted(&from.from_side(view, up))));
@@ -379,7 +379,7 @@ impl Session {
     }
 
     /// Goes to the default view.
-    pub fn go_home(&mut self) {
+    pub(crate) fn go_home(&mut self) {
         if let Some(scene) = &self.scene {
             let up = self.remembered.up;
             let home = Viewpoint::default_view(&scene.bounds, &scene.frame, up);
@@ -409,25 +409,25 @@ impl Session {
 
     /// Whether a change can be undone.
     #[must_use]
-    pub fn has_undo(&self) -> bool {
+    pub(crate) fn has_undo(&self) -> bool {
         self.undoer.has_undo(&self.recipe.appearance)
     }
 
     /// Whether an undone change can be redone.
     #[must_use]
-    pub fn has_redo(&self) -> bool {
+    pub(crate) fn has_redo(&self) -> bool {
         self.undoer.has_redo(&self.recipe.appearance)
     }
 
     /// Undoes the last change.
-    pub fn undo(&mut self) {
+    pub(crate) fn undo(&mut self) {
         if let Some(before) = self.undoer.undo(&self.recipe.appearance).cloned() {
             self.recipe.appearance = before;
         }
     }
 
     /// Redoes the last undone change.
-    pub fn redo(&mut self) {
+    pub(crate) fn redo(&mut self) {
         if let Some(after) = self.undoer.redo(&self.recipe.appearance).cloned() {
             self.recipe.appearance = after;
         }

@@ -17,17 +17,17 @@ use crate::scene::scene_file::SceneObject;
 use crate::technique::library::Library;
 
 /// Width and height in pixels: twice the size in points.
-pub const SIZE: [u32; 2] = [144, 108];
+pub(crate) const SIZE: [u32; 2] = [144, 108];
 
 /// The name of a technique, and its picture.
-pub type Thumbnail = (String, RgbaImage);
+pub(crate) type Thumbnail = (String, RgbaImage);
 
 /// Draws each technique of the library and sends it with its name. A technique that cannot be
 /// drawn is left out.
 ///
 /// # Errors
 /// If the model cannot be loaded, or `tell` cancels.
-pub fn draw(
+pub(crate) fn draw(
     gpu: &Gpu,
     library: &Library,
     sender: &Sender<Thumbnail>,

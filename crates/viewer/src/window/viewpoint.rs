@@ -16,11 +16,11 @@ pub struct Viewpoint {
     /// Position of the eye.
     pub eye: DVec3,
     /// The point looked at, around which the eye turns.
-    pub target: DVec3,
+    pub(crate) target: DVec3,
     /// The direction that points up in the picture, perpendicular to the line of sight.
-    pub up: DVec3,
+    pub(crate) up: DVec3,
     /// Vertical field of view in degrees.
-    pub fov_y_deg: f64,
+    pub(crate) fov_y_deg: f64,
     /// Whether the projection is orthographic.
     pub is_orthographic: bool,
 }
@@ -38,7 +38,7 @@ pub enum UpAxis {
 impl UpAxis {
     /// The axis as a unit vector.
     #[must_use]
-    pub const fn direction(self) -> DVec3 {
+    pub(crate) const fn direction(self) -> DVec3 {
         match self {
             Self::Y => DVec3::Y,
             Self::Z => DVec3::Z,
@@ -76,7 +76,7 @@ pub enum NamedView {
 
 impl NamedView {
     /// All named views.
-    pub const ALL: [Self; 7] = [
+    pub(crate) const ALL: [Self; 7] = [
         Self::Front,
         Self::Back,
         Self::Left,
@@ -88,7 +88,7 @@ impl NamedView {
 
     /// The name in menus.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Front => "Front",
             Self::Back => "Back",
@@ -118,7 +118,7 @@ impl NamedView {
 impl Viewpoint {
     /// The view that all commands use by default.
     #[must_use]
-    pub fn default_view(bounds: &Bounds, frame: &MeshFrame, up: UpAxis) -> Self {
+    pub(crate) fn default_view(bounds: &Bounds, frame: &MeshFrame, up: UpAxis) -> Self {
         let first = Self {
             eye: up.turned(DEFAULT_DIRECTION),
             target: DVec3::ZERO,
@@ -144,7 +144,7 @@ impl Viewpoint {
     /// The viewpoint of a camera of a scene in `frame`; `fov_y_deg` replaces its field of
     /// view.
     #[must_use]
-    pub fn of_camera(camera: &Camera, frame: &MeshFrame, fov_y_deg: Option<f64>) -> Self {
+    pub(crate) fn of_camera(camera: &Camera, frame: &MeshFrame, fov_y_deg: Option<f64>) -> Self {
         Self {
             eye: frame.to_file(camera.eye),
             target: frame.to_file(camera.target),
@@ -162,7 +162,7 @@ impl Viewpoint {
 
     /// Right, up and toward the viewer, as orthogonal unit vectors.
     #[must_use]
-    pub fn axes(&self) -> [DVec3; 3] {
+    pub(crate) fn axes(&self) -> [DVec3; 3] {
         let back = -self.forward();
         let right = self.up.cross(back).try_normalize();
         let right = right.unwrap_or_else(|| back.any_orthonormal_vector());
@@ -171,13 +171,13 @@ impl Viewpoint {
 
     /// Distance from the eye to the target.
     #[must_use]
-    pub fn distance(&self) -> f64 {
+    pub(crate) fn distance(&self) -> f64 {
         self.eye.distance(self.target)
     }
 
     /// The same direction of sight, from where the whole scene is visible.
     #[must_use]
-    pub fn fitted(&self, bounds: &Bounds, frame: &MeshFrame) -> Self {
+    pub(crate) fn fitted(&self, bounds: &Bounds, frame: &MeshFrame) -> Self {
         let radius = bounds.radius() / frame.scale;
         let radius = if radius > 0.0 { radius } else { 1.0 / frame.scale };
         // At the distance of the default view, scaled for the field of view.
@@ -213,7 +213,7 @@ impl Viewpoint {
     /// # Errors
     /// [`Error::CommandLine`], if there are none or one is wrong; [`Error::Camera`], if the
     /// camera sees nothing.
-    pub fn pasted(&self, text: &str) -> Result<Self, Error> {
+    pub(crate) fn pasted(&self, text: &str) -> Result<Self, Error> {
         let read = read_camera(text)?;
         let pasted = Self {
             eye: read.eye.unwrap_or(self.eye),

@@ -16,7 +16,7 @@ const PATIENCE: Duration = Duration::from_millis(500);
 
 /// Folders that are watched until this is dropped.
 #[derive(Debug)]
-pub struct Watching {
+pub(crate) struct Watching {
     folders: Vec<PathBuf>,
     changes: Receiver<Change>,
     is_over: Arc<AtomicBool>,
@@ -24,7 +24,7 @@ pub struct Watching {
 
 /// A change of files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Change {
+pub(crate) enum Change {
     /// The files may be half saved.
     Now,
     /// The files have not changed for a while.
@@ -36,7 +36,7 @@ impl Watching {
     ///
     /// # Errors
     /// [`WatchError`].
-    pub fn start(
+    pub(crate) fn start(
         folders: &[PathBuf],
         wake: impl Fn() + Send + 'static,
     ) -> Result<Self, WatchError> {
@@ -63,13 +63,13 @@ impl Watching {
 
     /// Whether these are the watched folders.
     #[must_use]
-    pub fn is_of(&self, folders: &[PathBuf]) -> bool {
+    pub(crate) fn is_of(&self, folders: &[PathBuf]) -> bool {
         self.folders == folders
     }
 
     /// The last change since the last call.
     #[must_use]
-    pub fn take(&self) -> Option<Change> {
+    pub(crate) fn take(&self) -> Option<Change> {
         self.changes.try_iter().last()
     }
 }

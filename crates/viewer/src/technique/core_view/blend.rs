@@ -4,7 +4,7 @@ use crate::technique::word::Word;
 
 /// How a pass combines its colors, with premultiplied alpha, with those of its target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Blend {
+pub(crate) enum Blend {
     /// Replaces the target.
     Replace,
     /// Over the target, by alpha.
@@ -23,7 +23,7 @@ pub enum Blend {
 
 impl Blend {
     /// The name of the variable.
-    pub const VARIABLE: &str = "blend";
+    pub(crate) const VARIABLE: &str = "blend";
 }
 
 impl Word for Blend {

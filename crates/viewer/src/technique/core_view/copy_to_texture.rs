@@ -5,11 +5,11 @@ use super::render_target::TEXTURE;
 
 /// A pass that copies the current picture, or its depth.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct CopyToTexture {
+pub(crate) struct CopyToTexture {
     /// `x` for the texture `<generated>:x`.
-    pub texture: String,
+    pub(crate) texture: String,
     /// Whether the depth is copied instead of the color.
-    pub is_depth: bool,
+    pub(crate) is_depth: bool,
 }
 
 impl CopyToTexture {

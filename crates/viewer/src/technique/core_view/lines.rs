@@ -13,16 +13,16 @@ const ALL_CLASSES: &str = "all";
 
 /// Which lines a pass of strokes draws.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct LineSelection {
+pub(crate) struct LineSelection {
     /// Their classes.
-    pub classes: Vec<LineClass>,
+    pub(crate) classes: Vec<LineClass>,
     /// The part of them that is drawn.
-    pub visibility: Visibility,
+    pub(crate) visibility: Visibility,
 }
 
 /// The variable `visibility`: which part of the lines is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Visibility {
+pub(crate) enum Visibility {
     /// What no surface hides.
     Visible,
     /// What a surface hides.
@@ -43,7 +43,7 @@ impl LineSelection {
     /// The lines that a pass draws; `None` if it is not a pass of strokes, or if the values
     /// cannot be read.
     #[must_use]
-    pub fn of(pass: &Pass) -> Option<Self> {
+    pub(crate) fn of(pass: &Pass) -> Option<Self> {
         if pass.component.core != CoreComponent::Strokes {
             return None;
         }
@@ -65,7 +65,7 @@ impl LineSelection {
 
     /// Whether the pass draws a class with a visibility.
     #[must_use]
-    pub fn draws(&self, class: LineClass, visibility: Visibility) -> bool {
+    pub(crate) fn draws(&self, class: LineClass, visibility: Visibility) -> bool {
         self.visibility == visibility && self.classes.contains(&class)
     }
 }

@@ -24,24 +24,23 @@ mod strokes;
 #[cfg(test)]
 mod tests;
 
-pub use self::blend::Blend;
-pub use self::copy_to_texture::CopyToTexture;
-pub(crate) use self::lines::classes_text;
-pub use self::lines::{LineSelection, Visibility};
-pub use self::programs::ProgramNames;
+pub(crate) use self::blend::Blend;
+pub(crate) use self::copy_to_texture::CopyToTexture;
+pub(crate) use self::lines::{LineSelection, Visibility, classes_text};
+pub(crate) use self::programs::ProgramNames;
 use self::reader::Reader;
-pub use self::render_target::RenderTarget;
-pub use self::run_mode::RunMode;
-pub use self::screen::{Composite, GenerateTexture, PingPong, ProcessTexture};
-pub use self::simple_render::SimpleRender;
-pub use self::strokes::{MIN_WIDTH_PX, StrokeEnds, StrokeKind, StrokeWidth, Strokes, WidthUnit};
+pub(crate) use self::render_target::RenderTarget;
+pub(crate) use self::run_mode::RunMode;
+pub(crate) use self::screen::{Composite, GenerateTexture, PingPong, ProcessTexture};
+pub(crate) use self::simple_render::SimpleRender;
+pub(crate) use self::strokes::{StrokeEnds, StrokeKind, StrokeWidth, Strokes};
 use super::core::CoreComponent;
 use super::mistake::Mistakes;
 use super::pass::Pass;
 
 /// The variables of a pass, by its core component.
 #[derive(Debug, Clone, PartialEq)]
-pub enum CoreView {
+pub(crate) enum CoreView {
     /// Of `simple_render`.
     SimpleRender(SimpleRender),
     /// Of `strokes`.
@@ -80,7 +79,7 @@ impl CoreView {
 
     /// The programs of the pass.
     #[must_use]
-    pub fn programs(&self) -> ProgramNames {
+    pub(crate) fn programs(&self) -> ProgramNames {
         match self {
             Self::SimpleRender(view) => view.programs.clone(),
             Self::ProcessTexture(view) => view.programs.clone(),
@@ -93,7 +92,7 @@ impl CoreView {
 
     /// How the pass blends with its target.
     #[must_use]
-    pub const fn blend(&self) -> Blend {
+    pub(crate) const fn blend(&self) -> Blend {
         match self {
             Self::SimpleRender(view) => view.blend,
             Self::ProcessTexture(view) => view.blend,
@@ -109,7 +108,7 @@ impl Strokes {
     ///
     /// # Errors
     /// All mistakes, also if it is a pass of another component.
-    pub fn of(pass: &Pass) -> Result<Self, Mistakes> {
+    pub(crate) fn of(pass: &Pass) -> Result<Self, Mistakes> {
         let mut mistakes = Mistakes::default();
         let view = Self::read(&mut Reader::new(pass, &mut mistakes));
         mistakes.or(view).map(|(view, _)| view)

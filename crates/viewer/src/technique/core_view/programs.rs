@@ -11,13 +11,13 @@ pub(in crate::technique) const BACKGROUND: &str = "background_program";
 
 /// The programs of a pass, each as `file:function`.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct ProgramNames {
+pub(crate) struct ProgramNames {
     /// Places vertices.
-    pub vertex: Option<String>,
+    pub(crate) vertex: Option<String>,
     /// Colors fragments.
-    pub fragment: Option<String>,
+    pub(crate) fragment: Option<String>,
     /// Colors the fragments of the background.
-    pub background: Option<String>,
+    pub(crate) background: Option<String>,
 }
 
 impl ProgramNames {

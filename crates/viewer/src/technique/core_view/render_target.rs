@@ -17,14 +17,14 @@ pub(in crate::technique) const FORMAT: &str = "render_target_format";
 
 /// Where a pass draws.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RenderTarget {
+pub(crate) struct RenderTarget {
     /// `x` for the textures `<generated>:x_color` and so on; none for the picture.
-    pub name: Option<String>,
+    pub(crate) name: Option<String>,
     /// The size of the textures.
-    pub size: TextureSize,
+    pub(crate) size: TextureSize,
     /// The formats of the outputs, at least one; the last one is also that of all further
     /// outputs.
-    pub formats: Vec<TextureFormat>,
+    pub(crate) formats: Vec<TextureFormat>,
 }
 
 impl RenderTarget {
@@ -36,7 +36,7 @@ impl RenderTarget {
 
     /// The format of an output.
     #[must_use]
-    pub fn format(&self, output: usize) -> TextureFormat {
+    pub(crate) fn format(&self, output: usize) -> TextureFormat {
         let format = self.formats.get(output).or(self.formats.last());
         format.copied().unwrap_or(TextureFormat::PICTURE)
     }

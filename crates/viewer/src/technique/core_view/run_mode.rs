@@ -4,7 +4,7 @@ use crate::technique::word::Word;
 
 /// When a pass runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RunMode {
+pub(crate) enum RunMode {
     /// In every frame.
     Always,
     /// In the first frame only.
@@ -15,7 +15,7 @@ pub enum RunMode {
 
 impl RunMode {
     /// The name of the variable.
-    pub const VARIABLE: &str = "run";
+    pub(crate) const VARIABLE: &str = "run";
 }
 
 impl Word for RunMode {

@@ -9,13 +9,13 @@ use crate::technique::texture_format::{TextureFormat, TextureSize};
 
 /// A pass that runs a program over textures.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ProcessTexture {
+pub(crate) struct ProcessTexture {
     /// Where it draws.
-    pub target: RenderTarget,
+    pub(crate) target: RenderTarget,
     /// Its programs.
-    pub programs: ProgramNames,
+    pub(crate) programs: ProgramNames,
     /// How it blends with the target.
-    pub blend: Blend,
+    pub(crate) blend: Blend,
 }
 
 impl ProcessTexture {
@@ -30,15 +30,15 @@ impl ProcessTexture {
 
 /// A pass that computes a texture from nothing but its variables.
 #[derive(Debug, Clone, PartialEq)]
-pub struct GenerateTexture {
+pub(crate) struct GenerateTexture {
     /// `x` for the texture `<generated>:x`.
-    pub texture: String,
+    pub(crate) texture: String,
     /// The size of the texture.
-    pub size: TextureSize,
+    pub(crate) size: TextureSize,
     /// The format of the texture.
-    pub format: TextureFormat,
+    pub(crate) format: TextureFormat,
     /// Its programs.
-    pub programs: ProgramNames,
+    pub(crate) programs: ProgramNames,
 }
 
 impl GenerateTexture {
@@ -54,20 +54,20 @@ impl GenerateTexture {
 
 /// A pass that runs a program over a texture, and again over its own output.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PingPong {
+pub(crate) struct PingPong {
     /// Where the last run draws.
-    pub target: RenderTarget,
+    pub(crate) target: RenderTarget,
     /// The number of runs; for 0 the input is copied to the target.
-    pub run_count: usize,
+    pub(crate) run_count: usize,
     /// Its programs.
-    pub programs: ProgramNames,
+    pub(crate) programs: ProgramNames,
     /// How the last run blends with the target.
-    pub blend: Blend,
+    pub(crate) blend: Blend,
 }
 
 impl PingPong {
     /// The texture variable that every run but the first reads the previous output as.
-    pub const INPUT: &str = render_target::TEXTURE;
+    pub(crate) const INPUT: &str = render_target::TEXTURE;
 
     pub(super) fn read(reader: &mut Reader) -> Self {
         Self {
@@ -81,13 +81,13 @@ impl PingPong {
 
 /// A pass that draws a texture over its target.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Composite {
+pub(crate) struct Composite {
     /// Where it draws.
-    pub target: RenderTarget,
+    pub(crate) target: RenderTarget,
     /// Its programs.
-    pub programs: ProgramNames,
+    pub(crate) programs: ProgramNames,
     /// How it blends with the target.
-    pub blend: Blend,
+    pub(crate) blend: Blend,
 }
 
 impl Composite {

@@ -7,17 +7,17 @@ use super::render_target::RenderTarget;
 
 /// A pass that draws the surfaces of the scene.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SimpleRender {
+pub(crate) struct SimpleRender {
     /// Where it draws.
-    pub target: RenderTarget,
+    pub(crate) target: RenderTarget,
     /// Whether the target is cleared first.
-    pub is_cleared: bool,
+    pub(crate) is_cleared: bool,
     /// The color of the background: red, green, blue, alpha, 0 to 1, not premultiplied.
-    pub clear_color: [f32; 4],
+    pub(crate) clear_color: [f32; 4],
     /// Its programs.
-    pub programs: ProgramNames,
+    pub(crate) programs: ProgramNames,
     /// How it blends with the target.
-    pub blend: Blend,
+    pub(crate) blend: Blend,
 }
 
 impl SimpleRender {

@@ -13,41 +13,41 @@ use crate::technique::word::Word;
 
 /// A pass that draws edges as strokes.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Strokes {
+pub(crate) struct Strokes {
     /// Which lines it draws.
-    pub lines: LineSelection,
+    pub(crate) lines: LineSelection,
     /// Color of the ink: red, green, blue, alpha, 0 to 1, not premultiplied.
-    pub color: [f32; 4],
+    pub(crate) color: [f32; 4],
     /// Factor of the color's alpha, 0 to 1.
-    pub opacity: f32,
+    pub(crate) opacity: f32,
     /// Width of the strokes.
-    pub width: StrokeWidth,
+    pub(crate) width: StrokeWidth,
     /// The brush, or no texture.
-    pub brush: TextureName,
+    pub(crate) brush: TextureName,
     /// How the brush is mapped onto single edges.
-    pub parameterization: Parameterization,
+    pub(crate) parameterization: Parameterization,
     /// Position across the edge.
-    pub placement: Placement,
+    pub(crate) placement: Placement,
     /// What is drawn along an edge.
-    pub kind: StrokeKind,
+    pub(crate) kind: StrokeKind,
     /// What is drawn at the ends.
-    pub ends: StrokeEnds,
+    pub(crate) ends: StrokeEnds,
     /// Distances from the eye, in units of the model, at which strokes begin and finish
     /// fading.
-    pub fade: Option<[f32; 2]>,
+    pub(crate) fade: Option<[f32; 2]>,
     /// Smallest angle of a ridge in degrees; `None` for that of the mesh.
-    pub ridge_angle_deg: Option<f32>,
+    pub(crate) ridge_angle_deg: Option<f32>,
     /// Smallest angle of a valley in degrees; `None` for that of the mesh.
-    pub valley_angle_deg: Option<f32>,
+    pub(crate) valley_angle_deg: Option<f32>,
     /// Whether edges are linked into strokes.
-    pub is_linked: bool,
+    pub(crate) is_linked: bool,
     /// How edges are linked, if [`Self::is_linked`].
-    pub link: LinkStyle,
+    pub(crate) link: LinkStyle,
 }
 
 /// Width of strokes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum StrokeWidth {
+pub(crate) enum StrokeWidth {
     /// Pixels, at least [`MIN_WIDTH_PX`].
     Pixels(f32),
     /// Units of the model.
@@ -56,7 +56,7 @@ pub enum StrokeWidth {
 
 /// The smallest width of a stroke in pixels. The descriptor has a smaller minimum, since
 /// `width` can also be in units of the model.
-pub const MIN_WIDTH_PX: f32 = 0.1;
+pub(crate) const MIN_WIDTH_PX: f32 = 0.1;
 
 /// If a dash or gap is shorter than this, strokes have no dashes.
 const MIN_DASH_PX: f32 = 0.1;
@@ -146,7 +146,7 @@ fn read_curve(reader: &mut Reader, name: &'static str, largest: f32) -> [f32; CU
 
 /// The variable `width_unit`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum WidthUnit {
+pub(crate) enum WidthUnit {
     /// Pixels of the picture.
     Pixels,
     /// Units of the model's file.
@@ -160,7 +160,7 @@ impl Word for WidthUnit {
 
 /// The variable `kind`: what is drawn along an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StrokeKind {
+pub(crate) enum StrokeKind {
     /// A quad.
     Quad,
     /// A line of one pixel.
@@ -176,7 +176,7 @@ impl Word for StrokeKind {
 
 /// The variable `ends`: what is drawn at the ends of single edges or of linked strokes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StrokeEnds {
+pub(crate) enum StrokeEnds {
     /// Caps of edges, round ends of strokes.
     Auto,
     /// Nothing at the ends of edges.

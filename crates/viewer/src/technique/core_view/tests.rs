@@ -2,6 +2,7 @@
 
 use super::reader::LogEntry;
 use super::render_target::TEXTURE;
+use super::strokes::MIN_WIDTH_PX;
 use super::*;
 use crate::technique::Technique;
 use crate::technique::descriptor::SharedDescriptor;
