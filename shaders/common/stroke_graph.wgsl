@@ -54,7 +54,7 @@ struct GraphHeader {
 
 // One drawn edge, in the direction of its chain.
 struct LinkNode {
-    // Pixels from the middle of the picture, y up.
+    // Pixels from the middle of the tile, y up.
     s0: vec2f,
     s1: vec2f,
     // Depth at both ends.
