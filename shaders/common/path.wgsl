@@ -1,5 +1,4 @@
-// The paths of the linked draws of an object: the chains of their layers, element by
-// element.
+// The paths of an object's linked draws: the chains of their layers, element by element.
 #import <common/feature.wgsl>
 #import <common/mesh.wgsl>
 #import <common/stroke_graph.wgsl>
@@ -12,20 +11,20 @@
 @group(3) @binding(6) var<storage, read_write> strokes: array<Stroke>;
 @group(3) @binding(7) var<storage, read_write> ribbons: array<Ribbon>;
 
-// Joints that turn more than this keep their place: 25 degrees.
+// Joints that turn by more than 25 degrees can be corners, which keep their place.
 const KEPT_COSINE: f32 = 0.906;
 
-// What turns more than this turns back: 120 degrees.
+// A path that turns by more than 120 degrees turns back.
 const CUSP_COSINE: f32 = -0.5;
 
-// Corners are told apart from folds of the mesh over so many steps.
+// A turn must persist over this many steps to be a corner and not a fold of the mesh.
 const FOLD_STEPS: f32 = 4.0;
 
-// So many elements at most are looked at to measure a turn or an average: where edges
-// are hundredths of a pixel, a part of the distance will do.
+// The most elements that are read to measure a turn or an average. If edges are hundredths
+// of a pixel long, part of the distance is enough.
 const MOST_ELEMENTS: u32 = 96u;
 
-// The draw that an element of a path belongs to.
+// The stroke set that a joint belongs to.
 fn set_of(joint: u32) -> u32 {
     var set_index = 0u;
     while set_index + 1u < MAX_STROKE_SETS && joint >= header.set_first[set_index + 1u] {
@@ -34,12 +33,12 @@ fn set_of(joint: u32) -> u32 {
     return set_index;
 }
 
-// The element of a chain at a place of a path.
+// The element that begins at a joint.
 fn element_of(joint: u32, set_index: u32) -> u32 {
     return header.layer_first[link_styles[set_index].layer] + joint - header.set_first[set_index];
 }
 
-// The element before one, or NONE where its chain begins or is clipped.
+// The previous element, or NONE if the chain begins here or is clipped.
 fn before(element: u32) -> u32 {
     let here = elements[element];
     var other = element - 1u;
@@ -53,7 +52,7 @@ fn before(element: u32) -> u32 {
     return select(other, NONE, is_cut);
 }
 
-// The element behind one, or NONE.
+// The next element, or NONE.
 fn behind(element: u32) -> u32 {
     let here = elements[element];
     var other = element + 1u;
@@ -67,7 +66,7 @@ fn behind(element: u32) -> u32 {
     return select(other, NONE, is_cut);
 }
 
-// Where the line of a point is drawn.
+// The place of a point with its wobble.
 fn drawn_place(index: u32) -> vec2f {
     return points[index].position + points[index].offset;
 }
@@ -76,15 +75,14 @@ fn length_of(element: u32) -> f32 {
     return distance(elements[element].s0, elements[element].s1);
 }
 
-// Arc length of a whole chain, in ARC_PER_PX of a pixel.
+// Arc length of a whole chain, in pixels times ARC_PER_PX.
 fn chain_arc(element: u32) -> u32 {
     let first = elements[element].first;
     let last = first + (elements[element].count & ~ON_LOOP) - 1u;
     return elements[last].arc - elements[first].arc + u32(round(length_of(last) * ARC_PER_PX));
 }
 
-// Pixels between the points of a draw's paths: more where there would be no room for
-// all of them.
+// Pixels between the points of a stroke set's paths; more if the buffer cannot hold all.
 fn step_of(set_index: u32) -> f32 {
     let room = f32(header.point_capacity - min(2u * header.joint_count, header.point_capacity));
     let total_px = f32(header.sets_per_layer) * header.total_px;

@@ -1,14 +1,15 @@
-// Strokes as wholes: where they begin and end, across the place where a loop was cut
-// too, and the equal parts that long ones are cut into.
+// The extent of whole strokes, across the seam at which a loop was cut, and the equal
+// pieces into which long strokes are cut.
 #import <common/path.wgsl>
 
-// A stroke as a whole, with what lies beyond the seam of a loop.
+// A whole stroke, including its part beyond the seam of a loop. Arcs are in pixels times
+// ARC_PER_PX; `first` and `last` are segments.
 struct Extent {
     start_arc: u32,
     end_arc: u32,
     first: u32,
     last: u32,
-    // The segment before the first and the one behind the last, or NONE.
+    // The segment before the first and the one after the last, or NONE.
     before_first: u32,
     behind_last: u32,
     is_closed: bool,
@@ -54,7 +55,7 @@ fn extent_of(stroke_index: u32) -> Extent {
     return extent;
 }
 
-// Of how many equal parts of a stroke a segment is in which.
+// The number of equal pieces of a stroke, and the piece that a segment is in.
 struct Piece {
     count: f32,
     index: f32,
@@ -68,14 +69,14 @@ fn piece_of(style: LinkStyleUniform, extent: Extent, index: u32) -> Piece {
     let count = ceil(stroke_px / style.max_length_px);
     var middle_px = 0.5 * (px_of_arc(points[index].arc - extent.start_arc)
         + px_of_arc(points[index + 1u].arc - extent.start_arc));
-    // Beyond the seam of a loop arc lengths start again.
+    // Beyond the seam of a loop, arc lengths start again.
     if middle_px < 0.0 || middle_px > stroke_px {
         middle_px = clamp(middle_px, 0.0, stroke_px);
     }
     return Piece(count, min(floor(middle_px / stroke_px * count), count - 1.0));
 }
 
-// Of a difference of arc lengths, which may be negative.
+// In pixels, for a difference of arc lengths, which can be negative.
 fn px_of_arc(arc: u32) -> f32 {
     return f32(bitcast<i32>(arc)) / ARC_PER_PX;
 }

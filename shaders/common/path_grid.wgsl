@@ -1,14 +1,15 @@
-// The points that an element gives to its path.
+// The points of a path that lie on one element: at its ends, if they are kept, and on a grid
+// of even steps along the whole chain.
 #import <common/path.wgsl>
 
 struct Grid {
-    // Whether it has a point where it begins, and one where it ends.
+    // Whether the element has a point at its start, and one at its end.
     has_start: bool,
     has_end: bool,
-    // The points of the grid on it: from the first to the one before `end`.
+    // Its points of the grid: from `first` to the one before `end`.
     first: u32,
     end: u32,
-    // Arc length of the whole chain, and how many steps it is cut into.
+    // Arc length of the whole chain, in pixels times ARC_PER_PX, and its number of steps.
     chain: f32,
     steps: f32,
 }
@@ -26,7 +27,8 @@ fn grid_of(element: u32, joint: u32, set_index: u32) -> Grid {
     let length_arc = u32(round(length_of(element) * ARC_PER_PX));
     var begin = arc;
     var until = arc + length_arc;
-    // No point so near to one that is kept that the two say nothing of a direction.
+    // Points closer than this to a kept one are left out: the pair would have no reliable
+    // direction.
     let clear = u32(0.5 * step_of(set_index) * ARC_PER_PX);
     if has_start {
         begin += clear;
@@ -44,10 +46,10 @@ fn arc_of_step(step: u32, grid: Grid) -> u32 {
     return u32(f32(step) * grid.chain / grid.steps);
 }
 
-// The first step at an arc length or behind it.
+// The first step at or after an arc length.
 fn first_step(arc: u32, grid: Grid) -> u32 {
     var step = u32(f32(arc) * grid.steps / max(grid.chain, 1.0));
-    // Rounded: at most one off.
+    // After rounding, at most one off.
     if step > 0u && arc_of_step(step - 1u, grid) >= arc {
         step -= 1u;
     }

@@ -1,11 +1,12 @@
-// Whether a place on a path is to be seen, by the depth of what was filled.
+// Whether a place on a path is visible, from the depth of the fill.
 //
-// Creases ask where they are: the fill is pushed back behind them. A contour asks
-// beside itself, off the surface that it bounds, as its fragments do where strokes are
-// not linked (stroke_over_surface.wgsl). Half of the samples of a pixel decide.
+// Creases are tested where they are, because the fill is pushed back behind them. Contours
+// are tested beside the edge, off the surface that they bound, as the fragments of strokes
+// that are not linked are (stroke_over_surface.wgsl). Half of the samples of a pixel
+// decide.
 //
-// Where a part of a picture is drawn, the depth is that of the whole, in larger pixels:
-// so all parts agree on where a stroke begins and ends.
+// In a tile, the depth is that of the whole picture, in larger pixels, so that all tiles
+// agree on where a stroke begins and ends.
 #import <common/path.wgsl>
 #import <common/silhouette.wgsl>
 #import <common/fill_depth.wgsl>
@@ -14,17 +15,18 @@
 // Rust twin: FOOT_PX in crates/edgemesh/src/oracle/stroke_vertex.rs.
 const FOOT_PX: f32 = 2.5;
 
-// As far inside an object is surely its own surface.
+// This far inside a contour lies the object's own surface.
 const INSIDE_PX: f32 = 1.5;
 
-// What hides a place so few pixels in front of it may be the surface that it is on.
+// A surface that hides a place and lies less than this in front of it can be its own.
 const GRAZED_PX: f32 = 12.0;
 
 const SEEN: u32 = 0u;
 const SEEN_ALMOST: u32 = 1u;
 const SEEN_NOT: u32 = 2u;
 
-// `direction` is that of the path there, of unit length.
+// `place` is in pixels from the middle of the tile, y up; `direction` is the unit direction
+// of the path there.
 fn visibility_at(
     place: vec2f,
     depth: f32,
@@ -32,12 +34,12 @@ fn visibility_at(
     on_contour: bool,
     set_index: u32,
 ) -> u32 {
-    // A contour's front is on its left, but in a mirror.
+    // The front face of a contour is on its left, unless the object is mirrored.
     let pixel_px = filled_pixel_px();
     let outward = pixel_px * object.mirror * vec2f(direction.y, -direction.x);
     let foot = place + select(vec2f(0.0), outward * FOOT_PX, on_contour);
     if !is_in_picture(foot) {
-        // Beyond the picture nothing is known to hide it.
+        // Outside the picture there is no depth that could hide it.
         return SEEN;
     }
     let filled = filled_depths(pixel_of(foot));
@@ -56,7 +58,7 @@ fn visibility_at(
     return select(SEEN_NOT, SEEN, is_around);
 }
 
-// How many pixels of the picture one of the depth is.
+// The size of a pixel of the depth, in pixels of the picture.
 fn filled_pixel_px() -> f32 {
     return frame.picture_px.y / vec2f(filled_size()).y;
 }
@@ -65,7 +67,7 @@ fn is_in_picture(place: vec2f) -> bool {
     return all(abs(place + middle_px()) < 0.5 * frame.picture_px);
 }
 
-// The pixel of the depth at a place in pixels from the middle of what is drawn, y up.
+// The pixel of the depth at a place in pixels from the middle of the tile, y up.
 fn pixel_of(place: vec2f) -> vec2i {
     let from_middle = place + middle_px();
     let at = vec2f(from_middle.x, -from_middle.y) + 0.5 * frame.picture_px;

@@ -1,9 +1,9 @@
-// Which corner of a stroke an edge vertex stands for.
+// The corner of a stroke that a replicated edge vertex stands for.
 #import <common/stroke_classified.wgsl>
 
-// The paper draws quads first and the caps in passes behind them, from the same
-// four vertices an edge. `part` is the pass: 0 the quad, then one triangle of an
-// end each.
+// McGuire and Hughes draw the quads first and the caps in later passes, from the same four
+// vertices per edge. `part` is the pass: 0 for the quad, then one for each triangle of an
+// end.
 fn corner_of_part(part: u32, i: u32) -> u32 {
     if part == 0u {
         return i;

@@ -1,13 +1,13 @@
-// Sums of runs of items become bases: one workgroup, and no barrier that all
-// invocations of a large dispatch would wait at. Both numbers of a sum are scanned.
+// An exclusive scan of the sums of runs, in one workgroup, so that a large dispatch waits at
+// no barrier. Both components of a sum are scanned.
 
 const SCAN_WIDTH: u32 = 256u;
 var<workgroup> lane_sums: array<vec2u, SCAN_WIDTH>;
 
 @group(3) @binding(4) var<storage, read_write> sums: array<vec2u>;
 
-// Replaces the first `count` sums by those of all before them; returns the whole to
-// every lane.
+// Replaces each of the first `count` sums by the total of those before it; returns the total
+// of all to every lane.
 fn scan_sums(lane: u32, count: u32) -> vec2u {
     let part = (count + SCAN_WIDTH - 1u) / SCAN_WIDTH;
     let first = min(lane * part, count);

@@ -1,7 +1,7 @@
 // The Sobel operator (NPRView thesis, Figure 3.2; Chiang et al., section III.C).
 #import <common/taps.wgsl>
 
-// The gradient of each channel: x is to the right, y down.
+// The gradient of each channel, x to the right and y down.
 struct Gradient {
     x: vec4f,
     y: vec4f,

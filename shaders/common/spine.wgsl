@@ -1,6 +1,5 @@
-// The spine: an edge clipped in clip space and projected to pixels from the
-// middle of what is drawn, y up. Rust twin: crates/edgemesh/src/oracle/spine.rs, which
-// knows whole pictures only.
+// The spine: an edge clipped in clip space and projected to pixels from the middle of the
+// tile, y up. Rust twin: crates/edgemesh/src/oracle/spine.rs, for whole pictures only.
 //
 //            p      left of the edge
 //            ^
@@ -8,6 +7,8 @@
 
 const MIN_LENGTH_PX: f32 = 1e-4;
 
+// The ends in pixels and their depths, the unit vector to the left, and the parameters of
+// the ends along the edge. p is zero if nothing is left to draw.
 struct Spine {
     s0: vec2f,
     s1: vec2f,
@@ -18,8 +19,8 @@ struct Spine {
     t1: f32,
 }
 
-// The parameters of what the near plane and the guard band (left, right, bottom, top,
-// at w = 1) leave; t0 > t1 where they leave nothing.
+// The part of a segment inside the near plane and the guard band (left, right, bottom,
+// top, at w = 1), as parameters t0 and t1; t0 > t1 if nothing is inside.
 fn clip_segment(c0: vec4f, c1: vec4f, band: vec4f) -> vec2f {
     var range = vec2f(0.0, 1.0);
     range = clip_by_plane(range, c0.w - c0.z, c1.w - c1.z);
@@ -65,7 +66,7 @@ fn project_spine(c0: vec4f, c1: vec4f, viewport_px: vec2f, band: vec4f) -> Spine
     return spine;
 }
 
-// Exact at both ends, which mix() need not be.
+// Exact at both ends; mix() need not be.
 fn lerp(c0: vec4f, c1: vec4f, t: f32) -> vec4f {
     return c0 * (1.0 - t) + c1 * t;
 }
@@ -74,11 +75,11 @@ fn to_pixels(clip: vec4f, viewport_px: vec2f) -> vec2f {
     return clip.xy / clip.w * (viewport_px * 0.5);
 }
 
-// The unit direction in which a normal points on the screen, or zero.
+// The unit direction of a normal on the screen, or zero.
 fn screen_normal(clip: vec4f, normal_clip: vec4f, viewport_px: vec2f) -> vec2f {
     let moved = normal_clip.xy * clip.w - clip.xy * normal_clip.w;
     let scaled = moved * viewport_px;
-    // Divided by the larger part first: the square of a tiny vector is zero.
+    // Divided by the larger component first: the square of a tiny vector is zero.
     let largest = max(abs(scaled.x), abs(scaled.y));
     if largest <= 0.0 {
         return vec2f(0.0);

@@ -1,5 +1,5 @@
-// The paper's path (section 3): every edge goes through the vertex shader, and
-// what is no feature is moved behind the near plane.
+// The method of McGuire and Hughes (section 3): every edge goes through the vertex shader,
+// which moves edges that are not drawn behind the near plane.
 #import <common/stroke_ink.wgsl>
 
 fn classified(edge: EdgeGeometry, word: u32, faces: EdgeFaces, corner: u32) -> StrokeVarying {

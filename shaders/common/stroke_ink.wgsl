@@ -1,20 +1,20 @@
-// What the fragments of all strokes have in common.
+// Varyings and ink of all strokes.
 #import <common/stroke_style.wgsl>
 
-// Whether the brush is laid on; without it strokes are solid.
+// Whether strokes have a brush; otherwise they are solid.
 override IS_TEXTURED: bool = false;
 
 @group(1) @binding(1) var brush: texture_2d<f32>;
 @group(1) @binding(2) var brush_sampler: sampler;
 
-// What every fragment needs.
+// The input of every fragment shader of strokes.
 struct Varying {
     @builtin(position) position: vec4f,
     @location(0) uv: vec2f,
     @location(1) opacity: f32,
 }
 
-// What those need as well that ask at the edge whether it is visible.
+// The input of fragment shaders that test visibility at the edge; see StrokeVertex.
 struct StrokeVarying {
     @builtin(position) position: vec4f,
     @location(0) uv: vec2f,
@@ -23,8 +23,8 @@ struct StrokeVarying {
     @location(3) over_px: f32,
 }
 
-// Values across a stroke and its opacity have 16 bits between expansion and
-// drawing, so they have them everywhere.
+// v and opacity have 16 bits between expansion and drawing, so they are rounded to 16 bits
+// in every case.
 fn varying_of(vertex: StrokeVertex) -> StrokeVarying {
     let rounded = unpack2x16unorm(pack2x16unorm(vec2f(vertex.v, vertex.opacity)));
     return StrokeVarying(
@@ -36,7 +36,7 @@ fn varying_of(vertex: StrokeVertex) -> StrokeVarying {
     );
 }
 
-// Nothing where a clip plane cuts away what a fragment, in pixels and depth, lies on.
+// Transparent if a clip plane cuts the fragment away; `position` is in pixels and depth.
 fn cut(position: vec4f, color: vec4f) -> vec4f {
     if is_cut_away(world_of(position.xy, position.z)) {
         return vec4f(0.0);
@@ -47,8 +47,8 @@ fn cut(position: vec4f, color: vec4f) -> vec4f {
 fn ink(uv: vec2f, opacity: f32) -> vec4f {
     var coverage = opacity;
     if IS_TEXTURED {
-        // A brush keeps its aspect, so its size across says how small it is drawn.
-        // Along a stroke it may be sheared (Figure 9), which must not blur it.
+        // The brush keeps its aspect, so its size across the stroke is enough. Along the
+        // stroke it can be sheared (Figure 9), which must not blur it.
         let per_px = length(vec2f(dpdx(uv.y), dpdy(uv.y)));
         let level = log2(max(per_px * f32(textureDimensions(brush).y), 1.0));
         coverage *= textureSampleLevel(brush, brush_sampler, uv, level).a;

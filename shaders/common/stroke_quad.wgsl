@@ -8,15 +8,15 @@
 //   0 ---------------- 1    s - p
 #import <common/spine.wgsl>
 
-// Where a stroke lies on its spine.
+// Placements of a stroke relative to its spine.
 const CENTRED: u32 = 0u;
 const OUTSIDE: u32 = 1u;
 const INSIDE: u32 = 2u;
-// Contours outside, everything else centerd.
+// Contours outside, all other lines centered.
 const AUTOMATIC: u32 = 3u;
 
-// How far the near side (corners 0 and 1) and the far side (2 and 3) lie from
-// the spine along p, for a stroke of this width.
+// The offsets along p of the near side (corners 0 and 1) and of the far side (corners 2
+// and 3).
 fn quad_offsets(placement: u32, outside: f32, width_px: f32) -> vec2f {
     if placement == CENTRED {
         return vec2f(-0.5, 0.5) * width_px;

@@ -1,12 +1,13 @@
-// An edge as a stroke on the screen: what all of its vertices have in common.
-// Rust twin, with the reasons: crates/edgemesh/src/oracle/stroke_segment.rs.
+// An edge as a stroke on the screen: the values that all of its vertices share (McGuire and
+// Hughes, sections 3 and 4). Rust twin, with the reasons:
+// crates/edgemesh/src/oracle/stroke_segment.rs.
 #import <common/feature.wgsl>
 #import <common/stroke_cap.wgsl>
 
 const EDGE_ON_FACING: f32 = 0.05;
 const LIFTED_FACING: f32 = 0.2;
 
-// Kinds of lines and of their ends.
+// Kinds of lines, with their ends.
 const THIN: u32 = 0u;
 const QUAD: u32 = 1u;
 const QUAD_AND_CAPS: u32 = 2u;
@@ -20,55 +21,56 @@ const SCREEN_SPACE: u32 = 1u;
 struct ClipEdge {
     c0: vec4f,
     c1: vec4f,
-    // Third vertices of face A and B; c3 = c0 where there is no B.
+    // Third vertices of face A and face B; c3 = c0 if there is no face B.
     c2: vec4f,
     c3: vec4f,
     n0: vec4f,
     n1: vec4f,
-    // How squarely faces A and B look at the eye, 0 to 1.
+    // Absolute cosines between the line of sight and the normals of faces A and B.
     facing: vec2f,
-    // How far from the eye start and end are, along the line of sight.
+    // Distances of start and end from the eye, along the line of sight.
     distance: vec2f,
     r: f32,
 }
 
 struct StrokeShape {
     viewport_px: vec2f,
-    // The object's origin on the screen.
+    // The object's origin on the screen, from the middle of the tile, y up.
     origin_px: vec2f,
-    // Where strokes begin to fade, and where nothing is left; equal for never.
+    // Distances from the eye at which strokes begin and finish fading; equal for no fading.
     fade: vec2f,
     width: f32,
-    // Pixels a unit of the world has at w = 1.
+    // Pixels per world unit at w = 1.
     px_per_unit: f32,
-    // Length of the brush over its height.
+    // Length of the brush divided by its height.
     brush_aspect: f32,
-    // -1 where the object is seen as in a mirror, else 1.
+    // -1 if the object is mirrored, else 1.
     mirror: f32,
     kind: u32,
     placement: u32,
     parameterization: u32,
-    // Whether the width is in units of the world, else in pixels.
+    // Whether the width is in world units instead of pixels.
     is_world_width: bool,
-    // Where edges are clipped at the sides: left, right, bottom, top, at w = 1.
+    // Where edges are clipped: left, right, bottom, top, at w = 1.
     guard_band: vec4f,
 }
 
 struct Segment {
     spine: Spine,
     is_drawn: bool,
+    // Unit directions of the vertex normals on the screen.
     m0: vec2f,
     m1: vec2f,
-    // +1 where the outside of a contour is the side of p, -1 where it is the
-    // other; 0 for what is no contour.
+    // +1 if the outside of a contour is on the side of p, -1 if on the other; 0 for other
+    // lines.
     outside: f32,
-    // How far the near and the far side lie along p, at start and end.
+    // Offsets of the near side and of the far side along p, at start and end.
     near_px: vec2f,
     far_px: vec2f,
-    // How much nearer to the eye than the spine the two sides lie.
+    // Rise of the two sides above the spine toward the eye, in depth.
     near_rise: f32,
     far_rise: f32,
-    // On which side the caps are, at start and end.
+    // The side of the caps at start and end: +1 or -1.
     cap_side: vec2f,
     // u along the spine and the near side, and along the far one.
     u: vec2f,
@@ -123,17 +125,17 @@ fn stroke_segment(edge: ClipEdge, shape: StrokeShape, bits: u32) -> Segment {
             segment.u_far = stretched_u(segment);
         }
     }
-    // No face lies outside of a contour.
+    // No face lies outside a contour.
     if placement != OUTSIDE || (bits & CONTOUR) == 0u {
         segment.far_rise = quad_rise(edge, spine, shape.viewport_px, segment.far_px);
     }
     return segment;
 }
 
-// +1 where the outside is the side of p, else -1.
+// +1 if the outside is on the side of p, else -1.
 fn outside_of(segment: Segment, shape: StrokeShape, bits: u32) -> f32 {
     if (bits & CONTOUR) != 0u {
-        // p lies left of the edge, and so does face A where it looks at the eye.
+        // p is on the left of the edge, and so is face A if it faces the eye.
         return select(1.0, -1.0, (bits & A_FACES) != 0u) * shape.mirror;
     }
     return stroke_sign(dot(segment.m0, segment.spine.p));
@@ -160,10 +162,10 @@ fn opacity_at(distance: f32, shape: StrokeShape) -> f32 {
     return clamp((shape.fade.y - distance) / (shape.fade.y - shape.fade.x), 0.0, 1.0);
 }
 
-// u at start and end (section 4).
+// u at start and end (section 4). r is the edge's random scalar.
 fn stroke_u(spine: Spine, shape: StrokeShape, side: f32, width_px: f32, r: f32) -> vec2f {
     let along = spine.s1 - spine.s0;
-    // The paper's w, in repeats of the brush a pixel.
+    // The paper's w, in repetitions of the brush per pixel.
     let w = side / (width_px * shape.brush_aspect);
     if shape.parameterization == OBJECT_SPACE {
         return vec2f(r, r + w * length(along));
@@ -174,8 +176,8 @@ fn stroke_u(spine: Spine, shape: StrokeShape, side: f32, width_px: f32, r: f32) 
     return w * (vec2f(spine.s0.x, spine.s1.x) - shape.origin_px.x);
 }
 
-// u at the far corners of a half quad whose brush is stretched over its caps as
-// well (Figure 9).
+// u at the far corners of a half quad, whose brush is also stretched over its caps
+// (Figure 9).
 fn stretched_u(segment: Segment) -> vec2f {
     let spine = segment.spine;
     let a = select(cap_length(spine.p, segment.m0, segment.far_px.x, -1.0), 0.0, spine.t0 > 0.0);
@@ -185,7 +187,7 @@ fn stretched_u(segment: Segment) -> vec2f {
     return segment.u.x + run * vec2f(a, a + b) / (a + b + c);
 }
 
-// From the rim of the quad to the tip of its cap, where it has one.
+// Pixels from the rim of the quad to the tip of its cap; 0 without a cap.
 fn cap_length(p: vec2f, m: vec2f, far_px: f32, forward: f32) -> f32 {
     let side = stroke_sign(far_px);
     if !cap_fills_gap(p, m, side, forward) {
@@ -195,8 +197,8 @@ fn cap_length(p: vec2f, m: vec2f, far_px: f32, forward: f32) -> f32 {
     return length(tip - p * far_px);
 }
 
-// How much nearer than the edge the side of a stroke must lie that is this far
-// along p at start and end.
+// The rise in depth of the side of a stroke that lies `side_px` along p at start and end: as
+// much as the adjacent faces rise under it.
 fn quad_rise(edge: ClipEdge, spine: Spine, viewport_px: vec2f, side_px: vec2f) -> f32 {
     let side = stroke_sign(side_px.x + side_px.y);
     let reach_px = max(abs(side_px.x), abs(side_px.y));
@@ -209,7 +211,7 @@ fn quad_rise(edge: ClipEdge, spine: Spine, viewport_px: vec2f, side_px: vec2f) -
     );
 }
 
-// A point of the face for its third vertex, in front of the near plane.
+// A point of the face in front of the near plane: its third vertex, if that is in front.
 fn in_front(middle: vec4f, apex: vec4f) -> vec4f {
     let middle_distance = middle.w - middle.z;
     let apex_distance = apex.w - apex.z;
@@ -219,7 +221,7 @@ fn in_front(middle: vec4f, apex: vec4f) -> vec4f {
     return lerp(middle, apex, 0.5 * middle_distance / (middle_distance - apex_distance));
 }
 
-// How much nearer the face with the point `apex` lies, reach_px away.
+// The rise in depth of the face with the point `apex`, reach_px away from the edge.
 fn rise_toward_eye(
     spine: Spine,
     apex: vec4f,
@@ -244,7 +246,7 @@ fn rise_toward_eye(
     return max(rise * min(reach_px / distance_px, 1.0) * share, 0.0);
 }
 
-// How much of a face's rise counts: nothing of a narrow wall seen edge on.
+// The part of a face's rise that counts; none for a narrow face seen edge-on.
 fn lift_share(facing: f32, reaches_wide: f32) -> f32 {
     let seen = (facing - EDGE_ON_FACING) / (LIFTED_FACING - EDGE_ON_FACING);
     let wide = 0.5 * reaches_wide - 1.0;

@@ -1,4 +1,4 @@
-// The style of one draw of strokes, and which of its edges it draws.
+// The style of one draw of strokes.
 #import <common/edge_geometry.wgsl>
 #import <common/draw_arguments.wgsl>
 
@@ -8,21 +8,21 @@ struct StrokeUniform {
     color: vec4f,
     fade: vec2f,
     width: f32,
-    // Length of the brush over its height.
+    // Length of the brush divided by its height.
     brush_aspect: f32,
     kind: u32,
     placement: u32,
     parameterization: u32,
-    // 1 where the width is in units of the world, 0 in pixels.
+    // 1 if the width is in world units, 0 if in pixels.
     is_world_width: u32,
-    // The layer whose edges are drawn, and the draw's place among all.
+    // The layer whose edges are drawn, and the index of the stroke set.
     layer: u32,
     set_index: u32,
-    // Indices an edge.
+    // Indices per edge.
     index_count: u32,
-    // 1 where edges that their own solid hides are drawn.
+    // 1 if edges hidden by their own solid are drawn.
     shows_hidden: u32,
-    // The classes, for vertex shaders that detect.
+    // For vertex shaders that detect features.
     classes: ClassTable,
 }
 
@@ -45,12 +45,12 @@ fn stroke_shape() -> StrokeShape {
     );
 }
 
-// Whether the draw passes over an edge: one that its own solid hides.
+// Whether the draw leaves out an edge because its own solid hides it.
 fn is_passed_over(bits: u32) -> bool {
     return (bits & BEHIND_SOLID) != 0u && stroke.shows_hidden == 0u;
 }
 
-// The corner that index i of an edge names. Rust twin: LineKind::indices.
+// The corner for index i of an edge. Rust twin: LineKind::indices.
 fn corner_of(i: u32) -> u32 {
     if stroke.kind == THIN || i < 3u {
         return i;

@@ -1,30 +1,30 @@
-// One vertex of a stroke: of a thin line, a quad, a cap, a half disk or a fin.
+// One vertex of a stroke: of a thin line, a quad, a cap, a half disk (McGuire and Hughes,
+// section 3) or a fin (Card and Mitchell, Listing 1).
 // Rust twin: crates/edgemesh/src/oracle/stroke_vertex.rs.
 #import <common/stroke_segment.wgsl>
 
-// Behind the near plane, where nothing is seen (section 3.2).
+// Behind the near plane, where nothing is drawn (section 3.2).
 const BEHIND: vec3f = vec3f(0.0, 0.0, -1.0);
 
-// Vertices an end of a quad has besides those of the quad.
+// Additional vertices for each end of a quad.
 const CAP_VERTICES: u32 = 3u;
 const DISK_VERTICES: u32 = DISK_STEPS + 2u;
 
-// So far outside of a contour nothing of its own surface is left, whatever
-// sample of the pixel is asked; and one pixel more, by which the fill is pushed
-// back, so that an edge does not escape what hides it closely.
+// This far outside a contour, no sample of a pixel lies on its own surface. Includes one
+// pixel for the push of the fill, so that a surface close in front still hides the edge.
 const FOOT_PX: f32 = 2.5;
 
 struct StrokeVertex {
-    // Of the clip volume with w = 1, so that everything is linear on the screen.
+    // In clip space with w = 1, so that everything is linear on the screen.
     position: vec3f,
     u: f32,
     v: f32,
     opacity: f32,
-    // Where to ask whether a contour is visible: beside it, off the surface, in
-    // pixels from the middle of the picture; with the depth of the edge there.
+    // Where a contour is tested for visibility: beside it, off the surface, in pixels from
+    // the middle of the tile, y up; z is the depth of the edge.
     foot: vec3f,
-    // How far the vertex lies over the surface that a contour bounds, in pixels;
-    // negative off it, 0 for what is no contour.
+    // How far the vertex lies over the surface that a contour bounds, in pixels; negative
+    // off it, 0 for other lines.
     over_px: f32,
 }
 
@@ -61,7 +61,7 @@ fn segment_vertex(segment: Segment, shape: StrokeShape, corner: u32) -> StrokeVe
     }
     let per_end = select(DISK_VERTICES, CAP_VERTICES, shape.kind == QUAD_AND_CAPS);
     let is_end = corner >= 4u + per_end;
-    // A clipped end is no vertex of the mesh, and nobody meets it there.
+    // A clipped end is not a vertex of the mesh, and needs no cap.
     if select(spine.t0 > 0.0, spine.t1 < 1.0, is_end) {
         return culled_vertex();
     }
@@ -76,7 +76,7 @@ fn cap_vertex(segment: Segment, shape: StrokeShape, is_end: bool, i: u32) -> Str
     let side = of_end(segment.cap_side, is_end);
     let m = select(segment.m0, segment.m1, is_end);
     let j = cap_corner(side, i);
-    // A cap that is left out has no area.
+    // A cap that is left out gets no area.
     if j == 0u || !cap_fills_gap(segment.spine.p, m, side, select(-1.0, 1.0, is_end)) {
         return at_end(segment, shape, is_end, vec2f(0.0), 0.0, segment.v_spine);
     }
@@ -109,7 +109,7 @@ fn disk_vertex(segment: Segment, shape: StrokeShape, is_end: bool, i: u32) -> St
     return at_end(segment, shape, is_end, offset, rise, v);
 }
 
-// A vertex this far from one end of the spine.
+// A vertex at an offset from one end of the spine.
 fn at_end(
     segment: Segment,
     shape: StrokeShape,
@@ -132,8 +132,8 @@ fn of_end(values: vec2f, is_end: bool) -> f32 {
     return select(values.x, values.y, is_end);
 }
 
-// A fin (Card and Mitchell, Listing 1): a quad that stands on the edge along the
-// vertex normals. Corners as those of the quad, 2 and 3 pushed out.
+// A fin (Card and Mitchell, Listing 1): a quad that stands on the edge along the vertex
+// normals. Corners are those of the quad; 2 and 3 are pushed out.
 fn fin_vertex(edge: ClipEdge, shape: StrokeShape, corner: u32) -> StrokeVertex {
     let culled = culled_vertex();
     let spine = project_spine(edge.c0, edge.c1, shape.viewport_px, shape.guard_band);
@@ -160,7 +160,7 @@ fn fin_vertex(edge: ClipEdge, shape: StrokeShape, corner: u32) -> StrokeVertex {
     return StrokeVertex(clip.xyz / clip.w, u, v, opacity, vec3f(0.0), 0.0);
 }
 
-// In units of the world; scaled by the distance, a width in pixels stays one.
+// In world units; a width in pixels is scaled by the distance.
 fn fin_height(clip: vec4f, shape: StrokeShape) -> f32 {
     if shape.is_world_width {
         return shape.width;

@@ -1,21 +1,22 @@
-// The surfaces of a scene: what vertex programs are given, and what fragment programs
-// are given by the vertex program `surface:surface`.
+// The surfaces of a scene: the inputs of vertex programs, and those of fragment programs
+// that follow the vertex program `surface:surface`.
 // Rust twins: SurfaceRange in crates/viewer/src/pass_graph/surface.rs, MaterialUniform
 // in material.rs.
 #import <common/frame.wgsl>
 
 struct SurfaceRange {
     material: u32,
-    // Region ids from 1 on, different for each object, material and group.
+    // Region ids, counted from 1: different for each object, for each material and for each
+    // group of an object.
     object_region: u32,
     material_region: u32,
     group_region: u32,
-    // 1 where the model has texture coordinates.
+    // 1 if the model has texture coordinates.
     has_texcoords: u32,
     padding: array<u32, 3>,
 }
 
-// For the Phong model.
+// The Phong model's colors (NPRView thesis, Equation 4.1).
 struct MaterialUniform {
     ambient: vec4f,
     // w is the opacity.
@@ -37,7 +38,7 @@ struct SurfaceVertex {
 }
 
 struct SurfaceVarying {
-    // The same depth in every pass, so that a second one can ask for it.
+    // Invariant, so that a later pass gets the same depth.
     @builtin(position) @invariant position: vec4f,
     @location(0) point_in_world: vec3f,
     @location(1) normal_in_world: vec3f,
@@ -46,14 +47,12 @@ struct SurfaceVarying {
     @location(4) point_in_object: vec3f,
 }
 
-// What a fragment program knows of its fragment.
+// The surface at a fragment: a point and unit vectors, in world space.
 struct Surface {
     point: vec3f,
-    // Of unit length, on the side that is seen.
+    // On the visible side.
     normal: vec3f,
-    // To the eye, of unit length.
     to_eye: vec3f,
-    // To the light, of unit length.
     to_light: vec3f,
 }
 
@@ -62,21 +61,21 @@ fn surface_varying(vertex: SurfaceVertex) -> SurfaceVarying {
         object.clip_from_object * vec4f(vertex.position, 1.0),
         (object.world_from_object * vec4f(vertex.position, 1.0)).xyz,
         (object.world_from_normal * vec4f(vertex.normal, 0.0)).xyz,
-        // (0, 0) is the lower left corner of a model's picture.
+        // Models count from the lower left corner of an image, textures from the upper left.
         vec2f(vertex.texcoord.x, 1.0 - vertex.texcoord.y),
         vertex.material_range,
         vertex.position,
     );
 }
 
-// A fragment of a surface; what a clip plane cuts away is not drawn. Sides turned away
-// are lit as if they were the front ones.
+// The surface at a fragment, discarded if a clip plane cuts it away. Inner sides are lit like
+// outer ones.
 fn surface_at(at: SurfaceVarying, is_front: bool) -> Surface {
     cut(at);
     return surface_of(at.point_in_world, side_seen(is_front) * at.normal_in_world);
 }
 
-// 1 where the outside of a surface is seen, -1 where its inside is.
+// 1 if the outside of a surface is visible, -1 if its inside is.
 fn side_seen(is_front: bool) -> f32 {
     return select(-1.0, 1.0, is_front == (object.mirror > 0.0));
 }
@@ -87,7 +86,7 @@ fn surface_of(point: vec3f, normal: vec3f) -> Surface {
     return Surface(point, unit(normal), unit(to_eye), unit(to_light));
 }
 
-// Draws nothing where a clip plane cuts.
+// Discards the fragment if a clip plane cuts it away.
 fn cut(at: SurfaceVarying) {
     if is_cut_away(at.point_in_world) {
         discard;

@@ -1,4 +1,4 @@
-// Neighbors of a texel, those of the rim standing for what lies beyond.
+// Neighbors of a texel; beyond the rim of a texture, its outermost texels repeat.
 
 // The cross of the thesis (Figure 3.5): left, right, below, above.
 const CROSS: array<vec2i, 4> = array(vec2i(-1, 0), vec2i(1, 0), vec2i(0, 1), vec2i(0, -1));
@@ -8,12 +8,12 @@ const CROSS: array<vec2i, 4> = array(vec2i(-1, 0), vec2i(1, 0), vec2i(0, 1), vec
 const DIAGONALS: array<vec2i, 4> =
     array(vec2i(1, 1), vec2i(-1, 1), vec2i(-1, -1), vec2i(1, -1));
 
-// A texel within a texture of a size.
+// The nearest texel inside a texture of this size.
 fn within(texel: vec2i, size: vec2u) -> vec2i {
     return clamp(texel, vec2i(0), vec2i(size) - 1);
 }
 
-// The texel of a texture of some size at a place of the target.
+// The texel at a texture coordinate.
 fn texel_at(texcoord: vec2f, size: vec2u) -> vec2i {
     return within(vec2i(floor(texcoord * vec2f(size))), size);
 }

@@ -1,9 +1,9 @@
-// What one view makes of all runs of edges of an object, and its counts. Rust
-// twins: RunState and Tally in crates/strokes/src/view/live_lists.rs.
+// The state of runs of edges in one view, and the counts of the view. Rust twins: RunState
+// and Tally in crates/strokes/src/view/live_lists.rs.
 #import <common/line_class.wgsl>
 #import <common/object_limits.wgsl>
 
-// Edges an invocation looks at. Rust twin: EDGES_PER_RUN in crates/strokes/src/mesh/layout.rs.
+// Edges per invocation. Rust twin: EDGES_PER_RUN in crates/strokes/src/mesh/layout.rs.
 const EDGES_PER_RUN: u32 = 64u;
 
 struct RunState {
@@ -15,7 +15,7 @@ struct RunState {
     live: vec2u,
     // Contours of this view.
     contour: vec2u,
-    // 1 where the winding of two faces clashes: their contours are elsewhere.
+    // 1 if the winding of two faces clashes, so that the cone cannot rule out contours.
     has_clash: u32,
     padding: u32,
 }
@@ -26,7 +26,6 @@ struct Tally {
     stroke_count: u32,
     // Edges of each line class.
     features: array<atomic<u32>, LINE_CLASS_COUNT>,
-    // Where the edges of each layer begin in the live list; the last is their
-    // number.
+    // The first edge of each layer in the live list; the last value is the number of edges.
     layer_first: array<u32, MAX_LAYERS + 1u>,
 }

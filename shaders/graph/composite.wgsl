@@ -1,13 +1,13 @@
-// The coverage of up to four draws of strokes, laid over the picture once: overlaps
-// within a draw are no darker than one stroke.
+// Lays the coverage of up to four draws of strokes over the picture, so that overlaps within
+// a draw are no darker than one stroke.
 
 // Rust twin: CompositeUniform in crates/strokes/src/draw/coverage.rs.
 struct CompositeUniform {
-    // Premultiplied, in the order in which they are laid.
+    // Premultiplied, in drawing order.
     colors: array<vec4f, 4>,
 }
 
-// Channels that are in use.
+// Channels in use.
 override CHANNEL_COUNT: u32 = 4u;
 
 @group(0) @binding(0) var<uniform> composite: CompositeUniform;

@@ -1,12 +1,12 @@
-// Where the nodes of each layer of each chunk begin, and with it how much the passes
-// that follow have to do. One invocation: layers and chunks are few.
+// The first node of each layer of each chunk, and the workgroup counts of the passes that
+// follow. One invocation is enough, because layers and chunks are few.
 #import <common/view_runs.wgsl>
 #import <common/stroke_graph.wgsl>
 
 @group(1) @binding(0) var<uniform> graph: GraphUniform;
 @group(3) @binding(0) var<storage, read_write> header: GraphHeader;
 @group(3) @binding(1) var<storage, read_write> tallies: array<Tally>;
-// Nodes that each chunk may have; then, of each chunk, where its layers begin.
+// The most nodes of each chunk; then the first node of each layer, chunk by chunk.
 @group(3) @binding(2) var<storage, read_write> bases: array<u32>;
 @group(3) @binding(3) var<storage, read_write> arguments: array<u32>;
 

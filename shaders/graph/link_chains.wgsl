@@ -1,34 +1,33 @@
-// Nodes with successors become chains, one element after another, by pointer
-// jumping: after k rounds each node knows all within 4^k steps.
+// Orders nodes with successors into chains by pointer jumping (Wyllie 1979): after k rounds,
+// each node has searched 4^k steps ahead.
 //
-// An open chain is told by its last node, a loop by its smallest. Both are an anchor
-// that all nodes of the chain come to know, with the steps to it; so one set of
-// rounds finds the chains, the order in each and where loops are cut, and a node
-// that has met the last one of its chain has nothing more to learn.
+// The anchor of an open chain is its last node, that of a loop its smallest node. Every node
+// learns its anchor and the steps to it, so one set of rounds finds the chains, the order in
+// each, and the place where each loop is cut.
 //
 //   anchor    tail                    smallest
 //   open      a -> b -> c             c: 0 steps, b: 1, a: 2 and no node before it
 //   loop      a -> b -> c -> a        a: 0 steps, c: 1, b: 2 = count - 1
 //
-// CPU twin: LayerLinks::chains in crates/edgemesh/src/oracle/layer_chain.rs, by
-// walking. Rejected: two sets of rounds, one to find where loops are cut and one for
-// the order. Rounds after the first in which nothing changed only copy.
+// After a round in which nothing changed, later rounds only copy. CPU twin, by walking:
+// LayerLinks::chains in crates/edgemesh/src/oracle/layer_chain.rs.
+// Rejected: two sets of rounds, one to find where loops are cut and one for the order.
 #import <common/feature.wgsl>
 #import <common/stroke_graph.wgsl>
 #import <common/scan.wgsl>
 
-// The number of the round, counted from 0.
+// x is the number of the round, counted from 0.
 @group(1) @binding(0) var<uniform> round_number: vec4u;
 @group(3) @binding(0) var<storage, read_write> header: GraphHeader;
 @group(3) @binding(1) var<storage, read_write> nodes: array<LinkNode>;
 @group(3) @binding(2) var<storage, read_write> elements: array<Element>;
-// 1 more than the node before each, or 0.
+// The previous node of each node plus 1, or 0.
 @group(3) @binding(3) var<storage, read_write> previous: array<u32>;
 @group(3) @binding(5) var<storage, read_write> state: array<ChainState>;
 @group(3) @binding(6) var<storage, read_write> next_state: array<ChainState>;
 @group(3) @binding(7) var<storage, read_write> chains: array<Chain>;
 
-// Looks up the node of the edge that follows.
+// Replaces the next edge of each node by its node.
 @compute @workgroup_size(GROUP)
 fn resolve_links(@builtin(global_invocation_id) id: vec3u) {
     let node = id.x;
@@ -53,8 +52,8 @@ fn resolve_links(@builtin(global_invocation_id) id: vec3u) {
     state[node] = first;
 }
 
-// The node of an edge among those of a layer, which are in the order of edges.
-// Contours follow contours, and nothing else does.
+// The node of an edge, by binary search in a layer, whose nodes are sorted by edge.
+// Contours are followed only by contours, other edges only by other edges.
 fn find_node(edge: u32, is_contour: bool, first: u32, end: u32) -> u32 {
     if edge == NO_NODE {
         return NO_NODE;
@@ -102,7 +101,7 @@ fn jump_chains(@builtin(global_invocation_id) id: vec3u) {
     next_state[node] = known;
 }
 
-// The elements of the chain that begins with a node; 0 where none does.
+// The number of elements of the chain that begins at a node; 0 if none does.
 fn chain_length(node: u32) -> u32 {
     let known = state[node];
     if (known.anchor & ON_LOOP) == 0u {
@@ -172,7 +171,7 @@ fn place_elements(@builtin(global_invocation_id) id: vec3u) {
     );
 }
 
-// What is clipped as a whole has no length.
+// In pixels times ARC_PER_PX; 0 if the element is clipped as a whole.
 fn arc_length(element: u32) -> u32 {
     return u32(round(distance(elements[element].s0, elements[element].s1) * ARC_PER_PX));
 }

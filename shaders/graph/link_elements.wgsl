@@ -1,10 +1,9 @@
-// Every drawn edge of a chunk as a node of the stroke graph: in the direction of its
-// chain, projected, and with the edge that follows it.
+// Makes each live edge of a chunk a node of the stroke graph: projected, in the direction of
+// its chain, with the edge that follows it.
 //
-// Contours turn through the fan of front faces around their end until they meet the
-// next contour; every other edge is followed as the preprocessor chained it. CPU
-// twins: successor in crates/edgemesh/src/oracle/contour_chain.rs, following in
-// layer_chain.rs.
+// The successor of a contour is the next contour in the fan of front faces around its end;
+// other edges follow the chains of the preprocessor. CPU twins: successor in
+// crates/edgemesh/src/oracle/contour_chain.rs, following in layer_chain.rs.
 #import <common/edge_source.wgsl>
 #import <common/view_runs.wgsl>
 #import <common/stroke_graph.wgsl>
@@ -17,7 +16,8 @@ const REVERSED: u32 = 0x80000000u;
 @group(1) @binding(0) var<uniform> graph: GraphUniform;
 @group(3) @binding(0) var<storage, read> live: array<u32>;
 @group(3) @binding(1) var<storage, read> runs: array<RunState>;
-// Three words an edge, as link_table.rs has them.
+// Three words per edge: the next half-edge of each of its two, and its successor in the
+// preprocessor's chain; see link_table.rs.
 @group(3) @binding(2) var<storage, read> links: array<u32>;
 @group(3) @binding(3) var<storage, read_write> tallies: array<Tally>;
 @group(3) @binding(4) var<storage, read> bases: array<u32>;
@@ -49,7 +49,7 @@ fn link_node(entry: u32, edge: u32) -> LinkNode {
     var following = chain & NO_NODE;
     var is_reversed = (chain & REVERSED) != 0u;
     if is_contour {
-        // The front face lies on the left: face A does of v0 to v1.
+        // The front face must be on the left; face A is on the left of v0 to v1.
         following = next_contour(2u * edge + select(1u, 0u, a_faces));
         is_reversed = !a_faces;
     }
@@ -70,7 +70,7 @@ fn link_node(entry: u32, edge: u32) -> LinkNode {
         spine.z1,
         mesh_edge(edge)
             | (entry & (CONTOUR | BEHIND_SOLID))
-            // One of its own faces hides a contour in a groove.
+            // A contour in a groove is hidden by one of its own faces.
             | select(0u, BEHIND_SOLID, is_contour && is_groove(edge_word(edge)))
             | select(0u, BACKWARD, is_reversed),
         following
@@ -80,7 +80,7 @@ fn link_node(entry: u32, edge: u32) -> LinkNode {
     );
 }
 
-// The contour that follows the half-edge of another one, or NO_NODE.
+// The contour that follows the one with this half-edge, or NO_NODE.
 fn next_contour(half_edge: u32) -> u32 {
     var at = link_of(half_edge);
     // A walk meets each half-edge at most once.
@@ -100,7 +100,7 @@ fn link_of(half_edge: u32) -> u32 {
     return links[3u * (half_edge >> 1u) + (half_edge & 1u)];
 }
 
-// The index in the mesh of an edge that the chunk knows.
+// The index in the mesh of an edge of the chunk, or of its rim.
 fn mesh_edge(edge: u32) -> u32 {
     if edge < chunk.edge_count {
         return chunk.first_run * EDGES_PER_RUN + edge;

@@ -1,10 +1,10 @@
-// Where paths turn, and how many points each element gives to them.
+// Finds the corners of paths, and counts the points on each element.
 //
-// Mesh contours zigzag from edge to edge, so a turn is measured over some pixels to
-// both sides and only the sharpest joint within them is a corner. Corners keep their
-// place; between them a path gets evenly spaced points, however small or large the
-// edges are. Contours fold back on themselves too, for a few pixels: what is a turn
-// over one step and none over four is such a fold, and no corner.
+// Mesh contours zigzag from edge to edge, so a turn is measured over some pixels on both
+// sides, and only the sharpest joint within them is a corner. Corners keep their place;
+// between them, a path gets evenly spaced points, whatever the size of the edges. Contours
+// also fold back on themselves for a few pixels: a turn over one step that is no turn over
+// four is such a fold, not a corner.
 //
 //   edges    /\/\_/\/\/\|      measured over the step, one corner
 //                       |
@@ -30,7 +30,7 @@ fn measure_turns(@builtin(global_invocation_id) id: vec3u) {
     if near < KEPT_COSINE {
         var far = turn_cosine(element, FOLD_STEPS * step_px);
         if far < KEPT_COSINE && near < CUSP_COSINE {
-            // What turns back on itself is a corner if it does not turn again soon.
+            // A path that turns back has a corner there, unless it turns again soon.
             far = turn_cosine(element, 2.0 * FOLD_STEPS * step_px);
         }
         joints[joint].cosine = max(near, far);
@@ -49,7 +49,7 @@ fn turn_cosine(element: u32, reach_px: f32) -> f32 {
     return dot(back, ahead) / lengths;
 }
 
-// The place so many pixels before an element begins, or where its path does.
+// The place reach_px before the start of an element, or the start of its path.
 fn place_before(element: u32, reach_px: f32) -> vec2f {
     var left = reach_px;
     var at = element;
@@ -99,7 +99,7 @@ fn find_corners(@builtin(global_invocation_id) id: vec3u) {
         kind |= BREAK;
     } else if is_corner(element, joint, step_of(set_index)) {
         kind |= CORNER;
-        // A contour that turns back is another one from there on: it has a cusp.
+        // A contour that turns back has a cusp, where another stroke begins.
         let is_cusp = joints[joint].cosine < CUSP_COSINE
             && (elements[element].edge & CONTOUR) != 0u;
         if joints[joint].cosine < link_styles[set_index].corner_cosine || is_cusp {
@@ -109,7 +109,7 @@ fn find_corners(@builtin(global_invocation_id) id: vec3u) {
     joints[joint].kind = kind;
 }
 
-// Whether no joint within reach turns more; of two that turn alike the first.
+// Whether a joint turns more than all others within reach; the first of two equal ones does.
 fn is_corner(element: u32, joint: u32, reach_px: f32) -> bool {
     let cosine = joints[joint].cosine;
     if cosine >= KEPT_COSINE {
@@ -145,8 +145,8 @@ fn is_corner(element: u32, joint: u32, reach_px: f32) -> bool {
     return true;
 }
 
-// The points of an element: one where it begins, as far as its place is kept; those
-// of the grid along the whole chain; one where it ends, where the path does.
+// The number of points of an element: one at its start if it is kept, those of the grid along
+// the chain, and one at its end if the path ends there.
 fn count_points(joint: u32) -> u32 {
     let set_index = set_of(joint);
     let element = element_of(joint, set_index);
@@ -193,7 +193,7 @@ fn write_points(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-// How much the passes over points have to do, and where the ribbons of each draw are.
+// Sets the workgroup counts of the passes over points, and the ribbons of each draw.
 @compute @workgroup_size(MAX_STROKE_SETS)
 fn finish_points(@builtin(local_invocation_index) set_index: u32) {
     if set_index == 0u {

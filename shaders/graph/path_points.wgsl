@@ -1,13 +1,13 @@
-// The points of paths: evenly spaced, each the average of the path around it as far as
-// the next corner, so that the zigzag of a fine mesh becomes the line that it means.
+// Places the points of paths, evenly spaced. Each is the average of the path around it, up
+// to the next corner, so that the zigzag of a fine mesh becomes a smooth line.
 #import <common/path_grid.wgsl>
 #import <common/path_visibility.wgsl>
 #import <common/path_wobble.wgsl>
 
-// Of a loop, how much to both sides of a point is averaged at most.
+// The largest part of a loop that is averaged on each side of a point.
 const LOOP_PART: f32 = 0.125;
 
-// On shorter chains what is hidden stays hidden.
+// On shorter chains, nearly visible points are not bridged.
 const LEAST_BRIDGED_PX: f32 = 100.0;
 
 @compute @workgroup_size(GROUP)
@@ -42,12 +42,12 @@ fn point_of(index: u32) -> PathPoint {
     var ahead = walk_ahead(element, joint, t, far_px);
     let direction = unit(ahead.place - back.place, here.s1 - here.s0);
     let exact = vec3f(mix(here.s0, here.s1, t), mix(here.z0, here.z1, t));
-    // Near folds more is averaged, so that a path does not go back and forth.
+    // Near folds, more is averaged, so that a path does not go back and forth.
     let fold_px = min(back.fold_px, ahead.fold_px);
     var wanted_px = clamp(far_px + step_px - fold_px, step_px, far_px);
     let chain_px = grid.chain / ARC_PER_PX;
     if (here.count & ON_LOOP) != 0u {
-        // A small loop is a bump, and its average would be its middle.
+        // The average of all of a small loop would be its middle.
         wanted_px = min(wanted_px, LOOP_PART * chain_px);
     }
     let half_px = min(wanted_px, min(back.length_px, ahead.length_px));
@@ -58,8 +58,8 @@ fn point_of(index: u32) -> PathPoint {
         averaged = (back.sum + ahead.sum) / (back.length_px + ahead.length_px);
     }
     let on_contour = (here.edge & CONTOUR) != 0u;
-    // What its own solid hides, it hides from everywhere outside; but the average near
-    // a fold is of what is before and behind the surface.
+    // A solid hides such an edge from everywhere outside; but near a fold, the average
+    // includes places in front of the surface.
     var seen = select(SEEN_NOT, SEEN_ALMOST, on_contour && half_px > 2.0 * step_px);
     if (here.edge & BEHIND_SOLID) == 0u {
         seen = visibility_at(exact.xy, exact.z, direction, on_contour, set_index);
@@ -82,7 +82,7 @@ fn point_of(index: u32) -> PathPoint {
     );
 }
 
-// The element of a point: the last one whose points begin there or before.
+// The joint of a point, by binary search: the last one whose first point is not after it.
 fn joint_of_point(index: u32) -> u32 {
     var low = 0u;
     var high = header.joint_count;
@@ -101,7 +101,7 @@ fn flags_of(element: u32, joint: u32, is_start: bool, is_end: bool) -> u32 {
     let here = elements[element];
     let kind = joints[joint].kind;
     let first_kind = joints[joint + here.first - element].kind;
-    // A loop that is split where it was cut has no seam there.
+    // If strokes are cut at the place where the loop was cut, there is no seam.
     let is_seam = (first_kind & (BREAK | SPLIT)) == 0u;
     if is_start {
         let at_first = element == here.first;
@@ -119,16 +119,16 @@ fn flags_of(element: u32, joint: u32, is_start: bool, is_end: bool) -> u32 {
 }
 
 struct Walk {
-    // Places and depth times length, summed up along the way.
+    // The integral of place and depth along the way.
     sum: vec3f,
     length_px: f32,
-    // Where it ended.
+    // The end of the walk.
     place: vec2f,
-    // How far the next fold is.
+    // Distance to the nearest fold.
     fold_px: f32,
 }
 
-// A part of an element more, from one place on it to another.
+// Adds a part of an element to a walk; `part` and `to` are fractions of the element.
 fn walked(so_far: Walk, element: u32, part: f32, to: f32, taken_px: f32) -> Walk {
     let here = elements[element];
     let middle = 0.5 * (part + to);

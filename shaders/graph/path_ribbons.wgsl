@@ -1,9 +1,8 @@
-// Segments of strokes, ready to be drawn: with their width, their place along the
-// brush, and how they join their neighbors.
+// Turns the segments of strokes into ribbons, with their width, their place along the brush,
+// and their joins.
 //
-// A join belongs to each of its segments up to the line that halves its angle. Where one
-// of them is too short to reach that line, both are round there and overlap: the larger
-// coverage counts.
+// The line that halves the angle of a join separates its two segments. If one of them is too
+// short to reach that line, both are round and overlap; the larger coverage counts.
 #import <common/path_extent.wgsl>
 #import <common/stroke_quad.wgsl>
 
@@ -41,7 +40,7 @@ fn ribbon_of(index: u32) -> Ribbon {
     let direction = along / length_px;
     let widest_px = width_of(style, points[extent.first].depth);
     let part = piece_of(style, extent, index);
-    // From where the stroke begins.
+    // In pixels from the start of the stroke.
     let from_start = px_of_arc(here.arc - extent.start_arc);
     let whole_px = px_of_arc(next.arc - here.arc);
     var arcs = from_start + here.cut * whole_px;
@@ -93,13 +92,14 @@ fn ribbon_of(index: u32) -> Ribbon {
         mix(here.depth, next.depth, here.cut.x), mix(here.depth, next.depth, here.cut.y),
     );
     if style.visibility != HIDDEN_STROKES {
-        // Beside a contour lies none of its own surface; under other strokes it may rise.
+        // Outside a contour there is none of its own surface; under other strokes it can
+        // rise.
         let is_beside = (side & 3u) != 0u && (side & (IS_INSIDE >> 8u)) == 0u;
         ribbon.near_px = select(6.0 * widest_px + 12.0, widest_px + 4.0, is_beside);
     }
     ribbon.ink = 1.0;
     if period_px > 0.0 {
-        // Whole dashes, one of them in the middle.
+        // A whole number of dashes, one of them in the middle.
         let periods = max(round(total_px / period_px), 1.0);
         ribbon.ink = style.dash_px.x / period_px;
         ribbon.dash = (arcs - 0.5 * (range.x + range.y)) * periods / total_px
@@ -112,8 +112,8 @@ fn ribbon_of(index: u32) -> Ribbon {
     return ribbon;
 }
 
-// The segments before and behind one, or NONE where its stroke, or its part of a long
-// one, begins and ends.
+// The segments before and after one, or NONE at the ends of its stroke or of its piece of a
+// long stroke.
 fn neighbors_of(style: LinkStyleUniform, extent: Extent, part: Piece, index: u32) -> vec2u {
     var other = vec2u(
         select(index - 1u, extent.before_first, index == extent.first),
@@ -128,14 +128,14 @@ fn neighbors_of(style: LinkStyleUniform, extent: Extent, part: Piece, index: u32
     return other;
 }
 
-// How a segment begins or ends.
+// The start or end of a segment.
 struct Meeting {
     kind: u32,
     // Unit vector of half of the turn there, along and across the segment.
     join: vec2f,
 }
 
-// `end` is 0 where it begins and 1 where it ends; `other` the segment that it meets.
+// `end` is 0 for the start and 1 for the end; `other` is the segment that it meets there.
 fn meeting_of(
     style: LinkStyleUniform,
     index: u32,
@@ -149,7 +149,7 @@ fn meeting_of(
     var meeting = Meeting(style.end, vec2f(1.0, 0.0));
     let is_whole = select(here.cut.y == 1.0, here.cut.x == 0.0, end == 0u);
     if !is_whole {
-        // Hidden from here on; the stroke itself may go on.
+        // Hidden from here on, though the stroke can continue.
         meeting.kind = select(ENDS_FLAT, style.end, style.is_cut_where_hidden != 0u);
         return meeting;
     }
@@ -165,16 +165,17 @@ fn meeting_of(
     let other_px = length(of_other);
     let join = direction + of_other / max(other_px, 1e-6);
     if dot(join, join) <= 1e-3 {
-        // A turn on the spot is an end of both.
+        // At a turn of 180 degrees both segments end.
         meeting.kind = ENDS_ROUND;
         return meeting;
     }
     let across = vec2f(-direction.y, direction.x);
     meeting.join = normalize(vec2f(dot(join, direction), dot(join, across)));
-    // As far as the inner side of the turn lies before the joint.
+    // The distance from the joint to the inner corner of the turn.
     let inner_px = (width_px + 1.0) * abs(meeting.join.y) / max(meeting.join.x, 1e-3);
     var shortest_px = min(length_px, other_px);
-    // The two points of the joint; one, but where a loop was cut.
+    // The joint as the last point before it and the first after it, which differ only where
+    // a loop was cut.
     let ends_at = select(index + 1u, other + 1u, end == 0u);
     let begins_at = select(other, index, end == 0u);
     let is_corner = (points[begins_at].flags & POINT_IS_CORNER) != 0u;
@@ -186,7 +187,8 @@ fn meeting_of(
     return meeting;
 }
 
-// How far the path goes back from a corner until it turns again, as far as is wanted.
+// The length of the path back from a corner until it turns again, or wanted_px if that is
+// reached first.
 fn straight_before(joint: u32, wanted_px: f32) -> f32 {
     var length_px = 0.0;
     var at = joint;
@@ -214,7 +216,7 @@ fn straight_behind(joint: u32, wanted_px: f32) -> f32 {
     return length_px;
 }
 
-// A value between eight even ones, at 0 to 1 along a stroke.
+// Interpolates eight even values; t is the place along a stroke, 0 to 1.
 fn curve_at(curve: array<vec4f, 2>, t: f32) -> f32 {
     let at = clamp(t, 0.0, 1.0) * 7.0;
     let first = min(u32(at), 6u);
@@ -228,12 +230,12 @@ fn width_of(style: LinkStyleUniform, depth: f32) -> f32 {
     if style.is_world_width == 0u {
         return style.width;
     }
-    // At the eye a width has no bound; more than the picture is not seen.
+    // Near the eye a width grows without bound.
     return min(style.width * px_per_unit_at(distance_of(depth)), frame.picture_px.y);
 }
 
 fn taper_of(style: LinkStyleUniform, arc_px: f32, total_px: f32) -> f32 {
-    // Where both do not fit, both are shorter.
+    // If the two tapers do not fit, both are shortened.
     let fit = min(1.0, total_px / max(style.taper_px.x + style.taper_px.y, 1e-3));
     let taper_px = style.taper_px * fit;
     let grown = select(arc_px / max(taper_px.x, 1e-3), 1.0, taper_px.x <= 0.0);
@@ -254,9 +256,9 @@ fn fade_of_short(style: LinkStyleUniform, total_px: f32, width_px: f32) -> f32 {
     return clamp(2.0 * total_px / max(least_px, 1e-3) - 1.0, 0.0, 1.0);
 }
 
-// Along the brush at both ends: stretched to the stroke; or whole repeats of it, held
-// where the stroke has its middle. A short stroke has a part of the brush, but a ring
-// has a whole one.
+// u at both ends: the brush is stretched to the stroke, or repeated a whole number of times,
+// fixed at the middle of the stroke. A stroke shorter than the brush has a part of it; a
+// closed stroke has all of it.
 fn brush_of(
     style: LinkStyleUniform,
     arcs: vec2f,
@@ -274,14 +276,14 @@ fn brush_of(
     return (arcs - 0.5 * (range.x + range.y)) * repeats / total_px;
 }
 
-// 0 for centerd, 1 for right of its direction, 2 for left; and where it is inside.
+// 0 if centered, 1 if right of its direction, 2 if left; with IS_INSIDE >> 8 if inside.
 fn side_of(style: LinkStyleUniform, flags: u32) -> u32 {
     let on_contour = (flags & POINT_ON_CONTOUR) != 0u;
     let is_outside = style.placement == OUTSIDE || (style.placement == AUTOMATIC && on_contour);
     if !is_outside && style.placement != INSIDE {
         return 0u;
     }
-    // A contour's front is on its left, but in a mirror.
+    // The front face of a contour is on its left, unless the object is mirrored.
     let side = select(2u, 1u, is_outside == (object.mirror > 0.0));
     return side | select(IS_INSIDE >> 8u, 0u, is_outside);
 }

@@ -1,15 +1,15 @@
-// Where along their paths strokes begin and end.
+// Finds the starts and ends of strokes along their paths.
 //
-// A mesh contour runs now a little before, now a little behind the surface that it
-// means. So points that something so close hides count as visible where visible ones
-// are on both sides; and a visible point alone counts as hidden. Where what is drawn
-// changes, the place between the two points is found by halving.
+// A mesh contour runs alternately a little in front of and a little behind the smooth surface
+// that the mesh approximates. So points that a very close surface hides (grazed points)
+// count as visible between visible ones, and a single visible point counts as hidden. The
+// place where visibility changes between two points is found by bisection.
 #import <common/path_visibility.wgsl>
 #import <common/scan.wgsl>
 
 const HALVINGS: u32 = 4u;
 
-// Points to both sides that are asked where one is grazed.
+// The most points that are searched on each side of a grazed one.
 const BRIDGE: u32 = 6u;
 
 // Whether a point is drawn.
@@ -29,7 +29,7 @@ fn is_seen(index: u32) -> bool {
     if (flags & POINT_IS_GRAZED) == 0u {
         return false;
     }
-    // Grazed points up to a visible one, on both sides.
+    // Bridged if only grazed points lie between it and a visible one, on both sides.
     var at = index;
     var is_bridged = false;
     for (var step = 0u; step < BRIDGE && !is_bridged; step++) {
@@ -61,14 +61,14 @@ fn is_seen(index: u32) -> bool {
     return false;
 }
 
-// Whether a visible point beside it would not be alone.
+// Whether a visible point next to this one is not alone.
 fn is_open(index: u32) -> bool {
     return (points[index].flags & (POINT_IS_VISIBLE | POINT_IS_GRAZED)) != 0u;
 }
 
 struct Segment {
     exists: bool,
-    // At both of its points.
+    // Whether its two points are drawn.
     is_drawn0: bool,
     is_drawn1: bool,
     // Whether strokes are cut where they are hidden.
@@ -97,7 +97,7 @@ fn segment_at(index: u32) -> Segment {
     return segment;
 }
 
-// Arc length of a segment, in ARC_PER_PX of a pixel.
+// Arc length of a segment, in pixels times ARC_PER_PX.
 fn segment_arc(index: u32) -> u32 {
     let is_segment = (points[index].flags & POINT_ENDS) == 0u && index + 1u < header.point_count;
     if !is_segment {
@@ -107,7 +107,7 @@ fn segment_arc(index: u32) -> u32 {
     return u32(round(length_px * ARC_PER_PX));
 }
 
-// Where on a segment what is drawn begins or ends.
+// The place on a segment where visibility changes, as a fraction.
 fn cut_of(index: u32, is_drawn0: bool) -> f32 {
     let a = points[index];
     let b = points[index + 1u];
@@ -162,7 +162,7 @@ fn write_strokes(@builtin(global_invocation_id) id: vec3u) {
     if first >= header.point_count {
         return;
     }
-    // One less than the strokes that began so far; wraps where none did.
+    // The number of strokes that began so far minus 1; wraps if there are none.
     var stroke = sums[id.x].x - 1u;
     var arc = sums[id.x].y;
     for (var index = first; index < min(first + ITEMS_PER_SUM, header.point_count); index++) {

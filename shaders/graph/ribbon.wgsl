@@ -1,9 +1,9 @@
-// Segments of strokes as coverage.
+// Draws ribbons as coverage.
 //
-// Each is a box around its center line; a fragment's coverage follows from its
-// distance to that line, so that sides, joins and ends are smooth without samples.
-// Where segments of a layer overlap the larger coverage counts (the blend is a
-// maximum): no pixel is covered twice, at any width and any turn.
+// Each is a box around its center line. The coverage of a fragment follows from its distance
+// to that line, so that sides, joins and ends are smooth without samples. Where the segments
+// of a draw overlap, the larger coverage counts (the blend is a maximum), so that no pixel is
+// covered twice, at any width and turn.
 //
 //        +-----------------------------+
 //        |   .---------------------.   |  across
@@ -11,8 +11,8 @@
 //        |   '---------------------'   |    '-> along
 //        +-----------------------------+
 //
-// Whether a stroke is visible was asked along its line. What lies well before the line
-// at a fragment hides it there: a wide stroke ends where another body begins.
+// The visibility of a stroke was tested along its line. In addition, a surface well in front
+// of the line hides a fragment, so that a wide stroke ends where another body begins.
 #import <common/frame.wgsl>
 #import <common/fill_depth.wgsl>
 #import <common/stroke_graph.wgsl>
@@ -20,7 +20,7 @@
 // Rust twin: MITRE_LIMIT in crates/strokes/src/style/link_style.rs.
 const MITRE_LIMIT: f32 = 4.0;
 
-// Both segments of a join have the pixels on the line that halves its angle.
+// Both segments of a join cover the pixels on the line that halves its angle.
 const SHARED_PX: f32 = 0.5;
 
 override IS_TEXTURED: bool = false;
@@ -31,7 +31,7 @@ override IS_TEXTURED: bool = false;
 
 struct RibbonVarying {
     @builtin(position) position: vec4f,
-    // From the segment's beginning, in pixels.
+    // From the start of the segment, in pixels; across is positive on the left.
     @location(0) along_across: vec2f,
     @location(1) @interpolate(flat) length_px: f32,
     @location(2) @interpolate(flat) half_width_px: vec2f,
@@ -39,7 +39,7 @@ struct RibbonVarying {
     @location(4) @interpolate(flat) joins: vec4f,
     @location(5) @interpolate(flat) ends: u32,
     @location(6) @interpolate(flat) dash_and_ink: vec3f,
-    // Depth of the line at both ends, and how far before it things hide it.
+    // Depth of the line at both ends, and near_px of the ribbon.
     @location(7) @interpolate(flat) depth_and_near: vec3f,
 }
 
@@ -64,7 +64,7 @@ fn ribbon_vertex(@builtin(vertex_index) vertex: u32) -> RibbonVarying {
     let at_end = corner == 1u || corner == 2u;
     let on_left = corner >= 2u;
     let half_width = max(out.half_width_px.x, out.half_width_px.y);
-    // One-sided strokes have all of their width there.
+    // One-sided strokes have their whole width on one side.
     let reach = half_width * select(2.0, 1.0, side == 0u);
     let kind = select(ribbon.ends & 15u, (ribbon.ends >> 4u) & 15u, at_end);
     let join = select(out.joins.xy, out.joins.zw, at_end);
@@ -78,7 +78,7 @@ fn ribbon_vertex(@builtin(vertex_index) vertex: u32) -> RibbonVarying {
     return out;
 }
 
-// How far a segment goes on beyond its end.
+// How far a segment extends beyond its end, in pixels.
 fn overhang(kind: u32, reach: f32, join: vec2f) -> f32 {
     if kind == ENDS_FLAT {
         return 0.0;
@@ -89,7 +89,7 @@ fn overhang(kind: u32, reach: f32, join: vec2f) -> f32 {
     if kind == ENDS_ROUND || kind == ENDS_AROUND || kind == JOINS_LOOSELY {
         return reach;
     }
-    // As far as its outer side is from the line that halves the angle.
+    // Up to the line that halves the angle, on its outer side.
     let outer = (reach + 1.0) * abs(join.y) / max(join.x, 1e-3);
     return min(outer, select(reach, MITRE_LIMIT * reach, kind == JOINS_MITRED));
 }
@@ -99,19 +99,19 @@ fn ribbon_fragment(in: RibbonVarying) -> @location(0) vec4f {
     let along = in.along_across.x;
     let t = clamp(along / in.length_px, 0.0, 1.0);
     let at_end = along > 0.5 * in.length_px;
-    // How far beyond the nearer end, negative on the segment.
+    // Distance beyond the nearer end; negative on the segment.
     let beyond = select(-along, along - in.length_px, at_end);
     let kind = select(in.ends & 15u, (in.ends >> 4u) & 15u, at_end);
     let side = (in.ends >> 8u) & 3u;
     let half_width = mix(in.half_width_px.x, in.half_width_px.y, t);
     let reach = half_width * select(2.0, 1.0, side == 0u);
-    // The side that one-sided strokes are on.
+    // Positive on the side of one-sided strokes.
     let across = in.along_across.y * select(1.0, -1.0, side == 1u);
 
     var off = abs(across);
     var coverage = 1.0;
     var widest = reach;
-    // Where a one-sided stroke begins beside its line: at a point not on it.
+    // Where a one-sided stroke begins, as a distance from its line: not 0 in a point or disk.
     var nearest_off = 0.0;
     if beyond > 0.0 {
         if kind == ENDS_FLAT {
@@ -121,7 +121,7 @@ fn ribbon_fragment(in: RibbonVarying) -> @location(0) vec4f {
             widest = max(reach - gone, 0.0);
             nearest_off = select(gone, 0.0, side == 0u);
         } else if kind == ENDS_ROUND && side != 0u {
-            // A half disk over the width, which lies beside the line.
+            // A half disk over the width, beside the line.
             let chord = sqrt(max(half_width * half_width - beyond * beyond, 0.0));
             nearest_off = half_width - chord;
             widest = half_width + chord;
@@ -133,7 +133,7 @@ fn ribbon_fragment(in: RibbonVarying) -> @location(0) vec4f {
     if kind == ENDS_FLAT {
         coverage = clamp(0.5 - beyond, 0.0, 1.0);
     }
-    // What of the pixel lies between the two sides.
+    // The part of the pixel between the two sides.
     if side == 0u {
         coverage *= clamp(0.5 + widest - off, 0.0, 1.0) - clamp(0.5 - widest - off, 0.0, 1.0);
     } else {
@@ -152,11 +152,11 @@ fn ribbon_fragment(in: RibbonVarying) -> @location(0) vec4f {
         coverage *= f32(past <= SHARED_PX);
     }
     if in.dash_and_ink.z < 1.0 {
-        // Periods from one dash to the next, and a pixel of them.
+        // Place and pixel size in periods of the dashes.
         let per_px = abs(in.dash_and_ink.y - in.dash_and_ink.x) / in.length_px;
         let phase = fract(in.dash_and_ink.x + per_px * along);
         let from_middle = abs(phase - 0.5 * in.dash_and_ink.z);
-        // The dash that begins with the next period is near too.
+        // The dash of the next period can be nearer.
         let nearest = min(from_middle, 1.0 - from_middle);
         coverage *= clamp((0.5 * in.dash_and_ink.z - nearest) / max(per_px, 1e-6) + 0.5, 0.0, 1.0);
     }
@@ -172,7 +172,7 @@ fn ribbon_fragment(in: RibbonVarying) -> @location(0) vec4f {
     if IS_TEXTURED {
         let u = mix(in.u_and_opacity.x, in.u_and_opacity.y, t);
         let signed_off = off * sign(in.along_across.y);
-        // Row 0 is the outer rim, which lies right of the direction.
+        // Row 0 of the brush is the outer rim, on the right of the direction.
         var v = 0.5 + 0.5 * signed_off / max(half_width, 1e-3);
         if side != 0u {
             let from_spine = off / max(reach, 1e-3);
@@ -185,11 +185,11 @@ fn ribbon_fragment(in: RibbonVarying) -> @location(0) vec4f {
     return vec4f(coverage);
 }
 
-// Of the samples of a pixel, how many nothing covers so far before a depth.
+// The share of a pixel's samples whose fill is at most near_px in front of a depth.
 fn share_in_front(depth: f32, near_px: f32, pixel: vec2i) -> f32 {
     let here = distance_of(depth);
     let nearest = here - near_px / px_per_unit_at(here);
-    // Where nothing was filled is the far plane.
+    // Without a fill, this is the far plane.
     let filled = filled_depths(pixel);
     let behind = vec4f(
         f32(distance_of(filled.x) >= nearest),

@@ -1,13 +1,13 @@
-// Smooth rims for lines of whole texels: along each step of a rim the two ends of the run
-// are looked for, and the texel takes as much of its neighbor as a straight rim through
-// the middles of the steps would cover.
+// Smooths the rims of aliased lines, like morphological antialiasing (Reshetov 2009):
+// follows each step of a rim to both ends of its run, and gives a texel as much of its
+// neighbor as a straight rim through the middles of the steps would cover.
 #import <common/screen.wgsl>
 #import <common/taps.wgsl>
 
 struct Params {
-    // Brightness steps below this are left alone.
+    // Smaller steps of brightness are not smoothed.
     threshold: f32,
-    // How far runs are followed, in texels.
+    // The longest distance that a run is followed, in texels.
     reach: i32,
 }
 
@@ -23,8 +23,8 @@ fn brightness(texel: vec2i) -> f32 {
     return dot(color.rgb, vec3f(0.3, 0.6, 0.1)) + 1.0 - color.a;
 }
 
-// How many texels a rim goes on from one along `along`, and whether its end turns toward
-// the texel's own side (1), to the other (-1), or is out of reach (0).
+// The number of texels that a rim continues in the direction `along`, and whether its end
+// turns toward the texel's own side (1), to the other side (-1), or is out of reach (0).
 fn run(texel: vec2i, along: vec2i, across: vec2i, own: f32, other: f32) -> vec2f {
     let middle = 0.5 * (own + other);
     let is_own_brighter = own > other;
@@ -41,7 +41,7 @@ fn run(texel: vec2i, along: vec2i, across: vec2i, own: f32, other: f32) -> vec2f
     return vec2f(f32(params.reach), 0.0);
 }
 
-// How much of the neighbor a texel takes over one of its four rims.
+// The share of the neighbor across one of a texel's four rims.
 fn share(texel: vec2i, across: vec2i, own: f32) -> f32 {
     let other = brightness(texel + across);
     if abs(own - other) < params.threshold {

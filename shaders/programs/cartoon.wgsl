@@ -1,30 +1,30 @@
-// Banded cartoon light, worked out without a texture (Card and Mitchell, Cartoon Lighting
-// Model). As their text has it the specular band is where N.H is large; Listing 3 as
-// printed asks N.L twice.
+// Cartoon light in bands, computed without a texture (Card and Mitchell, Cartoon Lighting
+// Model). The specular band lies where N.H is large, as in their text; Listing 3 as printed
+// compares N.L twice.
 #import <common/light.wgsl>
 
 struct Params {
-    // N.L from which a surface is lit.
+    // N.L above which a surface is lit.
     falloff: f32,
-    // N.H from which it has its highlight.
+    // N.H above which it shows the highlight.
     specular_falloff: f32,
     has_specular: u32,
-    // How many bands there are where it is lit.
+    // Bands on the lit side.
     band_count: i32,
-    // The colors times those of the material, or alone.
+    // 1 to multiply the colors by those of the material.
     from_material: u32,
     dark: vec3f,
     average: vec3f,
-    // Of the last of several bands.
+    // The color of the last of several bands.
     light: vec3f,
     bright: vec3f,
-    // Over how many pixels the borders of bands go.
+    // Width of the borders between bands, in pixels.
     smoothness: f32,
 }
 
 @group(1) @binding(0) var<uniform> params: Params;
 
-// The band of an intensity, one of band_count above the falloff.
+// The color of the band for a cosine N.L.
 fn band(facing: f32) -> vec3f {
     if facing <= params.falloff {
         return params.dark;
@@ -43,8 +43,7 @@ fn cartoon(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @locati
     let facing = dot(surface.normal, surface.to_light);
     let glint = dot(surface.normal, unit(surface.to_light + surface.to_eye));
     let reach = params.smoothness * vec2f(fwidth(facing), fwidth(glint));
-    // The mean over what a pixel covers, so that borders are as smooth as those of
-    // surfaces.
+    // The mean over the pixel, so that borders of bands are as smooth as those of surfaces.
     var lit = vec3f(0.0);
     var highlight = 0.0;
     for (var tap = 0; tap < 4; tap++) {
@@ -54,7 +53,7 @@ fn cartoon(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @locati
     }
     let is_own = params.from_material == 1u;
     let own = select(vec3f(1.0), material.diffuse.rgb, is_own);
-    // A highlight is as white as the material's specular color is strong.
+    // The stronger the material's specular color, the whiter the highlight.
     let white = mix(own, vec3f(1.0), clamp(intensity(material.specular.rgb), 0.0, 1.0));
     let bright = params.bright * select(vec3f(1.0), white, is_own);
     let color = mix(lit * own, bright, highlight * f32(params.has_specular));

@@ -1,4 +1,4 @@
-// Lays a texture over a target.
+// A texture times an opacity, to be blended over a target.
 #import <common/screen.wgsl>
 
 struct Params {

@@ -1,4 +1,4 @@
-// A texture as it is, texel by texel where the sizes are the same.
+// Copies a texture, sampling the nearest texel.
 #import <common/screen.wgsl>
 
 @group(1) @binding(1) var texture: texture_2d<f32>;

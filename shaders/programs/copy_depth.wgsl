@@ -1,4 +1,4 @@
-// The depth of a picture of one sample a pixel.
+// Copies the depth of a picture of one sample per pixel.
 
 @group(1) @binding(0) var depth: texture_depth_2d;
 

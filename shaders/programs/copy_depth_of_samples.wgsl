@@ -1,4 +1,4 @@
-// The depth of a picture of several samples a pixel: that of the first one.
+// Copies the depth of a picture of several samples per pixel: the first sample's.
 
 @group(1) @binding(0) var depth: texture_depth_multisampled_2d;
 

@@ -1,4 +1,4 @@
-// Depths as grays: bright near, dark far, over the box around the scene.
+// Depths as grays: white at the near plane, black at the far plane.
 #import <common/screen.wgsl>
 #import <common/edges.wgsl>
 

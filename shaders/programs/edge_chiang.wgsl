@@ -1,4 +1,4 @@
-// Chiang, Hsueh and Liu: the Sobel operator on the normal map and on the depth map, and an
+// Chiang, Hsueh and Liu: the Sobel operator on the normal map and on the depth map, with an
 // extra filter that keeps only edges whose depth differs from that of their neighbors
 // (section III.C.1).
 #import <common/edges.wgsl>
@@ -10,8 +10,8 @@ struct Params {
     depth_threshold: f32,
     extra_threshold: f32,
     extra_filter: u32,
-    // The sum of the derivatives as printed, which misses edges from bright to dark, or
-    // of their sizes.
+    // 0 sums the absolute derivatives; 1 sums them with their signs, as printed, which
+    // misses edges from bright to dark.
     gradient: u32,
     edge_color: vec4f,
     background_color: vec4f,
@@ -21,7 +21,7 @@ struct Params {
 @group(1) @binding(1) var normal_texture: texture_2d<f32>;
 @group(1) @binding(2) var depth_texture: texture_depth_2d;
 
-// The depth map: 0 at the near, 1 at the far plane.
+// The depth map: 0 at the near plane, 1 at the far plane.
 fn map_depth(texel: vec2i) -> f32 {
     let near = distance_of(1.0);
     return (distance_at(depth_texture, texel) - near) / (distance_of(0.0) - near);
@@ -46,7 +46,7 @@ fn chiang(at: ScreenVarying) -> @location(0) vec4f {
         for (var dx = -1; dx <= 1; dx++) {
             let depth = map_depth(texel + vec2i(dx, dy));
             along += vec2f(f32(dx * (2 - abs(dy))), f32(dy * (2 - abs(dx)))) * depth;
-            // I_z: neighbors beside the center count twice.
+            // The paper's I_z: the four nearest neighbors count twice.
             around += f32(3 - abs(dx) - abs(dy)) * abs(depth - center);
         }
     }

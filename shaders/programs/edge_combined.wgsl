@@ -1,4 +1,4 @@
-// Normals, depths and region ids at once, a color for each kind of edge (NPRView thesis,
+// Edges in normals, depths and region ids, with a color for each kind (NPRView thesis,
 // section 3.3.4, Figures 3.16 and 3.19).
 #import <common/edges.wgsl>
 #import <common/screen.wgsl>
@@ -6,7 +6,7 @@
 struct Params {
     normal_threshold: f32,
     depth_threshold: f32,
-    // Whether the depth threshold is in radii of the scene, or in its units.
+    // 0 if the depth threshold is in radii of the scene, 1 if in world units.
     depth_unit: u32,
     apply_threshold: u32,
     detect_normals: u32,
@@ -15,7 +15,7 @@ struct Params {
     normal_color: vec4f,
     depth_color: vec4f,
     id_color: vec4f,
-    // Where several detectors agree.
+    // Where several kinds are found.
     edge_color: vec4f,
     background_color: vec4f,
 }
@@ -55,7 +55,7 @@ fn combined(at: ScreenVarying) -> @location(0) vec4f {
     let strongest = max(max(strength.x, strength.y), strength.z);
     var color = params.edge_color;
     if count < 1.5 {
-        // One kind, or none: that of the strongest.
+        // One kind or none: the color of the strongest.
         color = select(params.id_color, params.depth_color, strength.y == strongest);
         color = select(color, params.normal_color, strength.x == strongest);
     }

@@ -6,7 +6,7 @@
 struct Params {
     threshold: f32,
     apply_threshold: u32,
-    // Whether the threshold is in radii of the scene, or in its units.
+    // 0 if the threshold is in radii of the scene, 1 if in world units.
     unit: u32,
     edge_color: vec4f,
     background_color: vec4f,
@@ -15,6 +15,7 @@ struct Params {
 @group(1) @binding(0) var<uniform> params: Params;
 @group(1) @binding(1) var depth_texture: texture_depth_2d;
 
+// Without apply_threshold, the threshold is a factor of the intensity.
 fn decided(measure: f32) -> vec4f {
     let measured = measure / select(1.0, frame.scene_radius, params.unit == 0u);
     var strength = f32(measured > params.threshold);
@@ -31,7 +32,7 @@ fn deltas(at: ScreenVarying) -> @location(0) vec4f {
     return decided(depth_delta(depth_texture, texel));
 }
 
-// Equation 3.13; without a threshold, times it.
+// Equation 3.13.
 @fragment
 fn laplacian(at: ScreenVarying) -> @location(0) vec4f {
     let texel = texel_at(at.texcoord, textureDimensions(depth_texture));

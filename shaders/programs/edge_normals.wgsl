@@ -13,8 +13,8 @@ struct Params {
 @group(1) @binding(0) var<uniform> params: Params;
 @group(1) @binding(1) var normal_texture: texture_2d<f32>;
 
-// Equation 3.7: where the least dot product is below the threshold there is an edge.
-// Without a threshold, Equation 3.8: how far the dot products are from 4, times it.
+// Equation 3.7: an edge where the smallest dot product is below the threshold. Without
+// apply_threshold, Equation 3.8: 4 minus the sum of the dot products, times the threshold.
 @fragment
 fn minimum_dot_product(at: ScreenVarying) -> @location(0) vec4f {
     let texel = texel_at(at.texcoord, textureDimensions(normal_texture));
@@ -34,7 +34,7 @@ fn five_taps(at: ScreenVarying) -> @location(0) vec4f {
     var surface = 1.0;
     for (var tap = 0; tap < 4; tap++) {
         let product = dot(center, normal_at(normal_texture, texel + DIAGONALS[tap]));
-        // As the listing has it: what is not below the threshold is white.
+        // As in the listing: 1 (white) if the product is not below the threshold.
         surface *= f32(product - params.threshold >= 0.0);
     }
     return line_color(1.0 - surface, params.edge_color, params.background_color);

@@ -1,6 +1,6 @@
 // Edges where a neighbor leaves the plane through a texel: a depth detector that needs no
-// tuning, since a plane has no edges however steep it is seen (compare Figure 3.11 of the
-// thesis). Distances are in pixels as large as they are there.
+// tuning, since a plane has no edges, however steep (compare Figure 3.11 of the NPRView
+// thesis). Distances are in pixels at the depth of the texel.
 #import <common/edges.wgsl>
 #import <common/screen.wgsl>
 

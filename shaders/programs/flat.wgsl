@@ -8,7 +8,7 @@ struct Params {
 @group(1) @binding(0) var<uniform> params: Params;
 
 struct FlatVarying {
-    // The same depth in every pass, so that a second one can ask for it.
+    // Invariant, so that a later pass gets the same depth.
     @builtin(position) @invariant position: vec4f,
     @location(0) point_in_world: vec3f,
 }

@@ -1,6 +1,6 @@
-// Wide lines at constant cost: jump flooding (Rong and Tan, 2006). Every texel comes to
-// know the line texel that is nearest to it, looking half as far in every round, and is
-// inked by the distance.
+// Wide lines at constant cost, by jump flooding (Rong and Tan 2006): every texel finds the
+// nearest line texel, looking half as far in every round; wide_lines.wgsl inks it by its
+// distance from there.
 //
 //   seeds --round 0: 32 texels away--> --16--> --8--> ... --1--> nearest --> lines
 #import <common/screen.wgsl>
@@ -14,10 +14,10 @@ struct Params {
 @group(1) @binding(0) var<uniform> params: Params;
 @group(1) @binding(1) var texture: texture_2d<f32>;
 
-// The coordinates of no texel.
+// The coordinates that stand for no texel.
 const NOWHERE: f32 = -1.0;
 
-// What is dark in the texture of lines is where they begin.
+// Dark texels are seeds: their own coordinates.
 @fragment
 fn seed(at: ScreenVarying) -> @location(0) vec4f {
     let texel = texel_at(at.texcoord, textureDimensions(texture));

@@ -1,14 +1,14 @@
 // Gooch light: from cool to warm instead of from dark to bright (Card and Mitchell, Gooch
-// Lighting; the formula, as Listing 7 swaps alpha and beta).
+// Lighting). Follows their formula; Listing 7 swaps alpha and beta.
 #import <common/light.wgsl>
 
 struct Params {
-    // How much of the diffuse color is in the cool one, and in the warm one.
+    // The share of the diffuse color in the cool color, and in the warm color.
     alpha: f32,
     beta: f32,
     yellow: vec3f,
     blue: vec3f,
-    // How much of the material's highlight is laid over.
+    // Factor of the material's highlight.
     highlight: f32,
 }
 

@@ -1,17 +1,17 @@
-// Hatching with tonal art maps: six levels in the channels of two textures, blended by
-// weights that the light gives (Card and Mitchell, Listings 4 and 5; Praun et al. 2001);
-// weights by the vertex as there, or by the pixel.
+// Hatching with tonal art maps: six levels in the channels of two textures, blended with
+// weights that depend on the light (Card and Mitchell, Listings 4 and 5; Praun et al. 2001).
+// Weights are computed per vertex, as there, or per pixel.
 //
-// Where a model has no texture coordinates, strokes are laid on it from three sides along
-// its axes, those most that look at it straight.
+// If a model has no texture coordinates, the maps are projected along its three axes and
+// blended by the direction of the normal.
 #import <common/light.wgsl>
 
 struct Params {
-    // The light factor of a surface that looks at the light: 6 is all levels.
+    // The light factor of a surface facing the light; 6 uses all levels.
     brightness: f32,
-    // Tiles over the texture coordinates, or over a radius of the scene.
+    // Repetitions per unit of the texture coordinates, or per radius of the scene.
     scale: f32,
-    // Ink of the material's color, or of one color.
+    // 1 to use the material's color as ink, 0 for ink_color.
     from_material: u32,
     ink_color: vec3f,
     paper_color: vec3f,
@@ -30,7 +30,7 @@ struct HatchingVarying {
     @location(2) @interpolate(flat) material_range: u32,
     @location(3) point_in_object: vec3f,
     @location(4) normal_in_object: vec3f,
-    // Of the outside, and of the inside: a vertex at a contour has both.
+    // Weights of the outside and of the inside; a vertex at a contour needs both.
     @location(5) outside_123: vec3f,
     @location(6) outside_456: vec3f,
     @location(7) inside_123: vec3f,
@@ -42,8 +42,8 @@ struct Weights {
     of_456: vec3f,
 }
 
-// Listing 4: each level is a tent over the light factor, two wide; in total shadow the
-// darkest one stays.
+// Listing 4: the weight of each level is a tent over the light factor, two wide; in full
+// shadow, the darkest level stays.
 fn weights_of(light: f32) -> Weights {
     var weights = Weights(
         tent(vec3f(light) - vec3f(5.0, 4.0, 3.0)),
@@ -57,7 +57,7 @@ fn tent(x: vec3f) -> vec3f {
     return max(vec3f(1.0) - abs(x - 1.0), vec3f(0.0));
 }
 
-// The tone at a place of the maps: Listing 5.
+// The tone at a texture coordinate (Listing 5).
 fn tone(uv: vec2f, along_x: vec2f, along_y: vec2f, weights: Weights) -> f32 {
     let a = textureSampleGrad(levels_123, levels_123_sampler, uv, along_x, along_y).rgb;
     let b = textureSampleGrad(levels_456, levels_456_sampler, uv, along_x, along_y).rgb;
@@ -141,7 +141,7 @@ fn per_vertex(at: HatchingVarying, @builtin(front_facing) is_front: bool) -> @lo
 @fragment
 fn per_pixel(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
     let texel = textureSample(base_texture, base_sampler, at.texcoord);
-    // Across the faces of the object, whatever their shading says.
+    // The normal of the face, not that of its shading.
     let normal = unit(cross(dpdx(at.point_in_object), dpdy(at.point_in_object)));
     let surface = surface_of(at.point_in_world, side_seen(is_front) * at.normal_in_world);
     let weights = weights_of(params.brightness * diffuse_factor(surface));

@@ -3,7 +3,7 @@
 #import <common/surface.wgsl>
 
 struct Params {
-    // Which ids: of objects, materials, or groups.
+    // 0 for objects, 1 for materials, 2 for groups.
     regions: u32,
 }
 

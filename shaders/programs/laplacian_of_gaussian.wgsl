@@ -1,5 +1,5 @@
-// Edges as zero crossings of the second derivative: the Laplacian of the Gaussian
-// (NPRView thesis, section 3.2, Equation 3.6), and the decision.
+// The Laplacian of the Gaussian of the intensity (NPRView thesis, section 3.2, Equation 3.6);
+// zero_crossings.wgsl finds its edges.
 #import <common/edges.wgsl>
 #import <common/screen.wgsl>
 
@@ -38,7 +38,7 @@ fn laplacian_of_gaussian(at: ScreenVarying) -> @location(0) vec4f {
             values += value;
         }
     }
-    // Sampled and cut off, the weights do not sum up to nothing; a constant must.
+    // The sampled, truncated weights do not sum to zero, but a constant picture must give 0.
     let count = f32((2 * reach + 1) * (2 * reach + 1));
     return vec4f(sum - weights * values / count, 0.0, 0.0, 1.0);
 }

@@ -1,17 +1,17 @@
-// Dilation and erosion of lines (Card and Mitchell, Thickening Outlines with Morphology):
-// the darkest, or the brightest texel around. Lines are what is darker than paper.
+// Dilation and erosion of dark lines (Card and Mitchell, Thickening Outlines with
+// Morphology): the darkest or the brightest texel in the neighborhood.
 #import <common/screen.wgsl>
 #import <common/taps.wgsl>
 
 struct Params {
-    // Eight neighbors, or four.
+    // 0 for eight neighbors, 1 for four.
     shape: u32,
 }
 
 @group(1) @binding(0) var<uniform> params: Params;
 @group(1) @binding(1) var texture: texture_2d<f32>;
 
-// How bright a premultiplied color is on white paper.
+// The brightness of a premultiplied color on white paper.
 fn brightness(color: vec4f) -> f32 {
     return dot(color.rgb, vec3f(0.3, 0.6, 0.1)) + 1.0 - color.a;
 }

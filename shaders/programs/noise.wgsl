@@ -1,4 +1,4 @@
-// Random textures: four numbers from 0 to 1 a texel, the same for the same seed.
+// Random textures: four numbers from 0 to 1 per texel, the same for the same seed.
 #import <common/screen.wgsl>
 
 struct Params {

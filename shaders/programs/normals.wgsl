@@ -1,12 +1,12 @@
-// Normals of the scene in the world, as colors (NPRView thesis, section 3.3.1), and with
-// the depth in the opacity (Card and Mitchell, Listing 8).
+// Normals of the scene in world space, as colors (NPRView thesis, section 3.3.1), and with
+// the depth in alpha (Card and Mitchell, Listing 8).
 #import <common/encode.wgsl>
 #import <common/screen.wgsl>
 #import <common/surface.wgsl>
 
 struct Params {
-    // What normals the background has: into the screen (the thesis), along z (Card and
-    // Mitchell), or none.
+    // The normal of the background: 0 into the screen (thesis), 1 along z (Card and
+    // Mitchell), 2 none.
     background: u32,
 }
 
@@ -24,8 +24,7 @@ fn background(at: ScreenVarying) -> @location(0) vec4f {
     return vec4f(rgb_of_normal(normals[min(params.background, 2u)]), 1.0);
 }
 
-// Normals as colors, and the depth from 0 at the near plane to 1 at the far one in
-// the opacity (Card and Mitchell, Listing 8).
+// Listing 8: alpha is the depth, 0 at the near plane and 1 at the far plane.
 @fragment
 fn normals_and_depth(
     at: SurfaceVarying,

@@ -4,9 +4,9 @@
 
 struct Params {
     paper_color: vec3f,
-    // How much of the grain there is.
+    // Strength of the grain, 0 to 1.
     grain: f32,
-    // Pixels of the picture a texel.
+    // Pixels of the picture per texel.
     paper_scale: f32,
 }
 
@@ -21,7 +21,7 @@ fn paper_at(pixel: vec2f) -> vec4f {
     return vec4f(params.paper_color * mix(vec3f(1.0), texel, params.grain), 1.0);
 }
 
-// All over.
+// Over the whole picture.
 @fragment
 fn sheet(at: ScreenVarying) -> @location(0) vec4f {
     return paper_at(at.position.xy + frame.corner_px);

@@ -1,4 +1,5 @@
-// The Phong model with a light without falloff (NPRView thesis, Equation 4.1).
+// The Phong model, with a light that does not fade with distance (NPRView thesis,
+// Equation 4.1).
 #import <common/light.wgsl>
 
 @fragment

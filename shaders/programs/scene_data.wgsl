@@ -1,14 +1,14 @@
-// Colors, normals and region ids of the scene in one pass with several targets, which
-// the thesis names as future work (section 3.4); the depth is there in any case.
+// Colors, normals and region ids of the scene in one pass with three targets, which the
+// NPRView thesis names as future work (section 3.4). The depth needs no target.
 #import <common/encode.wgsl>
 #import <common/light.wgsl>
 #import <common/screen.wgsl>
 
 struct Params {
-    // Which ids: of objects, materials, or groups.
+    // 0 for objects, 1 for materials, 2 for groups.
     regions: u32,
-    // What normals the background has: into the screen (thesis, section 3.3.1), along z
-    // (Card and Mitchell), or none.
+    // The normal of the background: 0 into the screen (thesis, section 3.3.1), 1 along z
+    // (Card and Mitchell), 2 none.
     background: u32,
 }
 

@@ -1,4 +1,4 @@
-// The whole numbers of a texture as colors, no two near each other alike.
+// The integers of a texture as colors; nearby integers get clearly different ones.
 #import <common/screen.wgsl>
 #import <common/encode.wgsl>
 

@@ -1,10 +1,10 @@
-// The numbers of a texture as colors, from one that is black to one that is white.
+// The numbers of a texture as colors: `low` is black, `high` is white.
 #import <common/screen.wgsl>
 
 struct Params {
     low: f32,
     high: f32,
-    // How many numbers a texel has: one is shown as a gray.
+    // Numbers per texel; one gives a gray.
     number_count: i32,
 }
 
@@ -16,7 +16,7 @@ fn show(at: ScreenVarying) -> @location(0) vec4f {
     let size = vec2f(textureDimensions(texture));
     let texel = textureLoad(texture, vec2i(at.texcoord * size), 0);
     let span = params.high - params.low;
-    // An empty range shows what lies above it.
+    // An empty range shows numbers from `low` on as white.
     let shown = select(
         (texel.rgb - params.low) / span,
         step(vec3f(params.low), texel.rgb),

@@ -6,11 +6,11 @@
 
 struct Params {
     threshold: f32,
-    // Equation 3.1, or the faster Equation 3.2.
+    // 0 for Equation 3.1, 1 for the faster Equation 3.2.
     magnitude: u32,
-    // The intensity of colors, or the channel with the largest gradient.
+    // 0 for the intensity of colors, 1 for the channel with the largest gradient.
     channels: u32,
-    // Lines, intensities, or the orientation as a color.
+    // 0 for lines, 1 for intensities, 2 for the orientation as a hue.
     show: u32,
     edge_color: vec4f,
     background_color: vec4f,
@@ -23,11 +23,11 @@ fn size_of(x: f32, y: f32) -> f32 {
     return select(abs(x) + abs(y), sqrt(x * x + y * y), params.magnitude == 0u);
 }
 
-// x, y, the size and the orientation of the gradient.
+// The gradient: x, y, magnitude, and orientation in radians.
 fn gradient_at(texcoord: vec2f) -> vec4f {
     let texel = texel_at(texcoord, textureDimensions(texture));
     let gradient = sobel(texture, texel);
-    // Equation 4.5 weighs the channels.
+    // The weights of Equation 4.5.
     let weights = vec3f(0.3, 0.6, 0.1);
     var along = vec2f(dot(gradient.x.rgb, weights), dot(gradient.y.rgb, weights));
     if params.channels == 1u {
@@ -42,7 +42,7 @@ fn gradient_at(texcoord: vec2f) -> vec4f {
     return vec4f(along, size_of(along.x, along.y), atan2(along.y, along.x));
 }
 
-// The gradient itself, for passes that read it: x, y, size, orientation in radians.
+// The gradient itself, for passes that read it.
 @fragment
 fn gradient(at: ScreenVarying) -> @location(0) vec4f {
     return gradient_at(at.texcoord);
@@ -52,7 +52,7 @@ fn gradient(at: ScreenVarying) -> @location(0) vec4f {
 fn edges(at: ScreenVarying) -> @location(0) vec4f {
     let gradient = gradient_at(at.texcoord);
     if params.show == 2u {
-        // The hue goes once around with the orientation.
+        // The hue makes one turn with the orientation.
         let turn = gradient.w + vec3f(0.0, 2.0943951, -2.0943951);
         let hue = 0.5 + 0.5 * cos(turn);
         return vec4f(hue * clamp(gradient.z * params.threshold, 0.0, 1.0), 1.0);

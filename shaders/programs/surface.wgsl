@@ -1,4 +1,4 @@
-// The scene as its model has it.
+// The default vertex program: the scene without deformation.
 #import <common/surface.wgsl>
 
 @vertex

@@ -1,11 +1,11 @@
-// The cartoon shader of the NPRView thesis (section 4.2): the light's intensity, looked up
-// in a toon map; for each pixel, or for each vertex.
+// The cartoon shader of the NPRView thesis (section 4.2): the intensity of the light, looked
+// up in a toon map, per pixel or per vertex.
 #import <common/light.wgsl>
 
 struct Params {
-    // How much of the ambient color there is.
+    // Factor of the ambient color.
     ambient: f32,
-    // Over how many pixels the borders of steps go.
+    // Width of the borders between steps, in pixels.
     smoothness: f32,
 }
 
@@ -18,7 +18,7 @@ struct ToonVarying {
     @location(0) point_in_world: vec3f,
     @location(1) texcoord: vec2f,
     @location(2) @interpolate(flat) material_range: u32,
-    // Of the outside, and of the inside: a vertex at a contour has both.
+    // Of the outside and of the inside; a vertex at a contour needs both.
     @location(3) intensities: vec2f,
 }
 
@@ -28,15 +28,15 @@ fn light_intensity(surface: Surface, material: MaterialUniform) -> f32 {
         + specular_factor(surface, material.specular.w) * intensity(material.specular.rgb);
 }
 
-// The map at an intensity; the ends of the map are where the lookup ends.
+// The map at an intensity, clamped to its outermost texels.
 fn looked_up(light: f32) -> vec3f {
     let half_texel = 0.5 / f32(textureDimensions(toon_map).x);
     let place = clamp(light, half_texel, 1.0 - half_texel);
     return textureSampleLevel(toon_map, toon_map_sampler, vec2f(place, 0.5), 0.0).rgb;
 }
 
-// Equation 4.6, with the mean of the map over what a pixel covers, so that the borders
-// between steps are as smooth as those of surfaces.
+// Equation 4.6, with the mean of the map over the pixel, so that the borders between steps
+// are as smooth as those of surfaces.
 fn stepped(light: f32, light_a_pixel: f32, material: MaterialUniform) -> vec4f {
     var step = vec3f(0.0);
     for (var tap = 0; tap < 4; tap++) {
@@ -50,7 +50,7 @@ fn stepped(light: f32, light_a_pixel: f32, material: MaterialUniform) -> vec4f {
 @fragment
 fn per_pixel(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
     let texel = textureSample(base_texture, base_sampler, at.texcoord);
-    // Not fwidth of the light: of neighbors beside a triangle the material is undefined.
+    // Not fwidth of the light: outside the triangle, the neighbors' material is undefined.
     let point_x = dpdx(at.point_in_world);
     let point_y = dpdy(at.point_in_world);
     let normal_x = dpdx(at.normal_in_world);

@@ -1,5 +1,4 @@
-// The scene in the colors of its materials, without any light, and with a texture of the
-// pass laid on.
+// The scene in the colors of its materials, unlit, with the texture of the pass over them.
 #import <common/light.wgsl>
 
 @group(1) @binding(1) var texture: texture_2d<f32>;

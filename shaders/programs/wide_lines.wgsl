@@ -1,6 +1,5 @@
-// Lines of a width around the nearest line texels that flooding has found. Detected lines
-// are two texels wide, one on each side of a boundary that is half a texel away from the
-// middle of either: a width of 2 is what was detected.
+// Lines of any width, from the nearest line texels that flood.wgsl found. Detected lines are
+// two texels wide, one texel on each side of a boundary, so a width of 2 reproduces them.
 #import <common/edges.wgsl>
 #import <common/screen.wgsl>
 
@@ -18,7 +17,7 @@ fn wide_lines(at: ScreenVarying) -> @location(0) vec4f {
     let texel = texel_at(at.texcoord, textureDimensions(texture));
     let seed = textureLoad(texture, texel, 0).xy;
     let distance = length(seed - vec2f(texel));
-    // From half a texel within the rim to half a texel beyond it ink falls off.
+    // Ink falls off from half a texel inside the rim to half a texel outside it.
     let inked = clamp(0.5 * params.width - distance, 0.0, 1.0);
     let strength = select(inked, 0.0, seed.x < 0.0);
     return line_color(strength, params.edge_color, params.background_color);

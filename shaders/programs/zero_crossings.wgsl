@@ -1,6 +1,5 @@
-// Edges where a second derivative goes through zero (NPRView thesis, section 3.2): a
-// neighbor has the other sign, and the step is at least the threshold. The texels of
-// both sides are edges.
+// Edges where a second derivative crosses zero (NPRView thesis, section 3.2): a neighbor has
+// the other sign, and the step is at least the threshold. The texels on both sides are edges.
 #import <common/edges.wgsl>
 #import <common/screen.wgsl>
 
