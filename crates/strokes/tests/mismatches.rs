@@ -14,7 +14,23 @@ use strokes::{
 };
 
 fn noop() -> Gpu {
-    let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+    let backend_options = wgpu::BackendOptions {
+        noop: wgpu::NoopBackendOptions::enabled(),
+        ..wgpu::BackendOptions::default()
+    };
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        backends: wgpu::Backends::NOOP,
+        backend_options,
+        // wgpu 30 checks indirect draws in buffers that need an alignment, and this backend
+        // has none: with the check, encoding such a draw panics.
+        flags: wgpu::InstanceFlags::VALIDATION,
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    });
+    let device = async {
+        let adapter = instance.request_adapter(&wgpu::RequestAdapterOptions::default()).await;
+        adapter.expect("the noop adapter").request_device(&Default::default()).await
+    };
+    let (device, queue) = pollster::block_on(device).expect("the noop device");
     Gpu::from_device(device, queue).expect("a device of the default limits")
 }
 

@@ -159,7 +159,7 @@ fn camera_of(mesh: &EdgeMesh, view: u32) -> Camera {
 }
 
 #[test]
-fn chains_of_the_projects_models_are_the_cpus() {
+fn chains_of_own_models_equal_those_of_the_cpu() {
     let mut renderer = renderer(gpu(), Layout::Indexed);
     for (name, mesh) in own_models() {
         let mut linker = Linker::new(gpu(), &mesh, &mut renderer);

@@ -21,13 +21,13 @@ pub(crate) fn changes(before: &Technique, after: &Technique) -> Option<Vec<Strin
     // A new pass is inserted right after its origin, so the last one is made first.
     for pass in after.passes.iter().rev().filter(is_new) {
         let (index, _) = pass.component.variable("render")?;
-        add(&mut settings, &mut reached, pass, index)?;
+        add_setting(&mut settings, &mut reached, pass, index)?;
     }
     for is_split in [false, true] {
         for pass in after.passes.iter().filter(|pass| is_new(pass) == is_split) {
             for (index, value) in pass.values().iter().enumerate() {
                 if reached.pass(&pass.name)?.values().get(index) != Some(value) {
-                    add(&mut settings, &mut reached, pass, index)?;
+                    add_setting(&mut settings, &mut reached, pass, index)?;
                 }
             }
         }
@@ -36,7 +36,7 @@ pub(crate) fn changes(before: &Technique, after: &Technique) -> Option<Vec<Strin
 }
 
 /// Adds the setting of a variable, and sets it in `reached`.
-fn add(
+fn add_setting(
     settings: &mut Vec<String>,
     reached: &mut Technique,
     pass: &Pass,

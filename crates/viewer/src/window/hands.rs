@@ -343,7 +343,7 @@ fn drag_cut(session: &mut Session, view: &Viewpoint, canvas: &Canvas, pixels: DV
         return session.messages.note("there are no cuts: add one under Light");
     };
     let plane = &mut planes[session.chosen_cut.min(last)];
-    *plane = light_hand::cut_dragged(*plane, view, scene, canvas, pixels);
+    *plane = light_hand::dragged_clip_plane(*plane, view, scene, canvas, pixels);
 }
 
 /// Highlights the edge under the pointer, and marks it on a click.

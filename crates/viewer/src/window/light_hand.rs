@@ -73,7 +73,7 @@ pub(crate) fn light_dragged(
 /// A plane (n, d) after a drag by `pixels`: it moves along its normal, as far as the pointer
 /// moves along the projected normal. If the normal points at the viewer, up moves it away.
 #[must_use]
-pub(crate) fn cut_dragged(
+pub(crate) fn dragged_clip_plane(
     plane: [f64; 4],
     view: &Viewpoint,
     scene: &Scene,
@@ -180,14 +180,14 @@ mod tests {
             let point = DVec3::X * (-plane[3] / plane[0]);
             CANVAS.pixel_of(&view, point).unwrap()
         };
-        let moved = cut_dragged(plane, &view, &scene, &CANVAS, DVec2::new(30.0, 17.0));
+        let moved = dragged_clip_plane(plane, &view, &scene, &CANVAS, DVec2::new(30.0, 17.0));
         assert_eq!(moved[..3], plane[..3]);
         let by = at(moved) - at(plane);
         assert!((by - DVec2::new(30.0, 0.0)).length() < 0.5, "{by}");
         // For a normal toward or away from the viewer, up is away.
         for z in [1.0, -1.0] {
             let plane = [0.0, 0.0, z, 0.0];
-            let moved = cut_dragged(plane, &view, &scene, &CANVAS, DVec2::new(0.0, -30.0));
+            let moved = dragged_clip_plane(plane, &view, &scene, &CANVAS, DVec2::new(0.0, -30.0));
             assert!(-moved[3] / z < -0.05, "{moved:?}");
         }
     }

@@ -69,7 +69,7 @@ impl<'a> Words<'a> {
     }
 
     /// The rest of this line without surrounding blanks; moves to the next line.
-    pub(super) fn end_line(&mut self) -> &'a [u8] {
+    pub(super) fn take_rest_of_line(&mut self) -> &'a [u8] {
         let text = self.left();
         let length = text.iter().position(|&byte| is_line_end(byte)).unwrap_or(text.len());
         self.at += length;
@@ -153,7 +153,7 @@ mod tests {
         let mut words = Words::new(b"a b \nc\r\nd\re", 0, 7);
         let mut lines = Vec::new();
         while !words.left().is_empty() {
-            lines.push((words.line(), words.end_line()));
+            lines.push((words.line(), words.take_rest_of_line()));
         }
         assert_eq!(lines, [(7, &b"a b"[..]), (8, b"c"), (9, b"d"), (10, b"e")]);
     }

@@ -85,7 +85,7 @@ pub(super) fn read_header<'a>(
 ) -> Result<Header<'a>, ReadError> {
     let words = Words::new(source.bytes, 0, 1);
     let mut reader = HeaderReader { source, words, encoding: None, elements: Vec::new() };
-    if reader.words.end_line() != b"ply" {
+    if reader.words.take_rest_of_line() != b"ply" {
         let what = "does not begin with a line 'ply', so it is not a PLY file";
         return Err(source.error(ReadErrorKind::Format, Some(Place::Line(1)), what));
     }
@@ -93,7 +93,7 @@ pub(super) fn read_header<'a>(
     let Some(encoding) = reader.encoding else {
         return Err(reader.syntax("the header has no line 'format'"));
     };
-    reader.words.end_line();
+    reader.words.take_rest_of_line();
     let (end, end_line) = (end_of_header(source.bytes, reader.words.at()), reader.words.line());
     Ok(Header { encoding, elements: reader.elements, end, end_line })
 }
@@ -140,7 +140,7 @@ impl<'a> HeaderReader<'_, 'a> {
                 });
             }
         }
-        self.words.end_line();
+        self.words.take_rest_of_line();
         Ok(true)
     }
 

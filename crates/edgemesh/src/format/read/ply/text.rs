@@ -103,7 +103,7 @@ impl Rows for TextRows<'_, '_> {
                 }
             }
         }
-        let rest = self.words.end_line();
+        let rest = self.words.take_rest_of_line();
         if !rest.is_empty() {
             report.warn(WarningCode::Syntax, Some(self.place()), || {
                 let name = quoted(plan.element.name);

@@ -113,7 +113,7 @@ impl<'a> TextReader<'_, 'a> {
             Some(Keyword::Solid) => self.begin_solid(),
             Some(Keyword::EndSolid) => {
                 self.end_facet();
-                self.words.end_line();
+                self.words.take_rest_of_line();
                 self.solid = None;
             }
             None => self.unknown(word),
@@ -149,7 +149,7 @@ impl<'a> TextReader<'_, 'a> {
         self.end_facet();
         self.warn_of_open_solid();
         self.solid = Some(self.words.line());
-        let name = self.words.end_line();
+        let name = self.words.take_rest_of_line();
         let group = if name.is_empty() { NONE } else { self.group(name) };
         self.model.set_attributes(Attributes { group, ..Attributes::default() });
     }
@@ -173,7 +173,7 @@ impl<'a> TextReader<'_, 'a> {
         self.report.warn(WarningCode::Syntax, Some(Place::Line(self.words.line())), || {
             format!("{} is not an STL keyword; its line was left out", quoted(word))
         });
-        self.words.end_line();
+        self.words.take_rest_of_line();
     }
 
     fn finish(&mut self) {
