@@ -187,6 +187,23 @@ fn every_dependency_is_used() {
     assert_none(&lines);
 }
 
+/// A package that the profile does not list is optimized like a dependency and has no line
+/// numbers in backtraces.
+#[test]
+fn the_profile_lists_every_package() {
+    let Some(workspace) = manifest("") else {
+        return eprintln!("skipped the profile: no source");
+    };
+    let members = workspace["workspace"]["members"].as_array().unwrap().iter();
+    let packages: BTreeSet<String> = members
+        .map(|folder| manifest(folder.as_str().unwrap()).unwrap())
+        .map(|manifest| manifest["package"]["name"].as_str().unwrap().to_owned())
+        .collect();
+    let listed = workspace["profile"]["dev"]["package"].as_table().unwrap();
+    let listed: BTreeSet<String> = listed.keys().cloned().collect();
+    assert_eq!(packages, listed);
+}
+
 #[test]
 fn a_dependency_that_nothing_names_is_found() {
     let named: BTreeSet<String> =
