@@ -31,7 +31,7 @@ pub fn program(name: &str) -> PathBuf {
 /// The example `name` of any crate, in the folder `examples` beside the programs.
 ///
 /// # Panics
-/// Where it has not been built; the message says how to.
+/// If it has not been built; the message says how to build it.
 #[must_use]
 pub fn example(name: &str) -> PathBuf {
     built(Path::new("examples"), name)
