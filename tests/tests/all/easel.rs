@@ -83,17 +83,16 @@ fn a_shared_renderer_draws_the_bytes_of_a_new_one() {
     ];
     let stages =
         [(Layout::Indexed, DetectionStage::Compute), (Layout::Replicated, DetectionStage::Vertex)];
-    // Another size, mesh, technique and layout than in the picture before.
-    for (size_px, technique) in [64, 96].into_iter().cycle().zip(&techniques) {
+    // Each renderer draws another mesh, technique and size than before.
+    for (step, technique) in techniques.iter().enumerate() {
         for (at, mesh) in meshes.iter().enumerate() {
-            for (layout, stage) in stages {
-                let size = [size_px; 2];
-                let options = PictureOptions { size, layout, stage, ..PictureOptions::default() };
-                let camera = easel.default_view(at);
-                let shared = easel.picture(at, &camera, technique, &options);
-                let new = picture_with(mesh, &camera, technique, &options);
-                assert!(shared == new, "{}, mesh {at}, {layout:?} {stage:?}", technique.name);
-            }
+            let (layout, stage) = stages[(step + at) % 2];
+            let size = [[64, 96][step % 2]; 2];
+            let options = PictureOptions { size, layout, stage, ..PictureOptions::default() };
+            let camera = easel.default_view(at);
+            let shared = easel.picture(at, &camera, technique, &options);
+            let new = picture_with(mesh, &camera, technique, &options);
+            assert!(shared == new, "{}, mesh {at}, {layout:?} {stage:?}", technique.name);
         }
     }
 }

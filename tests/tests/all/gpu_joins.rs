@@ -198,15 +198,15 @@ fn wandering_lines_have_no_gap_and_no_pixel_is_covered_twice() {
             nearest[at] = nearest[at].min(place.distance);
         }
         for (at, (red, nearest)) in picture.into_iter().zip(nearest).enumerate() {
-            let what = format!("case {case}, {width} px wide, pixel {at}, {nearest} px off");
-            assert!(red >= ONCE, "{what}: covered twice");
+            let what = || format!("case {case}, {width} px wide, pixel {at}, {nearest} px off");
+            assert!(red >= ONCE, "{}: covered twice", what());
             if nearest < reach - 0.55 {
                 inside += 1;
-                assert!(red <= ONCE + 1, "{what}: a gap");
+                assert!(red <= ONCE + 1, "{}: a gap", what());
             }
             // Miters extend further.
             if case % 2 == 0 && nearest > reach + 0.55 {
-                assert_eq!(red, 255, "{what}: ink beyond the stroke");
+                assert_eq!(red, 255, "{}: ink beyond the stroke", what());
             }
         }
     }
@@ -246,8 +246,8 @@ fn strokes_outside_of_contours_have_no_gap_either() {
             let is_inside = (0.55..width - 0.55).contains(&-place.off);
             if is_beside && is_inside && is_right_of_all[at] {
                 inside += 1;
-                let what = format!("case {case}, {width} px wide, pixel {at}");
-                assert!(picture[at] <= ONCE + 1, "{what}: a gap");
+                let red = picture[at];
+                assert!(red <= ONCE + 1, "case {case}, {width} px wide, pixel {at}: a gap");
             }
         }
     }

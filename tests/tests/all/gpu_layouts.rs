@@ -78,8 +78,9 @@ fn looks() -> Vec<Technique> {
 #[test]
 fn all_layouts_and_stages_draw_the_same() {
     let mut drawn = Drawn::own_models_on(gpu());
-    for (model, (name, _)) in own_models().iter().enumerate() {
-        for (at, look) in looks().iter().enumerate() {
+    let models = own_models();
+    for (at, look) in looks().iter().enumerate() {
+        for (model, (name, _)) in models.iter().enumerate() {
             let pictures = layouts_and_stages().map(|how| drawn.picture(model, look, how));
             let [indexed, others @ ..] = &pictures;
             for (other, (layout, stage)) in others.iter().zip(&layouts_and_stages()[1..]) {
@@ -161,8 +162,9 @@ fn chunks_draw_the_picture_of_the_whole() {
     let mut at_once = Drawn::own_models_on(gpu());
     let mut in_chunks = Drawn::own_models_on(&small);
     let pen = technique("pen", &["strokes.width=6"]);
-    for (model, (name, _)) in own_models().iter().enumerate() {
-        for (at, look) in looks().iter().chain([&pen]).enumerate() {
+    let models = own_models();
+    for (at, look) in looks().iter().chain([&pen]).enumerate() {
+        for (model, (name, _)) in models.iter().enumerate() {
             for how in layouts_and_stages() {
                 let whole = at_once.picture(model, look, how);
                 let chunks = in_chunks.picture(model, look, how);
@@ -213,8 +215,9 @@ fn linked_strokes_are_the_same_in_every_layout_and_in_chunks() {
     ];
     let mut at_once = Drawn::own_models_on(gpu());
     let mut in_chunks = Drawn::own_models_on(&small);
-    for (model, (name, _)) in own_models().iter().enumerate() {
-        for look in &looks {
+    let models = own_models();
+    for look in &looks {
+        for (model, (name, _)) in models.iter().enumerate() {
             let how = |layout| (layout, DetectionStage::Compute);
             let indexed = at_once.picture(model, look, how(Layout::Indexed));
             let replicated = at_once.picture(model, look, how(Layout::Replicated));
