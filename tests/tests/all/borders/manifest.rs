@@ -200,7 +200,8 @@ fn the_profile_lists_every_package() {
         .map(|manifest| manifest["package"]["name"].as_str().unwrap().to_owned())
         .collect();
     let listed = workspace["profile"]["dev"]["package"].as_table().unwrap();
-    assert_eq!(packages, listed.keys().cloned().collect());
+    let listed: BTreeSet<String> = listed.keys().cloned().collect();
+    assert_eq!(packages, listed);
 }
 
 #[test]
