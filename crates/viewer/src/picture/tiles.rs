@@ -114,11 +114,7 @@ impl AnySizeRenderer {
     ///
     /// # Errors
     /// As [`PictureRenderer::reload`].
-    pub(crate) fn reload(
-        &mut self,
-        input: PictureInput,
-        options: &PictureOptions,
-    ) -> Result<(), Error> {
+    pub fn reload(&mut self, input: PictureInput, options: &PictureOptions) -> Result<(), Error> {
         let reload = |renderer: &mut PictureRenderer| {
             let options = PictureOptions { size: renderer.options().size, ..options.clone() };
             renderer.reload(input, &options)
