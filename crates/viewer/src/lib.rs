@@ -22,6 +22,10 @@
 //! [`Error`] lists what can go wrong; [`watch`] reports files that change.
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]
+#![cfg_attr(
+    not(feature = "window"),
+    expect(dead_code, reason = "only the window resizes pictures and writes techniques")
+)]
 
 mod arguments;
 pub mod command;

@@ -480,7 +480,7 @@ fn without_a_picture_there_is_a_way_to_one() {
     assert!(harness.query_by_label_contains("Open").is_none(), "models are on their way");
     (harness.state_mut().1, harness.state_mut().0.scene) = (false, None);
     harness.run_ok();
-    harness.get_by_label_contains("Open").click();
+    harness.get_by_label_contains("Open…").click();
     harness.run_ok();
     harness.get_by_label("Open the demo").click();
     harness.run_ok();
