@@ -9,7 +9,7 @@
 #import <common/spine.wgsl>
 
 // Placements of a stroke relative to its spine.
-const CENTRED: u32 = 0u;
+const CENTERED: u32 = 0u;
 const OUTSIDE: u32 = 1u;
 const INSIDE: u32 = 2u;
 // Contours outside, all other lines centered.
@@ -18,7 +18,7 @@ const AUTOMATIC: u32 = 3u;
 // The offsets along p of the near side (corners 0 and 1) and of the far side (corners 2
 // and 3).
 fn quad_offsets(placement: u32, outside: f32, width_px: f32) -> vec2f {
-    if placement == CENTRED {
+    if placement == CENTERED {
         return vec2f(-0.5, 0.5) * width_px;
     }
     return vec2f(0.0, select(outside, -outside, placement == INSIDE) * width_px);

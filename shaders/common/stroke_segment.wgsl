@@ -107,7 +107,7 @@ fn stroke_segment(edge: ClipEdge, shape: StrokeShape, bits: u32) -> Segment {
     );
     segment.u = stroke_u(spine, shape, side, 0.5 * (width_px.x + width_px.y), edge.r);
     segment.u_far = segment.u;
-    if placement == CENTRED {
+    if placement == CENTERED {
         segment.v_far = 0.5 - 0.5 * side;
         segment.v_near = 1.0 - segment.v_far;
         segment.v_spine = 0.5;
@@ -145,7 +145,7 @@ fn placement_of(shape: StrokeShape, bits: u32) -> u32 {
     if shape.placement != AUTOMATIC {
         return shape.placement;
     }
-    return select(CENTRED, OUTSIDE, (bits & CONTOUR) != 0u);
+    return select(CENTERED, OUTSIDE, (bits & CONTOUR) != 0u);
 }
 
 fn width_at(clip: vec4f, shape: StrokeShape) -> f32 {

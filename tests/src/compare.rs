@@ -357,11 +357,11 @@ mod tests {
     /// White paper with strokes: x, y, width, height, color.
     fn drawing(strokes: &[(u32, u32, u32, u32, [u8; 4])]) -> RgbaImage {
         let mut picture = RgbaImage::from_pixel(256, 256, Rgba([255; 4]));
-        for &(left, top, width, height, colour) in strokes {
+        for &(left, top, width, height, color) in strokes {
             for (x, y) in
                 (top..top + height).flat_map(|y| (left..left + width).map(move |x| (x, y)))
             {
-                picture.put_pixel(x, y, Rgba(colour));
+                picture.put_pixel(x, y, Rgba(color));
             }
         }
         picture
@@ -418,7 +418,7 @@ mod tests {
     }
 
     #[test]
-    fn two_swapped_colours_fail() {
+    fn two_swapped_colors_fail() {
         let strokes = |a, b| drawing(&[(20, 20, 200, 2, a), (20, 60, 200, 2, b)]);
         let (golden, picture) = (strokes(RED, BLUE), strokes(BLUE, RED));
         assert!(difference(&golden, &picture, 2).ink_distance_px <= 0.0, "both are ink");

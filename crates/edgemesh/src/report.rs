@@ -155,7 +155,7 @@ pub enum RepairKind {
     /// Vertices moved onto others by welding with a tolerance.
     SnappedVertices,
     /// Models moved and scaled, because 32 bits would lose their detail; at most 1.
-    Recentred,
+    Recentered,
 }
 
 impl RepairKind {
@@ -167,7 +167,7 @@ impl RepairKind {
         Self::SplitEdges,
         Self::SplitVertices,
         Self::SnappedVertices,
-        Self::Recentred,
+        Self::Recentered,
     ];
 
     /// The kind whose [`Self::as_str`] is `word`.
@@ -186,7 +186,7 @@ impl RepairKind {
             Self::SplitEdges => "split_edges",
             Self::SplitVertices => "split_vertices",
             Self::SnappedVertices => "snapped_vertices",
-            Self::Recentred => "recentred",
+            Self::Recentered => "recentred",
         }
     }
 }

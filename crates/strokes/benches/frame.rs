@@ -166,15 +166,15 @@ impl Bench {
 
     fn kinds(&self, name: &str, mesh: &EdgeMesh, samples: u32) {
         let all = LineClass::ALL;
-        let centred =
-            StrokeStyle { placement: Placement::Centred, ..stroke(LineKind::QuadAndCaps, false) };
+        let centered =
+            StrokeStyle { placement: Placement::Centered, ..stroke(LineKind::QuadAndCaps, false) };
         let contenders = [
             ("thin lines", drawing(&all, stroke(LineKind::Thin, false))),
             ("quads", drawing(&all, stroke(LineKind::Quad, false))),
             ("quads with caps", drawing(&all, stroke(LineKind::QuadAndCaps, false))),
             ("quads with caps, textured", drawing(&all, stroke(LineKind::QuadAndCaps, true))),
             ("quads with half disks", drawing(&all, stroke(LineKind::QuadAndDisks, false))),
-            ("quads with caps, centred on contours too", drawing(&all, centred)),
+            ("quads with caps, centered on contours too", drawing(&all, centered)),
             ("fins", drawing(&all, stroke(LineKind::Fin, false))),
             (
                 "quads with caps, contours only",

@@ -179,13 +179,13 @@ fn a_byte_order_mark_is_no_part_of_the_first_line() {
 }
 
 #[test]
-fn models_far_from_the_origin_are_recentred_and_keep_their_place() {
-    for (offset, is_recentred) in [(0, 0), (1000, 0), (4_000_000_000_u32, 1)] {
+fn models_far_from_the_origin_are_recentered_and_keep_their_place() {
+    for (offset, is_recentered) in [(0, 0), (1000, 0), (4_000_000_000_u32, 1)] {
         let text = format!("v {offset}.5 0 0\nv {} 0 0\nv {offset}.5 1 0\nf 1 2 3\n", offset + 1);
         let (_folder, path) = file("far.obj", text.as_bytes());
         let info = json(&info_with(&path, &["--json"]));
         assert_eq!(info["warnings"].as_array().unwrap().len(), 0, "{info}");
-        assert_eq!(info["repairs"]["recentred"].as_u64(), Some(is_recentred), "{info}");
+        assert_eq!(info["repairs"]["recentred"].as_u64(), Some(is_recentered), "{info}");
         let bounds = &info["bounds"];
         assert_eq!(bounds["min"][0].as_f64(), Some(f64::from(offset) + 0.5), "{bounds}");
         assert_eq!(bounds["max"][0].as_f64(), Some(f64::from(offset) + 1.0), "{bounds}");

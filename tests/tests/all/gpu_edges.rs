@@ -472,7 +472,7 @@ fn chiang_adds_gradients_and_drops_edges_without_a_step_of_depth() {
 }
 
 #[test]
-fn combined_detector_has_a_colour_for_each_kind() {
+fn combined_detector_has_a_color_for_each_kind() {
     let folder = tempfile::tempdir().unwrap();
     let found = |of: &[Strip], more: &str| {
         let passes = detector(

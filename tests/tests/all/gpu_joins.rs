@@ -177,7 +177,7 @@ fn wandering_lines_have_no_gap_and_no_pixel_is_covered_twice() {
         let style = StrokeStyle {
             width: Width::Pixels(width),
             color: [0.0, 0.0, 0.0, 0.5],
-            placement: Placement::Centred,
+            placement: Placement::Centered,
             link: Some(link),
             ..StrokeStyle::default()
         };

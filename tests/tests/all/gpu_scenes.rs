@@ -88,8 +88,8 @@ fn three_hundred_silhouettes() {
         let is_red = picture.get_pixel(x, y).0 == RED;
         on_body += usize::from(is_red && is_body(x, y));
         let beside = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
-        let neighbours = beside.iter().filter(|&&(x, y)| is_body(x, y)).count();
-        if !is_body(x, y) && neighbours > 0 {
+        let neighbors = beside.iter().filter(|&&(x, y)| is_body(x, y)).count();
+        if !is_body(x, y) && neighbors > 0 {
             ring += 1;
             gaps += usize::from(!is_red);
         }

@@ -258,7 +258,7 @@ const KINDS: [LineKind; 5] =
     [LineKind::Thin, LineKind::Quad, LineKind::QuadAndCaps, LineKind::QuadAndDisks, LineKind::Fin];
 
 const PLACEMENTS: [Placement; 4] =
-    [Placement::Centred, Placement::Outside, Placement::Inside, Placement::Automatic];
+    [Placement::Centered, Placement::Outside, Placement::Inside, Placement::Automatic];
 
 impl StrokeInput {
     fn edge(&self) -> ClipEdge {

@@ -163,7 +163,7 @@ fn what_passes_draw_for_each_other_is_seen() {
 }
 
 #[test]
-fn turntables_are_written_and_can_be_cancelled() {
+fn turntables_are_written_and_can_be_canceled() {
     let folder = tempfile::tempdir().unwrap();
     let session = session(&workspace_root().join("models/cube.obj"), "ink");
     let path = folder.path().join("turn.png");

@@ -449,7 +449,7 @@ fn constants_are_equal_and_found_on_both_sides() {
         ("FOOT_PX", float(FOOT_PX)),
         ("CAP_VERTICES", CAP_VERTICES.into()),
         ("DISK_VERTICES", DISK_VERTICES.into()),
-        ("CENTRED", Placement::Centred as u64),
+        ("CENTERED", Placement::Centered as u64),
         ("OUTSIDE", Placement::Outside as u64),
         ("INSIDE", Placement::Inside as u64),
         ("AUTOMATIC", Placement::Automatic as u64),

@@ -79,8 +79,8 @@ impl Canvas {
         let rows = samples(near.iter().map(|point| point.y), by_px, self.height);
         for row in rows {
             for column in columns.clone() {
-                let centre = |index: u32| (f64::from(index) + 0.5) / f64::from(SAMPLES);
-                if inside(Point::new(centre(column), centre(row))) {
+                let center = |index: u32| (f64::from(index) + 0.5) / f64::from(SAMPLES);
+                if inside(Point::new(center(column), center(row))) {
                     self.ink[(row * self.width + column) as usize] = ink;
                 }
             }

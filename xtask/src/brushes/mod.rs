@@ -2,7 +2,7 @@
 //! (`crate::images`).
 //!
 //! u runs along the stroke and repeats, v from 0 at the outer rim (top row) to 1
-//! at the inner rim. The colour is ink; how much of it covers the paper is alpha.
+//! at the inner rim. The color is ink; how much of it covers the paper is alpha.
 //!
 //! Only +, -, *, / and square roots are used, which round alike everywhere, so the
 //! pictures are the same on every machine.

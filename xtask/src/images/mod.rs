@@ -31,9 +31,9 @@ pub(crate) fn encoded(picture: &RgbImage) -> Result<Vec<u8>, image::ImageError> 
     let mut bytes = Vec::new();
     let encoder =
         PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);
-    let is_grey =
+    let is_gray =
         picture.pixels().all(|pixel| pixel.0[0] == pixel.0[1] && pixel.0[1] == pixel.0[2]);
-    if is_grey {
+    if is_gray {
         DynamicImage::from(picture.clone()).to_luma8().write_with_encoder(encoder)?;
     } else {
         picture.write_with_encoder(encoder)?;

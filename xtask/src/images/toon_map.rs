@@ -12,9 +12,9 @@ const HEIGHT: u32 = 4;
 /// Every map by its name.
 pub(super) fn pictures() -> Vec<(&'static str, RgbImage)> {
     vec![
-        ("two_steps", map(|light| grey(if light < 0.35 { 0.45 } else { 1.0 }))),
+        ("two_steps", map(|light| gray(if light < 0.35 { 0.45 } else { 1.0 }))),
         ("three_steps", map(three_steps)),
-        ("gradient", map(|light| grey(0.2 + 0.8 * light))),
+        ("gradient", map(|light| gray(0.2 + 0.8 * light))),
         ("metallic", map(metallic)),
         ("spectrum", map(spectrum)),
     ]
@@ -26,13 +26,13 @@ fn map(color: impl Fn(f64) -> [f64; 3]) -> RgbImage {
     })
 }
 
-fn grey(value: f64) -> [f64; 3] {
+fn gray(value: f64) -> [f64; 3] {
     [value; 3]
 }
 
 /// Shadow, lit, highlight.
 fn three_steps(light: f64) -> [f64; 3] {
-    grey(match light {
+    gray(match light {
         ..0.3 => 0.4,
         ..0.8 => 0.75,
         _ => 1.0,

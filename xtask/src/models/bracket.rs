@@ -48,15 +48,15 @@ type FlatPoint = [f64; 2];
 pub(crate) fn mesh() -> PolygonMesh {
     let mut mesh = PolygonMesh::default();
     for face in plates().into_iter().chain(rib()).chain(upright_back()).chain(upright_front()) {
-        mesh.add_of(PAINTED, &face.into_iter().map(centred).collect::<Vec<_>>());
+        mesh.add_of(PAINTED, &face.into_iter().map(centered).collect::<Vec<_>>());
     }
     for face in bore().into_iter().chain(pad()) {
-        mesh.add_of(MACHINED, &face.map(centred));
+        mesh.add_of(MACHINED, &face.map(centered));
     }
     mesh
 }
 
-fn centred([x, y, z]: Point) -> Point {
+fn centered([x, y, z]: Point) -> Point {
     [x, y - H / 2.0, z - D / 2.0]
 }
 

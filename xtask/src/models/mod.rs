@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn models_are_centred_and_small() {
+    fn models_are_centered_and_small() {
         for (name, text) in files() {
             assert!(text.len() < 400_000, "{name} has {} bytes", text.len());
         }

@@ -195,7 +195,7 @@ fn weld_model(model: &Model, options: &BuildOptions, report: &mut Report) -> (Me
         let (low, high) = used_box(model, &is_used);
         MeshFrame::of_box(low, high)
     });
-    report.repair(RepairKind::Recentred, usize::from(!frame.is_identity()), None);
+    report.repair(RepairKind::Recentered, usize::from(!frame.is_identity()), None);
     let to_mesh = |&point: &[f64; 3]| frame.to_mesh(point.into()).as_vec3().to_array();
     let positions: Vec<[f32; 3]> = if frame.is_identity() {
         #[expect(clippy::cast_possible_truncation, reason = "a mesh is in 32 bits")]

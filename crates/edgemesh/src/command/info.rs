@@ -337,7 +337,7 @@ impl RepairsInfo {
             split_edges: count(RepairKind::SplitEdges),
             split_vertices: count(RepairKind::SplitVertices),
             snapped_vertices: count(RepairKind::SnappedVertices),
-            recentred: count(RepairKind::Recentred),
+            recentred: count(RepairKind::Recentered),
         }
     }
 }

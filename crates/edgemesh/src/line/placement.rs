@@ -5,7 +5,7 @@
 #[repr(u32)]
 pub enum Placement {
     /// Half of the width on each side (Equation 2).
-    Centred = 0,
+    Centered = 0,
     /// All of the width outside (Equation 3).
     Outside = 1,
     /// All of the width inside.

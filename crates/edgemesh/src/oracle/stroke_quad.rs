@@ -23,7 +23,7 @@ use crate::line::Placement;
 #[must_use]
 pub(super) fn quad_offsets(placement: Placement, outside: f32, width_px: f32) -> Vec2 {
     match placement {
-        Placement::Centred | Placement::Automatic => Vec2::new(-0.5, 0.5) * width_px,
+        Placement::Centered | Placement::Automatic => Vec2::new(-0.5, 0.5) * width_px,
         Placement::Outside => Vec2::new(0.0, outside * width_px),
         Placement::Inside => Vec2::new(0.0, -outside * width_px),
     }
@@ -41,7 +41,7 @@ mod tests {
 
     #[test]
     fn a_half_quad_is_as_wide_as_a_full_one() {
-        for placement in [Placement::Centred, Placement::Outside, Placement::Inside] {
+        for placement in [Placement::Centered, Placement::Outside, Placement::Inside] {
             for outside in [1.0, -1.0] {
                 let sides = quad_offsets(placement, outside, 6.0);
                 assert!(((sides.y - sides.x).abs() - 6.0).abs() < f32::EPSILON, "{placement:?}");

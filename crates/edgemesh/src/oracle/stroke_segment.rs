@@ -157,7 +157,7 @@ pub fn stroke_segment(edge: &ClipEdge, shape: &StrokeShape, bits: LineBits) -> S
     segment.opacity = Vec2::new(spine.t0, spine.t1).map(|t| opacity_at(distance_at(t), shape));
     segment.u = stroke_u(&spine, shape, side, 0.5 * (width_px.x + width_px.y), edge.r);
     segment.u_far = segment.u;
-    if placement == Placement::Centred {
+    if placement == Placement::Centered {
         segment.v_far = 0.5 - 0.5 * side;
         segment.v_near = 1.0 - segment.v_far;
         segment.v_spine = 0.5;
@@ -193,7 +193,7 @@ fn outside_of(segment: &Segment, shape: &StrokeShape, bits: LineBits) -> f32 {
 fn placement_of(shape: &StrokeShape, bits: LineBits) -> Placement {
     match shape.placement {
         Placement::Automatic if bits.contains(LineBits::CONTOUR) => Placement::Outside,
-        Placement::Automatic => Placement::Centred,
+        Placement::Automatic => Placement::Centered,
         chosen => chosen,
     }
 }

@@ -260,7 +260,7 @@ mod tests {
         assert_eq!(rim(&mirrored, LineBits::CONTOUR), [40.0, -4.0]);
         let inside = StrokeShape { placement: Placement::Inside, ..SHAPE };
         assert_eq!(rim(&inside, LineBits::CONTOUR), [40.0, -4.0]);
-        let centered = StrokeShape { placement: Placement::Centred, ..SHAPE };
+        let centered = StrokeShape { placement: Placement::Centered, ..SHAPE };
         assert_eq!(rim(&centered, LineBits::CONTOUR), [40.0, 2.0]);
     }
 
@@ -329,7 +329,7 @@ mod tests {
 
     #[test]
     fn contours_know_how_far_they_lie_over_their_surface() {
-        let shape = StrokeShape { placement: Placement::Centred, ..SHAPE };
+        let shape = StrokeShape { placement: Placement::Centered, ..SHAPE };
         // Without A_FACES the outside is the side of p: up.
         let corners = [0, 3].map(|corner| vertex(&shape, LineBits::CONTOUR, corner));
         assert_eq!(corners.map(|corner| corner.over_px), [2.0, -2.0]);

@@ -171,7 +171,7 @@ proptest! {
         }
         let mut report = Report::default();
         let far = edgemesh::build::build_edge_mesh(&model, &BuildOptions::default(), &mut report);
-        if report.repair_count(RepairKind::Recentred) == 1 {
+        if report.repair_count(RepairKind::Recentered) == 1 {
             prop_assert_eq!(far.records, near.records);
             prop_assert_eq!(far.counts, near.counts);
             prop_assert_eq!(far.triangles, near.triangles);

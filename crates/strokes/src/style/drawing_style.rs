@@ -153,7 +153,8 @@ impl StrokeSet {
     /// their fragments ask at the edge whether they are visible.
     pub(crate) const fn lies_over_surface(&self) -> bool {
         let is_wide = !matches!(self.style.kind, LineKind::Thin | LineKind::Fin);
-        let reaches_inside = matches!(self.style.placement, Placement::Centred | Placement::Inside);
+        let reaches_inside =
+            matches!(self.style.placement, Placement::Centered | Placement::Inside);
         self.has_contours && is_wide && reaches_inside
     }
 }

@@ -212,7 +212,7 @@ mod tests {
         for code in [WarningCode::NonFinite, WarningCode::Material, WarningCode::Orientation] {
             assert!(some(&|s| s.report.count(code) > 0), "{code}");
         }
-        for kind in [RepairKind::FlippedFaces, RepairKind::SplitEdges, RepairKind::Recentred] {
+        for kind in [RepairKind::FlippedFaces, RepairKind::SplitEdges, RepairKind::Recentered] {
             assert!(some(&|s| s.report.repair_count(kind) > 0), "{kind:?}");
         }
     }

@@ -213,7 +213,7 @@ impl Word for Parameterization {
 impl Word for Placement {
     const WORDS: &'static [(&'static str, Self)] = &[
         ("auto", Self::Automatic),
-        ("centred", Self::Centred),
+        ("centred", Self::Centered),
         ("outside", Self::Outside),
         ("inside", Self::Inside),
     ];
