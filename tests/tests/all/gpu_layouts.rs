@@ -22,9 +22,9 @@ use crate::noop::layouts_and_stages;
 use crate::own_models::own_models;
 
 /// Meshes on a device, drawn in several ways.
-struct Drawn<'a>(Easel<'a>);
+struct Pictures<'a>(Easel<'a>);
 
-impl<'a> Drawn<'a> {
+impl<'a> Pictures<'a> {
     fn on<'m>(gpu: &'a Gpu, meshes: impl IntoIterator<Item = &'m EdgeMesh>) -> Self {
         Self(Easel::new(gpu, meshes))
     }
@@ -51,8 +51,8 @@ fn difference(a: &RgbaImage, b: &RgbaImage) -> u8 {
     a.as_raw().iter().zip(b.as_raw()).map(|(a, b)| a.abs_diff(*b)).max().unwrap()
 }
 
-/// Looks that use every kind of line, several layers, and hidden lines.
-fn looks() -> Vec<Technique> {
+/// Techniques that use every kind of line, several layers, and hidden lines.
+fn techniques() -> Vec<Technique> {
     let settings: [&[&str]; 7] = [
         &[],
         &["strokes.ends=disks", "strokes.width=6", "ridge.placement=inside"],
@@ -73,23 +73,28 @@ fn looks() -> Vec<Technique> {
 
 #[test]
 fn all_layouts_and_stages_draw_the_same() {
-    let mut drawn = Drawn::own_models_on(gpu());
+    let mut pictures_of = Pictures::own_models_on(gpu());
     let models = own_models();
-    for (at, look) in looks().iter().enumerate() {
+    for (at, technique) in techniques().iter().enumerate() {
         for (model, (name, _)) in models.iter().enumerate() {
-            let pictures = layouts_and_stages().map(|how| drawn.picture(model, look, how));
+            let pictures =
+                layouts_and_stages().map(|how| pictures_of.picture(model, technique, how));
             let [indexed, others @ ..] = &pictures;
             for (other, (layout, stage)) in others.iter().zip(&layouts_and_stages()[1..]) {
                 if *layout != Layout::Replicated16 {
                     assert_eq!(
                         difference(indexed, other),
                         0,
-                        "{name}, look {at}: {layout:?} {stage:?}"
+                        "{name}, technique {at}: {layout:?} {stage:?}"
                     );
                 }
             }
             // At 16 bits both paths draw what is there at 16 bits.
-            assert_eq!(difference(&pictures[4], &pictures[5]), 0, "{name}, look {at}: 16 bits");
+            assert_eq!(
+                difference(&pictures[4], &pictures[5]),
+                0,
+                "{name}, technique {at}: 16 bits"
+            );
         }
     }
 }
@@ -99,12 +104,13 @@ fn all_layouts_and_stages_draw_the_same() {
 #[test]
 fn textured_strokes_differ_by_their_order_at_most() {
     let names = ["bracket", "torus_knot"];
-    let mut drawn = Drawn::on(gpu(), &names.map(own_model));
-    let look = technique("pen", &["strokes.width=8"]);
+    let mut pictures_of = Pictures::on(gpu(), &names.map(own_model));
+    let technique = technique("pen", &["strokes.width=8"]);
     for (model, name) in names.into_iter().enumerate() {
-        let indexed = drawn.picture(model, &look, (Layout::Indexed, DetectionStage::Compute));
+        let indexed =
+            pictures_of.picture(model, &technique, (Layout::Indexed, DetectionStage::Compute));
         for how in layouts_and_stages().into_iter().filter(|how| how.0 != Layout::Replicated16) {
-            let apart = difference(&indexed, &drawn.picture(model, &look, how));
+            let apart = difference(&indexed, &pictures_of.picture(model, &technique, how));
             let most = if how == (Layout::Replicated, DetectionStage::Vertex) { 4 } else { 0 };
             assert!(apart <= most, "{name}, {how:?}: {apart}");
         }
@@ -116,13 +122,13 @@ fn textured_strokes_differ_by_their_order_at_most() {
 fn sixteen_bits_draw_their_own_positions() {
     let models = own_models();
     let rounded: Vec<EdgeMesh> = models.iter().map(|(_, mesh)| at_16_bits(mesh)).collect();
-    let mut sixteen = Drawn::own_models_on(gpu());
-    let mut exact = Drawn::on(gpu(), &rounded);
-    let look = technique("ink", &[]);
+    let mut sixteen = Pictures::own_models_on(gpu());
+    let mut exact = Pictures::on(gpu(), &rounded);
+    let technique = technique("ink", &[]);
     for (model, (name, _)) in models.iter().enumerate() {
-        let exact = exact.picture(model, &look, (Layout::Indexed, DetectionStage::Compute));
+        let exact = exact.picture(model, &technique, (Layout::Indexed, DetectionStage::Compute));
         let how = (Layout::Replicated16, DetectionStage::Compute);
-        let sixteen = sixteen.picture(model, &look, how);
+        let sixteen = sixteen.picture(model, &technique, how);
         let wrong = exact
             .pixels()
             .zip(sixteen.pixels())
@@ -155,20 +161,20 @@ fn at_16_bits(mesh: &EdgeMesh) -> EdgeMesh {
 fn chunks_draw_the_picture_of_the_whole() {
     // The project's models are small: these bindings take a few hundred edges.
     let small = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 15);
-    let mut at_once = Drawn::own_models_on(gpu());
-    let mut in_chunks = Drawn::own_models_on(&small);
+    let mut at_once = Pictures::own_models_on(gpu());
+    let mut in_chunks = Pictures::own_models_on(&small);
     let pen = technique("pen", &["strokes.width=6"]);
     let models = own_models();
-    for (at, look) in looks().iter().chain([&pen]).enumerate() {
+    for (at, technique) in techniques().iter().chain([&pen]).enumerate() {
         for (model, (name, _)) in models.iter().enumerate() {
             for how in layouts_and_stages() {
-                let whole = at_once.picture(model, look, how);
-                let chunks = in_chunks.picture(model, look, how);
+                let whole = at_once.picture(model, technique, how);
+                let chunks = in_chunks.picture(model, technique, how);
                 // The paper's passes, chunk by chunk, are another order of the ink.
                 let is_reordered = how.1 == DetectionStage::Vertex && how.0 != Layout::Indexed;
-                let most = if is_reordered && at == looks().len() { 4 } else { 0 };
+                let most = if is_reordered && at == techniques().len() { 4 } else { 0 };
                 let apart = difference(&whole, &chunks);
-                assert!(apart <= most, "{name}, look {at}, {how:?}: {apart}");
+                assert!(apart <= most, "{name}, technique {at}, {how:?}: {apart}");
             }
         }
     }
@@ -188,12 +194,12 @@ fn large_meshes_in_bindings_of_a_mebibyte() {
         mesh
     });
     let how = (Layout::Indexed, DetectionStage::Compute);
-    let mut at_once = Drawn::on(gpu(), &meshes);
-    let mut in_chunks = Drawn::on(&small, &meshes);
-    for look in [technique("ink", &[]), technique("pen", &["hidden.render=true"])] {
+    let mut at_once = Pictures::on(gpu(), &meshes);
+    let mut in_chunks = Pictures::on(&small, &meshes);
+    for technique in [technique("ink", &[]), technique("pen", &["hidden.render=true"])] {
         for (model, name) in names.into_iter().enumerate() {
-            let whole = at_once.picture(model, &look, how);
-            assert_eq!(difference(&whole, &in_chunks.picture(model, &look, how)), 0, "{name}");
+            let whole = at_once.picture(model, &technique, how);
+            assert_eq!(difference(&whole, &in_chunks.picture(model, &technique, how)), 0, "{name}");
         }
     }
 }
@@ -202,23 +208,23 @@ fn large_meshes_in_bindings_of_a_mebibyte() {
 #[test]
 fn linked_strokes_are_the_same_in_every_layout_and_in_chunks() {
     let small = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 19);
-    let looks = [
+    let techniques = [
         technique("pen", &["strokes.linked=true", "strokes.width=5", "strokes.taper=20"]),
         technique(
             "charcoal",
             &["strokes.linked=true", "ridge.width=3", "hidden.render=true", "hidden.linked=true"],
         ),
     ];
-    let mut at_once = Drawn::own_models_on(gpu());
-    let mut in_chunks = Drawn::own_models_on(&small);
+    let mut at_once = Pictures::own_models_on(gpu());
+    let mut in_chunks = Pictures::own_models_on(&small);
     let models = own_models();
-    for look in &looks {
+    for technique in &techniques {
         for (model, (name, _)) in models.iter().enumerate() {
             let how = |layout| (layout, DetectionStage::Compute);
-            let indexed = at_once.picture(model, look, how(Layout::Indexed));
-            let replicated = at_once.picture(model, look, how(Layout::Replicated));
+            let indexed = at_once.picture(model, technique, how(Layout::Indexed));
+            let replicated = at_once.picture(model, technique, how(Layout::Replicated));
             assert_eq!(difference(&indexed, &replicated), 0, "{name}");
-            let chunks = in_chunks.picture(model, look, how(Layout::Replicated));
+            let chunks = in_chunks.picture(model, technique, how(Layout::Replicated));
             assert_eq!(difference(&indexed, &chunks), 0, "{name} in chunks");
         }
     }
@@ -230,11 +236,11 @@ fn strokes_without_room_are_drawn_all_the_same() {
     // Room for 273 strokes a chunk.
     let crowded = gpu_with_limits(|limits| limits.max_storage_buffer_binding_size = 1 << 17);
     let mesh = own_model("torus_knot");
-    let (mut roomy, mut crowded) = (Drawn::on(gpu(), [&mesh]), Drawn::on(&crowded, [&mesh]));
-    for look in looks() {
+    let (mut roomy, mut crowded) = (Pictures::on(gpu(), [&mesh]), Pictures::on(&crowded, [&mesh]));
+    for technique in techniques() {
         let how = (Layout::Indexed, DetectionStage::Compute);
-        let whole = roomy.picture(0, &look, how);
-        assert_eq!(difference(&whole, &crowded.picture(0, &look, how)), 0);
+        let whole = roomy.picture(0, &technique, how);
+        assert_eq!(difference(&whole, &crowded.picture(0, &technique, how)), 0);
     }
 }
 

@@ -31,7 +31,7 @@ pub(crate) fn technique(name: &str, settings: &[&str]) -> Technique {
 }
 
 /// The strokes of a technique over a white fill.
-pub(crate) fn look_of(technique: &Technique, mesh: &EdgeMesh) -> DrawingStyle {
+pub(crate) fn drawing_style_of(technique: &Technique, mesh: &EdgeMesh) -> DrawingStyle {
     let built = [30_f64.to_radians(); 2];
     DrawingStyle {
         fill_color: Some([1.0; 4]),
@@ -143,8 +143,8 @@ fn golden_linked() {
     ] {
         let mesh = own_model(model);
         let camera = Camera::default_view(&mesh.bounds);
-        let look = technique(name, &[&["strokes.linked=true"], settings].concat());
-        check_golden(golden, &picture(&mesh, &camera, &look, 256, 4));
+        let technique = technique(name, &[&["strokes.linked=true"], settings].concat());
+        check_golden(golden, &picture(&mesh, &camera, &technique, 256, 4));
     }
 }
 
@@ -152,9 +152,9 @@ fn golden_linked() {
 fn golden_pen() {
     for name in ["bracket", "plane_with_hole"] {
         let mesh = own_model(name);
-        let look = technique("pen", &["strokes.width=8"]);
+        let technique = technique("pen", &["strokes.width=8"]);
         let camera = from(&mesh, DVec3::new(-1.0, 0.8, 1.0), 2.4);
-        check_golden(&format!("{name}-pen"), &picture(&mesh, &camera, &look, 256, 4));
+        check_golden(&format!("{name}-pen"), &picture(&mesh, &camera, &technique, 256, 4));
     }
 }
 
@@ -213,9 +213,9 @@ fn golden_styles() {
 #[test]
 fn golden_caps() {
     let mesh = own_model("cylinder");
-    let look = technique("ink", &["strokes.width=10"]);
+    let technique = technique("ink", &["strokes.width=10"]);
     let camera = from(&mesh, DVec3::new(0.1, 1.0, 0.35), 2.4);
-    check_golden("cylinder-caps", &picture(&mesh, &camera, &look, 256, 4));
+    check_golden("cylinder-caps", &picture(&mesh, &camera, &technique, 256, 4));
 }
 
 #[test]
@@ -226,17 +226,17 @@ fn golden_orthographic_and_inside() {
     check_golden("bracket-ortho", &picture(&mesh, &camera, &technique("ink", &[]), 256, 4));
     let cube = own_model("cube");
     let inside = Camera { eye: DVec3::new(0.1, 0.05, 0.2), ..Camera::default_view(&cube.bounds) };
-    let look = technique("ink", &["strokes.width=4"]);
-    check_golden("cube-inside", &picture(&cube, &inside, &look, 256, 4));
+    let technique = technique("ink", &["strokes.width=4"]);
+    check_golden("cube-inside", &picture(&cube, &inside, &technique, 256, 4));
 }
 
 #[test]
 fn the_same_view_gives_the_same_bytes() {
     let mesh = own_model("wave_blob");
     let camera = Camera::default_view(&mesh.bounds);
-    let look = technique("pen", &[]);
-    let first = picture(&mesh, &camera, &look, 200, 4);
-    let again = picture(&mesh, &camera, &look, 200, 4);
+    let technique = technique("pen", &[]);
+    let first = picture(&mesh, &camera, &technique, 200, 4);
+    let again = picture(&mesh, &camera, &technique, 200, 4);
     assert_eq!(first, again);
     assert!(ink_count(&first) > 500, "and there is something to see");
 }
@@ -354,10 +354,10 @@ fn an_edge_through_the_eye_plane_draws_like_its_visible_part() {
         fov_y_rad: 1.0,
         is_orthographic: false,
     };
-    let look = technique("ink", &["strokes.width=4"]);
+    let technique = technique("ink", &["strokes.width=4"]);
     let (through, before) = (floor(30.0), floor(-0.5));
-    let through = picture(&through, &camera, &look, 256, 4);
-    let before = picture(&before, &camera, &look, 256, 4);
+    let through = picture(&through, &camera, &technique, 256, 4);
+    let before = picture(&before, &camera, &technique, 256, 4);
     assert!(ink_count(&before) > 500, "{}", ink_count(&before));
     let differing =
         through.pixels().zip(before.pixels()).filter(|(a, b)| a.0[0].abs_diff(b.0[0]) > 64);
@@ -376,8 +376,8 @@ fn the_eye_on_the_mesh_leaves_no_spikes() {
             target: DVec3::new(-0.3, -0.1, -0.2),
             ..Camera::default_view(&cube.bounds)
         };
-        let look = technique("ink", &["strokes.width=2"]);
-        let inked = ink_count(&picture(&cube, &camera, &look, 256, 1));
+        let technique = technique("ink", &["strokes.width=2"]);
+        let inked = ink_count(&picture(&cube, &camera, &technique, 256, 1));
         // Ten edges across the picture, two pixels wide, would be 5,000.
         assert!(inked < 5000, "{inked} pixels from {eye}");
     }
@@ -387,9 +387,10 @@ fn the_eye_on_the_mesh_leaves_no_spikes() {
 fn one_triangle_front_edge_on_and_none() {
     let model = Model::from_polygons(&[[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]], &[&[0, 1, 2]]);
     let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
-    let look = technique("ink", &["strokes.width=2"]);
-    let count =
-        |direction: DVec3| ink_count(&picture(&mesh, &from(&mesh, direction, 3.0), &look, 128, 1));
+    let technique = technique("ink", &["strokes.width=2"]);
+    let count = |direction: DVec3| {
+        ink_count(&picture(&mesh, &from(&mesh, direction, 3.0), &technique, 128, 1))
+    };
     let (front, back, edge_on) = (count(DVec3::Z), count(DVec3::NEG_Z), count(DVec3::X));
     assert!(front > 200, "{front}");
     assert!(front.abs_diff(back) < 20, "both sides: {front} {back}");

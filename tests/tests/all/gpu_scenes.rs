@@ -19,9 +19,9 @@ use viewer::scene::models::{PlacedObject, Scene};
 use viewer::technique::Technique;
 
 use crate::gpu_device::gpu;
-use crate::gpu_render::{look_of, own_model, picture, scene_of, technique};
+use crate::gpu_render::{drawing_style_of, own_model, picture, scene_of, technique};
 
-/// A scene with a model in several places, each with the number of its look.
+/// A scene with a model in several places, each with the number of its technique.
 fn scene(mesh: &EdgeMesh, places: &[(DMat4, usize)]) -> Scene {
     let loaded = LoadedMesh::new("test".into(), mesh.clone(), Report::default());
     let placed = places.iter().map(|&(world_from_object, override_index)| PlacedObject {
@@ -45,7 +45,7 @@ fn scene_picture(
     renderer.render(camera).unwrap().0
 }
 
-fn look(settings: &[&str]) -> Technique {
+fn ink_with(settings: &[&str]) -> Technique {
     technique("ink", settings)
 }
 
@@ -72,14 +72,14 @@ fn three_hundred_silhouettes() {
     // From the side, so that there are inner contours and creases to leave out.
     camera.eye = camera.target + DVec3::new(0.5, 0.4, 1.0).normalize_or_zero() * 90.0;
     camera.is_orthographic = true;
-    let looks = [look(&[
+    let techniques = [ink_with(&[
         "strokes.render=false",
         "silhouette.render=true",
         "silhouette.width=2",
         "silhouette.color=#ff0000",
     ])];
-    let picture = scene_picture(&scene, &looks, 1600, &camera);
-    let solid = [look(&["strokes.render=false", "fill.color=#00ff00"])];
+    let picture = scene_picture(&scene, &techniques, 1600, &camera);
+    let solid = [ink_with(&["strokes.render=false", "fill.color=#00ff00"])];
     let bodies = scene_picture(&scene, &solid, 1600, &camera);
     let is_body = |x: u32, y: u32| bodies.get_pixel(x, y).0 == [0, 255, 0, 255];
     // Red is beside a body, never on it.
@@ -109,8 +109,8 @@ fn silhouettes_lie_over_what_is_behind() {
         DVec3::new(0.0, 0.0, -8.0),
     );
     let only_silhouette = ["strokes.render=false", "silhouette.render=true", "silhouette.width=3"];
-    let red = look(&[&only_silhouette[..], &["silhouette.color=#ff0000"]].concat());
-    let blue = look(&[&only_silhouette[..], &["silhouette.color=#0000ff"]].concat());
+    let red = ink_with(&[&only_silhouette[..], &["silhouette.color=#ff0000"]].concat());
+    let blue = ink_with(&[&only_silhouette[..], &["silhouette.color=#0000ff"]].concat());
     for order in [[0, 1], [1, 0]] {
         let mut places = [(DMat4::IDENTITY, 0), (behind, 1)];
         places.sort_by_key(|place| order[place.1]);
@@ -199,11 +199,11 @@ fn transforms_move_what_is_drawn() {
         let moved = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
         let scene = scene(&mesh, &[(transform, 0)]);
         let camera = Camera::default_view(&scene.bounds);
-        let look = look(&["strokes.width=5"]);
+        let technique = ink_with(&["strokes.width=5"]);
         let mut baked = self::scene(&moved, &[(DMat4::IDENTITY, 0)]);
         baked.bounds = scene.bounds;
-        let placed = scene_picture(&scene, std::slice::from_ref(&look), 256, &camera);
-        let baked = scene_picture(&baked, &[look], 256, &camera);
+        let placed = scene_picture(&scene, std::slice::from_ref(&technique), 256, &camera);
+        let baked = scene_picture(&baked, &[technique], 256, &camera);
         let apart = placed.pixels().zip(baked.pixels());
         let apart = apart.filter(|(a, b)| a.0[0].abs_diff(b.0[0]) > 32).count();
         let inked = count(&baked, |pixel| pixel[0] < 128);
@@ -219,7 +219,7 @@ fn an_object_of_no_size_is_not_drawn() {
     let cube = own_model("cube");
     let flat = DMat4::from_scale(DVec3::new(1.0, 0.0, 1.0));
     let scene = scene(&cube, &[(flat, 0)]);
-    let picture = scene_picture(&scene, &[look(&[])], 64, &Camera::default_view(&cube.bounds));
+    let picture = scene_picture(&scene, &[ink_with(&[])], 64, &Camera::default_view(&cube.bounds));
     assert_eq!(count(&picture, |pixel| pixel[0] < 255), 0);
 }
 
@@ -265,9 +265,10 @@ fn visible_and_hidden(mesh: &EdgeMesh, placement: &str) -> [PictureRenderer; 2] 
         let [visible, hidden] =
             ["strokes", "hidden"].map(|pass| format!("{pass}.placement={placement}"));
         let placed = [&visible, &hidden, "hidden.width=2"];
-        let look = technique("ink", &[settings, &placed].concat());
+        let technique = technique("ink", &[settings, &placed].concat());
         let options = PictureOptions { size: [256; 2], samples: 1, ..PictureOptions::default() };
-        PictureRenderer::new(gpu(), PictureInput::new(&scene_of(mesh), &look), &options).unwrap()
+        PictureRenderer::new(gpu(), PictureInput::new(&scene_of(mesh), &technique), &options)
+            .unwrap()
     })
 }
 
@@ -321,9 +322,10 @@ fn no_view_draws_what_is_no_number() {
         for (mesh_name, mesh) in awkward_meshes() {
             let buffers = Arc::new(MeshBuffers::new(&gpu.device, &mesh, how.0).unwrap());
             for settings in settings {
-                let look = renderer.prepare(gpu, &look_of(&look(settings), &mesh)).unwrap();
+                let style =
+                    renderer.prepare(gpu, &drawing_style_of(&ink_with(settings), &mesh)).unwrap();
                 let instance = MeshInstance::new(&buffers, DMat4::IDENTITY);
-                let mut scene = SceneView::new(gpu, vec![instance], vec![look]);
+                let mut scene = SceneView::new(gpu, vec![instance], vec![style]);
                 for (view_name, camera) in awkward_cameras(&mesh) {
                     let view = camera.view(&mesh.bounds, 1.0);
                     renderer.render(gpu, &targets, &mut scene, &view, [1.0; 4], None).unwrap();

@@ -26,7 +26,7 @@ use testkit::wgsl_fn::run_wgsl;
 use viewer::technique::Technique;
 
 use crate::gpu_device::gpu;
-use crate::gpu_render::{look_of, technique};
+use crate::gpu_render::{drawing_style_of, technique};
 use crate::own_models::own_models;
 use crate::random::Random;
 
@@ -516,7 +516,7 @@ impl Detector {
     ) -> (Vec<u32>, Tally, Vec<u32>) {
         let gpu = gpu();
         let RendererOptions { layout, formats, .. } = *self.renderer.options();
-        let style = self.renderer.prepare(gpu, &look_of(technique, mesh)).unwrap();
+        let style = self.renderer.prepare(gpu, &drawing_style_of(technique, mesh)).unwrap();
         let buffers = Arc::new(MeshBuffers::new(&gpu.device, mesh, layout).unwrap());
         let instance = MeshInstance::new(&buffers, DMat4::IDENTITY);
         let mut scene = SceneView::new(gpu, vec![instance], vec![style]);
@@ -545,9 +545,9 @@ fn live_edges_and_counts_equal_the_oracles() {
         for (camera, settings) in cameras(&mesh).iter().zip(techniques.iter().cycle()) {
             let view = camera.view(&mesh.bounds, 1.0);
             let technique = technique("ink", settings);
-            let look = look_of(&technique, &mesh);
+            let style = drawing_style_of(&technique, &mesh);
             let outside = eye_is_outside(view.eye, mesh.bounds.min.into(), mesh.bounds.max.into());
-            let lines = classify_lines(&mesh, &words, view.eye, &look.class_table(), outside);
+            let lines = classify_lines(&mesh, &words, view.eye, &style.class_table(), outside);
             let (facing, tally, live) = detector.detect(&mesh, &view, &technique);
             let bits = facing_bits(&mesh, view.eye);
             let is_same = (0..bits.len())
@@ -556,11 +556,11 @@ fn live_edges_and_counts_equal_the_oracles() {
             let counts = count_features(&mesh, view.eye);
             let (found, wanted) = (tally.features(), counts);
             assert_eq!(found[LineClass::Contour], wanted[LineClass::Contour], "{name}");
-            if look.thresholds.is_none() {
+            if style.thresholds.is_none() {
                 assert_eq!(found, wanted, "{name}");
             }
             let mut want = Vec::new();
-            for layer in 0..u32::try_from(look.layers.len()).unwrap() {
+            for layer in 0..u32::try_from(style.layers.len()).unwrap() {
                 let of_layer = (0..).zip(&lines).filter(|(_, line)| line.layer == layer);
                 want.extend(
                     of_layer.map(|(edge, line): (u32, &Line)| {

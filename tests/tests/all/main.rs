@@ -31,8 +31,6 @@ mod gpu_layouts;
 #[cfg(feature = "gpu")]
 mod gpu_lines;
 #[cfg(feature = "gpu")]
-mod gpu_parts;
-#[cfg(feature = "gpu")]
 mod gpu_real_window;
 #[cfg(feature = "gpu")]
 mod gpu_render;
@@ -40,6 +38,8 @@ mod gpu_render;
 mod gpu_scenes;
 #[cfg(feature = "gpu")]
 mod gpu_techniques;
+#[cfg(feature = "gpu")]
+mod gpu_tiles;
 #[cfg(feature = "gpu")]
 mod gpu_twin;
 #[cfg(feature = "gpu")]

@@ -129,7 +129,7 @@ mod tests {
 
     const BUILT: [f64; 2] = [0.5, 0.6];
 
-    fn look(settings: &[&str], frame: &MeshFrame) -> DrawingStyle {
+    fn style_with(settings: &[&str], frame: &MeshFrame) -> DrawingStyle {
         let mut technique = Library::shipped().technique("ink").unwrap().0;
         for setting in settings {
             technique.set(setting).unwrap();
@@ -138,7 +138,7 @@ mod tests {
     }
 
     fn layers(settings: &[&str]) -> Vec<Layer> {
-        look(settings, &MeshFrame::default()).layers
+        style_with(settings, &MeshFrame::default()).layers
     }
 
     #[test]
@@ -159,17 +159,19 @@ mod tests {
     #[test]
     fn units_of_the_model_go_by_its_frame() {
         let frame = MeshFrame { scale: 0.5, ..MeshFrame::default() };
-        let look =
-            look(&["strokes.width=3", "strokes.width_unit=model", "strokes.fade=2,4"], &frame);
-        let style = look.layers[0].visible.as_ref().unwrap();
+        let style = style_with(
+            &["strokes.width=3", "strokes.width_unit=model", "strokes.fade=2,4"],
+            &frame,
+        );
+        let style = style.layers[0].visible.as_ref().unwrap();
         assert_eq!((style.width, style.fade), (Width::World(1.5), Some([1.0, 2.0])));
     }
 
     #[test]
     fn thresholds_that_are_not_set_are_those_of_the_mesh() {
         let frame = MeshFrame::default();
-        assert_eq!(look(&[], &frame).thresholds, None);
-        let set = look(&["strokes.ridge_angle=90"], &frame).thresholds.unwrap();
+        assert_eq!(style_with(&[], &frame).thresholds, None);
+        let set = style_with(&["strokes.ridge_angle=90"], &frame).thresholds.unwrap();
         assert!((set[0] - std::f64::consts::FRAC_PI_2).abs() < 1e-6, "{set:?}");
         assert_eq!(set[1].to_bits(), BUILT[1].to_bits());
     }
@@ -177,10 +179,10 @@ mod tests {
     #[test]
     fn values_outside_mean_what_they_say() {
         let frame = MeshFrame::default();
-        let plain = look(&["strokes.linked=true"], &frame);
+        let plain = style_with(&["strokes.linked=true"], &frame);
         let path = plain.layers[0].visible.as_ref().unwrap().link.clone().unwrap();
         assert_eq!((path.clone(), path.dash_px), (LinkStyle::default(), None));
-        let set = look(
+        let set = style_with(
             &[
                 "strokes.linked=true",
                 "strokes.dash=12,8",

@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn looks_are_kept() {
+    fn techniques_of_objects_are_kept() {
         let text = "[[object]]\nmodel = \"a\"\ntechnique = \"pen\"\nset = [\"ridge.width=4\"]\n\n[[object]]\nmodel = \"b\"\nscale = [1, -1, 1]\n";
         let scene = parsed(text).unwrap();
         assert_eq!(scene[0].technique.as_deref(), Some("pen"));
