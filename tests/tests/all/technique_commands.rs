@@ -2,6 +2,7 @@
 
 use std::process::{Command, Output};
 
+use edgemesh_techniques::TECHNIQUES;
 use testkit::locate::{program, workspace_root};
 
 /// Runs the viewer with an empty folder of the user's techniques.
@@ -21,24 +22,11 @@ fn printed(arguments: &[&str]) -> String {
     text(&output.stdout)
 }
 
-/// The names of the files in a folder of the project, without extensions.
-fn names_in(folder: &str) -> Vec<String> {
-    let entries = std::fs::read_dir(workspace_root().join(folder)).unwrap();
-    let paths = entries.map(|entry| entry.unwrap().path());
-    let mut names: Vec<String> = paths
-        .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
-        .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
-        .filter(|name| name != "Cargo")
-        .collect();
-    names.sort();
-    names
-}
-
 #[test]
 fn every_technique_file_ships_says_what_it_shows_and_can_be_printed() {
     let list = printed(&["techniques", "list"]);
     let listed: Vec<&str> = list.lines().map(|line| line.split(' ').next().unwrap()).collect();
-    assert_eq!(listed, names_in("techniques"));
+    assert_eq!(listed, TECHNIQUES.iter().map(|(name, _)| *name).collect::<Vec<_>>());
     for line in list.lines() {
         assert!(line.split_once("  ").is_some_and(|(_, about)| about.trim().len() > 10), "{line}");
     }
