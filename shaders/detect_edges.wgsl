@@ -79,7 +79,7 @@ fn find_static(@builtin(global_invocation_id) id: vec3u) {
             state.solid |= select(vec2u(0u), bit, (word & SOLID) != 0u);
         }
         state.has_clash |= select(0u, 1u, (word & CLASH) != 0u);
-        if (word & NON_MANIFOLD) != 0u {
+        if (word & (NON_MANIFOLD | PAIRED)) != 0u {
             continue;
         }
         for (var class_index = 0u; class_index < LINE_CLASS_COUNT; class_index++) {
@@ -129,13 +129,16 @@ struct LiveBits {
 fn look_at_each(run: u32) -> LiveBits {
     let edges = edges_of(run);
     var found = LiveBits();
+    var contour = 0u;
     for (var edge = edges.x; edge < edges.y; edge++) {
         let bits = line_of(edge).bits;
         let bit = bit_of(edge - edges.x);
         found.live |= select(vec2u(0u), bit, (bits & DRAWN) != 0u);
-        found.contour |= select(vec2u(0u), bit, (bits & CONTOUR) != 0u);
+        if (bits & CONTOUR) != 0u {
+            found.contour |= bit;
+            contour += select(0u, 1u, (edge_word(edge) & PAIRED) == 0u);
+        }
     }
-    let contour = countOneBits(found.contour.x) + countOneBits(found.contour.y);
     if contour > 0u { atomicAdd(&tallies[chunk.chunk_index].features[CLASS_CONTOUR], contour); }
     return found;
 }

@@ -18,7 +18,7 @@ fn stroke_vertices(in: EdgeVertex, @builtin(instance_index) part: u32) -> Stroke
     let edge = EdgeGeometry(in.v0, in.v1, in.v2, in.v3, in.n0, in.n1, in.r);
     let corner = corner_of_part(part, in.corner_and_flags & 3u);
     let faces = faces_of_geometry(edge);
-    return classified(edge, in.corner_and_flags >> 8u, faces, corner);
+    return classified(edge, in.corner_and_flags >> 2u, faces, corner);
 }
 
 @fragment

@@ -23,7 +23,7 @@ fn stroke_vertices(in: EdgeVertex16, @builtin(instance_index) part: u32) -> Stro
         f32(in.corner_and_flags.x >> 2u) / 64.0,
     );
     let flags = in.corner_and_flags;
-    let word = flags.y | (flags.z << 8u) | (flags.w << 16u);
+    let word = word_of_24_bits(flags.y | (flags.z << 8u) | (flags.w << 16u));
     let corner = corner_of_part(part, flags.x & 3u);
     return classified(edge, word, faces_of_geometry(edge), corner);
 }

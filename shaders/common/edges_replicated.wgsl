@@ -7,7 +7,7 @@
 const WORDS_PER_EDGE: u32 = 80u;
 
 fn edge_word(edge: u32) -> u32 {
-    return words[WORDS_PER_EDGE * edge + 19u] >> 8u;
+    return words[WORDS_PER_EDGE * edge + 19u] >> 2u;
 }
 
 // The two ends of an edge, in object space.

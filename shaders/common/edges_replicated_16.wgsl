@@ -1,13 +1,14 @@
 // The edges of a mesh in the replicated layout of McGuire and Hughes (section 3.1), 16-bit
 // integers, read as words from the first of an edge's four copies.
 #import <common/edge_geometry.wgsl>
+#import <common/feature.wgsl>
 
 @group(2) @binding(2) var<storage, read> words: array<u32>;
 
 const WORDS_PER_EDGE: u32 = 40u;
 
 fn edge_word(edge: u32) -> u32 {
-    return words[WORDS_PER_EDGE * edge + 9u] >> 8u;
+    return word_of_24_bits(words[WORDS_PER_EDGE * edge + 9u] >> 8u);
 }
 
 // The two ends of an edge, in object space.

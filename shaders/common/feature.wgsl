@@ -13,12 +13,16 @@ const DIAGONAL: u32 = 64u;
 const CLASH: u32 = 128u;
 const SOLID: u32 = 256u;
 const SMOOTHING: u32 = 512u;
+const GROOVE: u32 = 1024u;
+const PAIRED: u32 = 2048u;
 
-const CREASE_SHIFT: u32 = 10u;
-const CREASE_STEPS: u32 = 0x1fffu;
-const CONCAVE: u32 = 0x800000u;
-const LEAST_GROOVE_STEPS: u32 = 45u;
-const MOST_GROOVE_STEPS: u32 = 6750u;
+const CREASE_SHIFT: u32 = 12u;
+const CREASE_STEPS: u32 = 0x1ffffu;
+const CONCAVE: u32 = 0x20000000u;
+// In the 16-bit layout a step is this many, and a word has 24 bits.
+const STEPS_PER_STEP_16: u32 = 16u;
+const CREASE_SHIFT_16: u32 = 10u;
+const CONCAVE_16: u32 = 0x800000u;
 
 // Line bits: the state of an edge in a view. The live list stores the first three above
 // the edge's index.
@@ -61,9 +65,24 @@ fn static_classes(word: u32, table: ClassTable) -> u32 {
         | (u32(is_valley) << CLASS_VALLEY);
 }
 
-fn is_groove(word: u32) -> bool {
-    let steps = (word >> CREASE_SHIFT) & CREASE_STEPS;
-    return (word & CONCAVE) != 0u && steps >= LEAST_GROOVE_STEPS && steps <= MOST_GROOVE_STEPS;
+// The edge word with the least angle that 24 bits can stand for. Rust twin:
+// EdgeWord::from_24_bits.
+fn word_of_24_bits(bits: u32) -> u32 {
+    let steps = ((bits & (CONCAVE_16 - 1u)) >> CREASE_SHIFT_16) * STEPS_PER_STEP_16;
+    let least = max(steps, STEPS_PER_STEP_16 - 1u) - (STEPS_PER_STEP_16 - 1u);
+    let creases = RIDGE | VALLEY;
+    let ends = BOUNDARY | NON_MANIFOLD;
+    var flags = bits & ((1u << CREASE_SHIFT_16) - 1u) & ~DIAGONAL;
+    if (flags & creases) == creases {
+        flags = (flags & ~creases) | DIAGONAL;
+    }
+    if (flags & ends) == ends {
+        flags = (flags & ~ends) | PAIRED;
+    }
+    return flags
+        | select(0u, GROOVE, (bits & DIAGONAL) != 0u)
+        | (least << CREASE_SHIFT)
+        | select(0u, CONCAVE, (bits & CONCAVE_16) != 0u);
 }
 
 fn classify_edge(word: u32, faces: EdgeFaces, table: ClassTable, eye_is_outside: bool) -> Line {
@@ -76,7 +95,7 @@ fn classify_edge(word: u32, faces: EdgeFaces, table: ClassTable, eye_is_outside:
     // its grooves.
     let is_turned_away = !faces.a_faces && !b_faces;
     let is_behind = eye_is_outside && (word & SOLID) != 0u
-        && (is_turned_away || (is_contour && is_groove(word)));
+        && (is_turned_away || (is_contour && (word & GROOVE) != 0u));
     let is_drawn = classes != 0u && (!is_behind || table.keeps_hidden != 0u);
     let bits = select(0u, CONTOUR, is_contour)
         | select(0u, A_FACES, faces.a_faces)

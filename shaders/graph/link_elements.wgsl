@@ -70,8 +70,13 @@ fn link_node(entry: u32, edge: u32) -> LinkNode {
         spine.z1,
         mesh_edge(edge)
             | (entry & (CONTOUR | BEHIND_SOLID))
-            // A contour in a groove is hidden by one of its own faces.
-            | select(0u, BEHIND_SOLID, is_contour && is_groove(edge_word(edge)))
+            // A contour in a groove of a surface that has an outside is hidden by one of its
+            // own faces.
+            | select(
+                0u,
+                BEHIND_SOLID,
+                is_contour && object.eye_is_outside != 0u && (edge_word(edge) & GROOVE) != 0u,
+            )
             | select(0u, BACKWARD, is_reversed),
         following
             | select(0u, CUT_WHOLE, is_culled)

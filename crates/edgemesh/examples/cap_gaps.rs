@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::edge_mesh::{EdgeMesh, EdgeRecord, edge_words};
+use edgemesh::edge_mesh::{EdgeMesh, EdgeRecord};
 use edgemesh::format::read::read_model;
 use edgemesh::line::{ClassTable, LineClass, LineKind, Parameterization, Placement};
 use edgemesh::oracle::stroke_segment::{ClipEdge, Segment, StrokeShape, stroke_segment};
@@ -162,7 +162,6 @@ fn directions() -> Vec<DVec3> {
 }
 
 fn measure(mesh: &EdgeMesh) -> BTreeMap<(LineClass, usize), Count> {
-    let words = edge_words(mesh);
     let table = ClassTable::new(|class| Some(class as u32));
     let default = Camera::default_view(&mesh.bounds);
     let mut counts = BTreeMap::new();
@@ -170,7 +169,7 @@ fn measure(mesh: &EdgeMesh) -> BTreeMap<(LineClass, usize), Count> {
         let eye = default.target + direction * mesh.bounds.radius() * 3.0;
         let view = Camera { eye, ..default }.view(&mesh.bounds, 1.0);
         let outside = eye_is_outside(view.eye, mesh.bounds.min.into(), mesh.bounds.max.into());
-        let lines = classify_lines(mesh, &words, view.eye, &table, outside);
+        let lines = classify_lines(mesh, view.eye, &table, outside);
         count_view(mesh, &view, &lines, &mut counts);
     }
     counts

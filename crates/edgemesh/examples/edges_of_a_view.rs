@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             let is_contour = bits.contains(LineBits::CONTOUR);
             let class = LineClass::ALL.into_iter().find(|class| match class {
                 LineClass::Contour => is_contour,
-                _ => record.flags.intersects(class.drawn_by()),
+                _ => record.flags().intersects(class.drawn_by()),
             });
             let [from, to] = [record.v0, record.v1].map(pixel);
             println!("{:<10} {from:.1} to {to:.1}", class.map_or("", LineClass::name));

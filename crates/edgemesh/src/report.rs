@@ -54,6 +54,8 @@ pub enum WarningCode {
     Degenerate,
     /// A face repeats another, with the same vertices in the same order; it was dropped.
     Duplicate,
+    /// A polygon crosses itself; it was cut as a fan.
+    Crossing,
     /// More than two faces share an edge.
     NonManifold,
     /// A surface cannot be oriented, such as a Möbius strip; it was cut.
@@ -76,11 +78,12 @@ pub enum WarningCode {
 
 impl WarningCode {
     /// All codes, in order.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::NonFinite,
         Self::Index,
         Self::Degenerate,
         Self::Duplicate,
+        Self::Crossing,
         Self::NonManifold,
         Self::Orientation,
         Self::Material,
@@ -105,6 +108,7 @@ impl WarningCode {
             Self::Index => "index",
             Self::Degenerate => "degenerate",
             Self::Duplicate => "duplicate",
+            Self::Crossing => "crossing",
             Self::NonManifold => "nonmanifold",
             Self::Orientation => "orientation",
             Self::Material => "material",
@@ -143,10 +147,14 @@ pub struct Warning {
 pub enum RepairKind {
     /// Faces flipped so that their component winds one way.
     FlippedFaces,
-    /// Polygons cut by ear clipping, because a fan would overlap itself.
+    /// Faces of closed surfaces that were inside out, turned outward.
+    InsideOutFaces,
+    /// Faces dropped because they are the backs of others.
+    TwoSidedFaces,
+    /// Concave polygons that were not cut as fans, which would overlap themselves.
     EarClippedPolygons,
-    /// Triangles without area that were kept; they take the facing of the face across
-    /// their longest edge.
+    /// Triangles with no area, or with less than rounding can make; they were kept, with the plane
+    /// of a neighbor.
     ZeroAreaTriangles,
     /// Edges of more than two faces that were split into pairs.
     SplitEdges,
@@ -160,8 +168,10 @@ pub enum RepairKind {
 
 impl RepairKind {
     /// All kinds, in order.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::FlippedFaces,
+        Self::InsideOutFaces,
+        Self::TwoSidedFaces,
         Self::EarClippedPolygons,
         Self::ZeroAreaTriangles,
         Self::SplitEdges,
@@ -181,6 +191,8 @@ impl RepairKind {
     pub const fn as_str(self) -> &'static str {
         match self {
             Self::FlippedFaces => "flipped_faces",
+            Self::InsideOutFaces => "inside_out_faces",
+            Self::TwoSidedFaces => "two_sided_faces",
             Self::EarClippedPolygons => "ear_clipped_polygons",
             Self::ZeroAreaTriangles => "zero_area_triangles",
             Self::SplitEdges => "split_edges",

@@ -320,7 +320,8 @@ fn without_creases(mesh: &EdgeMesh) -> EdgeMesh {
     use edgemesh::edge_mesh::EdgeFlags;
     let mut mesh = mesh.clone();
     for record in &mut mesh.records {
-        record.flags -= EdgeFlags::RIDGE | EdgeFlags::VALLEY | EdgeFlags::MATERIAL;
+        let creases = EdgeFlags::RIDGE | EdgeFlags::VALLEY | EdgeFlags::MATERIAL;
+        record.word.set(creases, false);
     }
     mesh
 }

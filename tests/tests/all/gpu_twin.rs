@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bytemuck::{Pod, Zeroable};
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::{
-    EdgeFlags, EdgeMesh, EdgeWord, FacePlane, NormalCone, cone_facing, edge_random, edge_words,
+    EdgeFlags, EdgeMesh, EdgeWord, FacePlane, NormalCone, cone_facing, edge_random,
 };
 use edgemesh::index::NONE;
 use edgemesh::line::{ClassTable, LineClass, LineKind, Parameterization, Placement};
@@ -541,13 +541,12 @@ fn live_edges_and_counts_equal_the_oracles() {
     ];
     let mut detector = Detector::new(Layout::Indexed);
     for (name, mesh) in own_models() {
-        let words = edge_words(&mesh);
         for (camera, settings) in cameras(&mesh).iter().zip(techniques.iter().cycle()) {
             let view = camera.view(&mesh.bounds, 1.0);
             let technique = technique("ink", settings);
             let style = drawing_style_of(&technique, &mesh);
             let outside = eye_is_outside(view.eye, mesh.bounds.min.into(), mesh.bounds.max.into());
-            let lines = classify_lines(&mesh, &words, view.eye, &style.class_table(), outside);
+            let lines = classify_lines(&mesh, view.eye, &style.class_table(), outside);
             let (facing, tally, live) = detector.detect(&mesh, &view, &technique);
             let bits = facing_bits(&mesh, view.eye);
             let is_same = (0..bits.len())

@@ -2,7 +2,7 @@
 //! contours are open only where the surface is.
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::edge_mesh::{EdgeFlags, EdgeMesh, FaceEdges, StaticLinks, edge_words};
+use edgemesh::edge_mesh::{EdgeFlags, EdgeMesh, FaceEdges, StaticLinks};
 use edgemesh::format::read::read_model;
 use edgemesh::index::NONE;
 use edgemesh::line::{ClassTable, LineClass};
@@ -33,7 +33,6 @@ pub(crate) fn eye(mesh: &EdgeMesh, view: u32) -> DVec3 {
 /// Checks every view of a model; returns the number of contours.
 fn check(name: &str, mesh: &EdgeMesh) -> u32 {
     let (faces, links) = (FaceEdges::of(mesh), StaticLinks::of(mesh));
-    let words = edge_words(mesh);
     // First with contours in their own layer, then with all classes in one.
     let apart = ClassTable::new(|class| Some(u32::from(class != LineClass::Contour)));
     let mut linked = 0;
@@ -42,7 +41,7 @@ fn check(name: &str, mesh: &EdgeMesh) -> u32 {
         let eye = camera.view(&mesh.bounds, 1.0).eye;
         for (table, layers) in [(apart, 2), (ClassTable::all_in_one(), 1)] {
             let table = ClassTable { keeps_hidden: 1, ..table };
-            let lines = classify_lines(mesh, &words, eye, &table, true);
+            let lines = classify_lines(mesh, eye, &table, true);
             let (faces, links, lines) = (&faces, &links, &lines);
             let linking = LayerLinks { mesh, faces, links, lines, draws_contours: true };
             let mut count = vec![0_u32; mesh.records.len()];
@@ -88,7 +87,7 @@ pub(crate) fn check_chain(linking: &LayerLinks, chain: &LayerChain) {
     for vertex in [first.ends(mesh)[0], last.ends(mesh)[1]] {
         let is_open = mesh.records.iter().any(|record| {
             let cuts = EdgeFlags::CLASH | EdgeFlags::NON_MANIFOLD;
-            let ends_surface = record.face_b == NONE || record.flags.intersects(cuts);
+            let ends_surface = record.face_b == NONE || record.flags().intersects(cuts);
             ends_surface && [record.v0, record.v1].contains(&vertex)
         });
         assert!(is_open, "a chain ends at vertex {vertex}, where the surface continues");

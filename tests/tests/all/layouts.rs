@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::mem::offset_of;
 
 use edgemesh::edge_mesh::{
-    CONCAVE, CONE_MARGIN, CREASE_SHIFT, CREASE_STEPS, ConeFacing, EdgeFlags, EdgeVertex,
-    EdgeVertex16, FacePlane, NormalCone,
+    CONCAVE, CONCAVE_16, CONE_MARGIN, CREASE_SHIFT, CREASE_SHIFT_16, CREASE_STEPS, ConeFacing,
+    EdgeFlags, EdgeVertex, EdgeVertex16, FacePlane, NormalCone, STEPS_PER_STEP_16,
 };
 use edgemesh::line::{
     CAP_VERTICES, DISK_STEPS, DISK_VERTICES, LineClass, LineKind, MAX_LINE_CLASSES, NO_LAYER,
@@ -14,7 +14,7 @@ use edgemesh::line::{
 use edgemesh::oracle::spine::MIN_LENGTH_PX;
 use edgemesh::oracle::stroke_segment::{EDGE_ON_FACING, LIFTED_FACING};
 use edgemesh::oracle::stroke_vertex::FOOT_PX;
-use edgemesh::view::{LEAST_GROOVE_STEPS, LineBits, MOST_GROOVE_STEPS};
+use edgemesh::view::LineBits;
 use edgemesh_shaders::ShaderSource;
 use strokes::layouts::{
     ARC_PER_PX, BACKWARD, CUT_END, CUT_START, CUT_WHOLE, Chain, ChainState, ChunkUniform,
@@ -443,8 +443,9 @@ fn constants_are_equal_and_found_on_both_sides() {
         ("CREASE_SHIFT", CREASE_SHIFT.into()),
         ("CREASE_STEPS", CREASE_STEPS.into()),
         ("CONCAVE", CONCAVE.into()),
-        ("LEAST_GROOVE_STEPS", LEAST_GROOVE_STEPS.into()),
-        ("MOST_GROOVE_STEPS", MOST_GROOVE_STEPS.into()),
+        ("CONCAVE_16", CONCAVE_16.into()),
+        ("STEPS_PER_STEP_16", STEPS_PER_STEP_16.into()),
+        ("CREASE_SHIFT_16", CREASE_SHIFT_16.into()),
         ("DISK_STEPS", DISK_STEPS.into()),
         ("FOOT_PX", float(FOOT_PX)),
         ("CAP_VERTICES", CAP_VERTICES.into()),

@@ -34,7 +34,7 @@ pub(crate) fn chain(positions: &[[f32; 3]], records: &[EdgeRecord], turn_rad: f6
     let features: Vec<u32> = (0..to_u32(records.len()))
         .into_par_iter()
         .with_min_len(1 << 14)
-        .filter(|&record| records[record as usize].flags.intersects(EdgeFlags::ALWAYS_DRAWN))
+        .filter(|&record| records[record as usize].flags().intersects(EdgeFlags::ALWAYS_DRAWN))
         .collect();
     let input = ChainInput { positions, records, features: &features, cosine: turn_rad.cos() };
     let neighbors = input.neighbors();
@@ -72,7 +72,7 @@ impl ChainInput<'_> {
             .into_par_iter()
             .map(|end| {
                 let class =
-                    chain_class_of(self.record(end / 2).flags).unwrap_or(CHAIN_CLASSES.len());
+                    chain_class_of(self.record(end / 2).flags()).unwrap_or(CHAIN_CLASSES.len());
                 (self.vertex(end), to_u32(class), end)
             })
             .collect();
@@ -134,7 +134,7 @@ impl ChainInput<'_> {
             arc += (self.position(end ^ 1) - self.position(end)).length();
             end = neighbors[(end ^ 1) as usize];
         }
-        let flags = self.record(start / 2).flags;
+        let flags = self.record(start / 2).flags();
         chains.chains.push(Chain {
             first_link,
             link_count: to_u32(chains.links.len()) - first_link,

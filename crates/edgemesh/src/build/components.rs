@@ -112,64 +112,91 @@ impl Components {
         (0..to_u32(self.count)).filter(|&component| sets.root(component) == component).count()
     }
 
-    /// Sets `SOLID` on the edges of closed components whose faces look outward.
+    /// Sets `SOLID` on the edges of closed components whose faces look outward, and clears `GROOVE`
+    /// on the edges of components without an outside.
     ///
     /// A component is closed if each of its edges has two faces with the same winding; its faces
     /// look outward if the volume that it encloses is positive.
     pub(crate) fn mark_solids(
         &self,
-        positions: &[[f32; 3]],
-        triangles: &[[u32; 3]],
+        measures: &[Measures],
+        has_outside: &[bool],
         records: &mut [EdgeRecord],
     ) {
         let opens = EdgeFlags::BOUNDARY | EdgeFlags::NON_MANIFOLD | EdgeFlags::CLASH;
         let is_open: Vec<AtomicBool> = (0..self.count).map(|_| AtomicBool::new(false)).collect();
         records.par_iter().with_min_len(1 << 12).for_each(|record| {
-            if record.flags.intersects(opens) {
+            if record.flags().intersects(opens) {
                 for face in [record.face_a, record.face_b].into_iter().filter(|&f| f != NONE) {
                     is_open[self.of_face[face as usize] as usize].store(true, Ordering::Relaxed);
                 }
             }
         });
         let is_open: Vec<bool> = is_open.into_iter().map(AtomicBool::into_inner).collect();
-        if is_open.iter().all(|&open| open) {
-            return;
-        }
-        let volumes = self.volumes(positions, triangles);
         records.par_iter_mut().with_min_len(1 << 12).for_each(|record| {
             let component = self.of_face[record.face_a as usize] as usize;
-            let is_solid = !is_open[component] && volumes[component] > 0.0;
-            record.flags.set(EdgeFlags::SOLID, is_solid);
+            let is_solid = !is_open[component] && measures[component].six_volumes > 0.0;
+            record.word.set(EdgeFlags::SOLID, is_solid);
+            if !has_outside[component] {
+                record.word.set(EdgeFlags::GROOVE, false);
+            }
         });
     }
 
-    /// Six times the volume between each component and the first vertex.
+    /// Area and volume of each component.
     ///
     /// Blocks are computed in parallel and summed in order, so that the sums do not depend on the
     /// threads.
-    fn volumes(&self, positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<f64> {
-        let origin = positions.first().map_or(DVec3::ZERO, |&first| Vec3::from(first).as_dvec3());
+    pub(crate) fn measures(&self, positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<Measures> {
+        let origin = origin_of(positions);
         let of_block = |(block, faces): (usize, &[[u32; 3]])| {
-            let mut sums: Vec<(u32, f64)> = Vec::new();
+            let mut sums: Vec<(u32, Measures)> = Vec::new();
             for (at, &triangle) in faces.iter().enumerate() {
-                let [a, b, c] = corners_of(positions, triangle).map(|corner| corner - origin);
-                let volume = a.dot(b.cross(c));
+                let measures = Measures::of(corners_of(positions, triangle).map(|c| c - origin));
                 let component = self.of_face[block * FACES_PER_BLOCK + at];
                 match sums.last_mut() {
-                    Some(last) if last.0 == component => last.1 += volume,
-                    _ => sums.push((component, volume)),
+                    Some(last) if last.0 == component => last.1 += measures,
+                    _ => sums.push((component, measures)),
                 }
             }
             sums
         };
         let blocks: Vec<_> =
             triangles.par_chunks(FACES_PER_BLOCK).enumerate().map(of_block).collect();
-        let mut volumes = vec![0.0; self.count];
-        for (component, volume) in blocks.into_iter().flatten() {
-            volumes[component as usize] += volume;
+        let mut sums = vec![Measures::default(); self.count];
+        for (component, measures) in blocks.into_iter().flatten() {
+            sums[component as usize] += measures;
         }
-        volumes
+        sums
     }
+}
+
+/// Area and volume of a surface.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Measures {
+    pub(crate) two_areas: f64,
+    /// Six times the volume between the surface and the origin of [`origin_of`].
+    pub(crate) six_volumes: f64,
+}
+
+impl Measures {
+    /// Those of a triangle, with its corners relative to the origin.
+    pub(crate) fn of([a, b, c]: [DVec3; 3]) -> Self {
+        let two_areas = (b - a).cross(c - a).length();
+        Self { two_areas, six_volumes: a.dot(b.cross(c)) }
+    }
+}
+
+impl std::ops::AddAssign for Measures {
+    fn add_assign(&mut self, other: Self) {
+        self.two_areas += other.two_areas;
+        self.six_volumes += other.six_volumes;
+    }
+}
+
+/// The origin of volumes: the first vertex, so that they stay exact far away.
+pub(crate) fn origin_of(positions: &[[f32; 3]]) -> DVec3 {
+    positions.first().map_or(DVec3::ZERO, |&first| Vec3::from(first).as_dvec3())
 }
 
 #[cfg(test)]
@@ -200,10 +227,10 @@ mod tests {
         let inward: [&[u32]; 4] = [&[0, 1, 2], &[0, 3, 1], &[1, 3, 2], &[0, 2, 3]];
         let solid_count = |polygons: &[&[u32]]| {
             let records = records_of(&corners, polygons);
-            records.iter().filter(|record| record.flags.contains(EdgeFlags::SOLID)).count()
+            records.iter().filter(|record| record.flags().contains(EdgeFlags::SOLID)).count()
         };
         assert_eq!(solid_count(&outward), 6);
-        assert_eq!(solid_count(&inward), 0);
+        assert_eq!(solid_count(&inward), 6, "turned outward");
         assert_eq!(solid_count(&outward[..3]), 0, "open");
     }
 }

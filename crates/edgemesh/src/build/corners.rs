@@ -16,9 +16,11 @@ use super::FaceAttributes;
 use super::components::Sets;
 use super::faces::FaceSources;
 use super::fans::angle;
-use super::planes::has_area;
+use super::planes::has_normal;
 use super::runs::fill_runs;
-use crate::edge_mesh::{EdgeFlags, EdgeRecord, FacePlane, FillMesh, FillVertex, corners_of};
+use crate::edge_mesh::{
+    EdgeFlags, EdgeRecord, FacePlane, FillMesh, FillVertex, corners_of, threshold_steps,
+};
 use crate::index::{NONE, to_u32};
 use crate::model::{Model, Smoothing};
 
@@ -29,7 +31,6 @@ pub(crate) struct CornerInput<'a> {
     pub(crate) positions: &'a [[f32; 3]],
     pub(crate) triangles: &'a [[u32; 3]],
     pub(crate) sources: &'a FaceSources,
-    /// Planes of faces; those of faces without area have no normal yet.
     pub(crate) planes: &'a [FacePlane],
     pub(crate) records: &'a [EdgeRecord],
     pub(crate) attributes: &'a FaceAttributes,
@@ -168,10 +169,10 @@ fn join_corners(input: &CornerInput, record: &EdgeRecord, sets: &Sets) {
     }
 }
 
-/// The normal of the face of a corner, times the angle of the corner; zero without area.
+/// The normal of the face of a corner, times the angle of the corner; zero without a normal.
 fn weighted_normal(input: &CornerInput, corner: usize) -> DVec3 {
     let plane = &input.planes[corner / 3];
-    if !has_area(plane) {
+    if !has_normal(plane) {
         return DVec3::ZERO;
     }
     let [x, y, z, _] = plane.normal;
@@ -188,10 +189,10 @@ fn corner_angle(input: &CornerInput, corner: usize) -> f32 {
 }
 
 fn is_smooth(input: &CornerInput, record: &EdgeRecord) -> bool {
-    if record.flags.contains(EdgeFlags::DIAGONAL) {
+    if record.flags().contains(EdgeFlags::DIAGONAL) {
         return true;
     }
-    if record.flags.intersects(EdgeFlags::NON_MANIFOLD | EdgeFlags::CLASH) {
+    if record.flags().intersects(EdgeFlags::NON_MANIFOLD | EdgeFlags::CLASH) {
         return false;
     }
     let limit = match (
@@ -202,9 +203,7 @@ fn is_smooth(input: &CornerInput, record: &EdgeRecord) -> bool {
         (Smoothing::Angle(a), Smoothing::Angle(b)) => f64::from(a.min(b)),
         _ => input.smoothing_angle_rad,
     };
-    let [a, b] = [record.face_a, record.face_b].map(|face| &input.planes[face as usize]);
-    let cosine: f32 = a.normal.iter().zip(b.normal).map(|(x, y)| x * y).sum();
-    !has_area(a) || !has_area(b) || f64::from(cosine) >= limit.cos()
+    record.word.crease_steps() < threshold_steps(limit)
 }
 
 #[cfg(test)]

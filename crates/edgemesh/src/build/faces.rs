@@ -44,7 +44,8 @@ impl FaceSources {
         }
     }
 
-    fn is_turned(&self, face: usize) -> bool {
+    /// Whether a face is wound against its polygon.
+    pub(crate) fn is_turned(&self, face: usize) -> bool {
         self.is_turned.get(face).copied().unwrap_or(false)
     }
 

@@ -25,7 +25,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::planes::has_area;
+use super::planes::has_normal;
 use crate::edge_mesh::{EdgeRecord, FacePlane};
 use crate::index::{NONE, to_u32};
 
@@ -116,7 +116,7 @@ impl FanInput<'_> {
         let mut count = 0;
         let mut see = |corner: u32, to_next: Vec3, to_previous: Vec3| {
             let plane = &self.planes[corner as usize / 3];
-            if has_area(plane) {
+            if has_normal(plane) {
                 let [x, y, z, _] = plane.normal;
                 sum += Vec3::new(x, y, z) * angle(to_next.dot(to_previous));
             }

@@ -91,7 +91,7 @@ impl Marks {
             v1,
             face_a: NONE,
             face_b: NONE,
-            flags: EdgeFlags::MARKED,
+            word: EdgeFlags::MARKED.into(),
         })
     }
 }

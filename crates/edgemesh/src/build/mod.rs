@@ -4,9 +4,9 @@
 //! positions --frame--> 32 bits --weld--.
 //! polygons  --triangulate-------------> triangles --> edge table --> counts
 //!                                           |
-//!        duplicates dropped, winding repaired (only where there are any)
+//!        copies and backs dropped, winding repaired (only where there are any)
 //!                                           |
-//!     planes --> records --> components --> fans (split, normals) --> chains --> fill
+//!     planes, crease normals --> records --> components --> fans (split, normals) --> chains --> fill
 //! ```
 //!
 //! Every stage takes linear time. Stages that visit every face or edge run in parallel, and their
@@ -15,37 +15,48 @@
 mod attributes;
 mod chains;
 mod components;
+mod concave;
 mod corners;
+mod creases;
 mod duplicates;
 mod faces;
 mod fans;
 mod marks;
 mod orient;
-pub(crate) mod planes;
+mod outside;
+mod planes;
 mod records;
+mod repair;
+mod rounding;
 mod runs;
 mod triangulate;
+mod two_sided;
 mod weld;
 
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 pub(crate) use self::attributes::FaceAttributes;
 pub use self::chains::DEFAULT_CHAIN_TURN_RAD;
-use self::components::Components;
+use self::components::{Components, Measures};
 use self::corners::{CornerInput, build_fill};
+use self::creases::CreaseNormals;
 use self::faces::{FaceSources, keep_items};
 use self::fans::{FanInput, Split, apply_splits, walk_fans};
 use self::marks::Marks;
-use self::records::{RecordInput, Surface, build_records};
+use self::outside::{Outsides, Surfaces};
+use self::planes::Planes;
+use self::records::{RecordInput, RecordTable, build_records};
+use self::repair::Faces;
+use self::rounding::Rounding;
 pub use self::weld::Welding;
 use self::weld::{Weld, weld};
 use crate::edge_mesh::{
     Bounds, EdgeCounts, EdgeFlags, EdgeMesh, EdgePart, EdgeTable, MeshCounts, MeshFrame,
-    SourceCounts, triangle_side,
+    SourceCounts, threshold_steps, triangle_side,
 };
 use crate::index::{NONE, to_u32};
 use crate::model::Model;
@@ -99,9 +110,9 @@ impl Default for BuildOptions {
 }
 
 impl BuildOptions {
-    /// The cosines of the thresholds of ridges and valleys.
-    fn crease_cosines(&self) -> [f64; 2] {
-        [self.ridge_angle_rad.cos(), self.valley_angle_rad.cos()]
+    /// The least steps of ridges and valleys.
+    fn crease_steps(&self) -> [u32; 2] {
+        [self.ridge_angle_rad, self.valley_angle_rad].map(threshold_steps)
     }
 }
 
@@ -124,7 +135,9 @@ pub(crate) fn build_with_file_vertices(
     options: &BuildOptions,
     report: &mut Report,
 ) -> (EdgeMesh, Vec<u32>) {
-    let (frame, welded) = weld_model(model, options, report);
+    let is_used = used_vertices(model);
+    let used_box = used_box(model, &is_used);
+    let (frame, welded) = weld_model(model, &is_used, used_box, options, report);
     let mut sources = FaceSources::of(model, report);
     let mut counts = MeshCounts {
         vertices: model.positions.len(),
@@ -132,18 +145,27 @@ pub(crate) fn build_with_file_vertices(
         degenerate_triangles: sources.len(),
         ..MeshCounts::default()
     };
-    let mut triangles = weld_triangles(model, &welded.welded_from_input, &mut sources, report);
+    let triangles = weld_triangles(model, &welded.welded_from_input, &mut sources, report);
     counts.triangles = triangles.len();
     counts.degenerate_triangles -= triangles.len();
-    let mut table = EdgeTable::from_triangles(welded.positions.len(), &triangles);
+    let table = EdgeTable::from_triangles(welded.positions.len(), &triangles);
     count_edges(&mut counts, &triangles, &table, &sources);
     counts.source = count_source(model, &welded, &counts);
     warn_non_manifold(model, &sources, &table, &counts, report);
-    let clashes =
-        repair(model, &welded, &mut triangles, &mut sources, &mut table, &mut counts, report);
-    let parts = Parts { positions: welded.positions, triangles, sources, table, clashes, counts };
-    let marks = Marks::find(model, options, &welded.welded_from_input, &parts.table, report);
-    let mesh = EdgeMesh { frame, ..finish(model, options, report, parts, &marks) };
+    let mut faces = Faces {
+        model,
+        welded_from_input: &welded.welded_from_input,
+        vertex_count: welded.positions.len(),
+        triangles,
+        sources,
+        table,
+        clashes: Vec::new(),
+    };
+    faces.repair(&mut counts, report);
+    let rounding = Rounding::of(model, &frame, used_box);
+    let marks = Marks::find(model, options, &welded.welded_from_input, &faces.table, report);
+    let mesh = finish(welded.positions, faces, &marks, options, counts, rounding, report);
+    let mesh = EdgeMesh { frame, ..mesh };
     let mut file_vertices = vec![NONE; mesh.positions.len() - mesh.split_from.len()];
     for (input, &welded) in welded.welded_from_input.iter().enumerate().rev() {
         if let Some(file_vertex) = file_vertices.get_mut(welded as usize) {
@@ -172,7 +194,7 @@ pub fn set_marks(mesh: &mut EdgeMesh, pairs: &[[u32; 2]], is_marked: bool, optio
     let wanted: BTreeSet<[u32; 2]> = pairs.iter().map(|&[a, b]| edge(a, b)).collect();
     for record in &mut mesh.records {
         if wanted.contains(&edge(record.v0, record.v1)) {
-            record.flags.set(EdgeFlags::MARKED, is_marked);
+            record.word.set(EdgeFlags::MARKED, is_marked);
         }
     }
     mesh.chains = chains::chain(&mesh.positions, &mesh.records, options.chain_turn_rad);
@@ -180,21 +202,24 @@ pub fn set_marks(mesh: &mut EdgeMesh, pairs: &[[u32; 2]], is_marked: bool, optio
 
 /// Finds the creases of a mesh with the thresholds of `options`, and chains its edges again.
 pub(crate) fn reclassify(mesh: &mut EdgeMesh, options: &BuildOptions) {
-    // Without the planes of neighbors, which would make creases.
-    let planes = planes::face_planes(&mesh.positions, &mesh.triangles);
-    let surface =
-        Surface { positions: &mesh.positions, triangles: &mesh.triangles, planes: &planes };
-    records::reclassify(&surface, &mut mesh.records, options);
+    let [ridge_steps, valley_steps] = options.crease_steps();
+    let never = EdgeFlags::NON_MANIFOLD | EdgeFlags::DIAGONAL | EdgeFlags::BOUNDARY;
+    for record in mesh.records.iter_mut().filter(|record| !record.flags().intersects(never)) {
+        record.word.set(EdgeFlags::RIDGE | EdgeFlags::VALLEY, false);
+        record.word.insert(record.word.creases(ridge_steps, valley_steps));
+    }
     mesh.chains = chains::chain(&mesh.positions, &mesh.records, options.chain_turn_rad);
 }
 
 /// Converts used vertices to the mesh frame and welds them.
-fn weld_model(model: &Model, options: &BuildOptions, report: &mut Report) -> (MeshFrame, Weld) {
-    let is_used = used_vertices(model);
-    let frame = options.frame.unwrap_or_else(|| {
-        let (low, high) = used_box(model, &is_used);
-        MeshFrame::of_box(low, high)
-    });
+fn weld_model(
+    model: &Model,
+    is_used: &[bool],
+    (low, high): (DVec3, DVec3),
+    options: &BuildOptions,
+    report: &mut Report,
+) -> (MeshFrame, Weld) {
+    let frame = options.frame.unwrap_or_else(|| MeshFrame::of_box(low, high));
     report.repair(RepairKind::Recentered, usize::from(!frame.is_identity()), None);
     let to_mesh = |&point: &[f64; 3]| frame.to_mesh(point.into()).as_vec3().to_array();
     let positions: Vec<[f32; 3]> = if frame.is_identity() {
@@ -208,7 +233,7 @@ fn weld_model(model: &Model, options: &BuildOptions, report: &mut Report) -> (Me
         Welding::Within(tolerance) => Welding::Within(tolerance * frame.scale),
         other => other,
     };
-    let welded = weld(&positions, &is_used, welding);
+    let welded = weld(&positions, is_used, welding);
     let first = welded.first_moved.map(|vertex| Place::Vertex(vertex as u64 + 1));
     report.repair(RepairKind::SnappedVertices, welded.moved, first);
     (frame, welded)
@@ -338,128 +363,124 @@ fn warn_non_manifold(
     });
 }
 
-/// Drops duplicate faces and makes the winding consistent; returns the edges that still clash. A
-/// sound mesh is not changed and costs nothing.
-fn repair(
-    model: &Model,
-    welded: &Weld,
-    triangles: &mut Vec<[u32; 3]>,
-    sources: &mut FaceSources,
-    table: &mut EdgeTable,
-    counts: &mut MeshCounts,
-    report: &mut Report,
-) -> Vec<u32> {
-    let EdgeCounts { non_manifold, mut inconsistent, .. } = counts.edges;
-    if non_manifold + inconsistent > 0
-        && let Some(is_kept) = duplicates::keep_first_of_each(triangles, table)
-    {
-        counts.duplicate_triangles = duplicates::left_out(&is_kept).count();
-        let first = duplicates::left_out(&is_kept).next();
-        let place = first.map(|face| sources.place(model, face));
-        report.warn_many(WarningCode::Duplicate, counts.duplicate_triangles, place, || {
-            "a face that repeats another was dropped".into()
-        });
-        keep_items(triangles, &is_kept);
-        sources.keep(&is_kept);
-        *table = EdgeTable::from_triangles(welded.positions.len(), triangles);
-        inconsistent = EdgeCounts::of(table, |side| triangle_side(triangles, side)).inconsistent;
-    }
-    if inconsistent == 0 {
-        return Vec::new();
-    }
-    repair_winding(model, welded, triangles, sources, table, report)
+/// What the stages of the surface have found.
+struct SurfaceStages {
+    planes: Planes,
+    built: RecordTable,
+    components: Components,
+    measures: Vec<Measures>,
 }
 
-/// Flips the minority of faces in every component with inconsistent winding; returns the edges that
-/// still clash.
-fn repair_winding(
-    model: &Model,
-    welded: &Weld,
-    triangles: &mut [[u32; 3]],
-    sources: &mut FaceSources,
-    table: &mut EdgeTable,
-    report: &mut Report,
-) -> Vec<u32> {
-    let orientation = orient::orient(triangles, table);
-    let place = orientation.flipped.first().map(|&face| sources.place(model, face));
-    report.repair(RepairKind::FlippedFaces, orientation.flipped.len(), place);
-    if let Some(&edge) = orientation.clashes.first() {
-        let last = table.sides(edge as usize).last();
-        let place = last.map(|&side| sources.place(model, side as usize / 3));
-        report.warn_many(WarningCode::Orientation, orientation.clashes.len(), place, || {
-            "the surface cannot be oriented; it was cut along edges whose faces clash".into()
+/// The welded positions, their rounding, and what the file says of faces and edges.
+struct SurfaceInput<'a> {
+    positions: &'a [[f32; 3]],
+    rounding: Rounding,
+    attributes: &'a FaceAttributes,
+    marks: &'a Marks,
+    options: &'a BuildOptions,
+    has_split_edges: bool,
+}
+
+impl SurfaceInput<'_> {
+    fn stages(&self, faces: &Faces) -> SurfaceStages {
+        let Faces { model, triangles, sources, table, clashes, .. } = faces;
+        let planes = Planes::of(self.positions, triangles, table, &self.rounding);
+        let normals = CreaseNormals::of(model, &planes, sources, &self.rounding, |corner| {
+            let vertex = faces.welded_from_input[model.corner_positions[corner] as usize];
+            Vec3::from(self.positions[vertex as usize]).as_dvec3()
         });
+        let input = RecordInput {
+            positions: self.positions,
+            triangles,
+            normals: &normals,
+            sources,
+            attributes: self.attributes,
+            marks: self.marks,
+            clashes,
+            has_split_edges: self.has_split_edges,
+            crease_steps: self.options.crease_steps(),
+        };
+        let built = build_records(&input, table);
+        let components = Components::of_records(triangles.len(), &built.records);
+        let measures = components.measures(self.positions, triangles);
+        SurfaceStages { planes, built, components, measures }
     }
-    if !orientation.flipped.is_empty() {
-        for &face in &orientation.flipped {
-            sources.turn(face);
+
+    fn outsides(&self, faces: &Faces, stages: &SurfaceStages) -> Outsides {
+        let surfaces = Surfaces {
+            positions: self.positions,
+            triangles: &faces.triangles,
+            records: &stages.built.records,
+            components: &stages.components,
+            measures: &stages.measures,
+        };
+        surfaces.outsides()
+    }
+
+    /// The stages of `faces`, in which closed surfaces that are inside out are turned; with `SOLID`
+    /// and `GROOVE` on the records.
+    fn outward_stages(&self, faces: &mut Faces, report: &mut Report) -> SurfaceStages {
+        let mut stages = self.stages(faces);
+        let mut outsides = self.outsides(faces, &stages);
+        if !outsides.inside_out.is_empty() {
+            let component_of = &stages.components.of_face;
+            let is_wrong =
+                |face: usize| outsides.inside_out.binary_search(&component_of[face]).is_ok();
+            faces.turn(is_wrong, report);
+            stages = self.stages(faces);
+            outsides = self.outsides(faces, &stages);
         }
-        // A flip renumbers the sides of a triangle; the edges stay the same.
-        *table = EdgeTable::from_triangles(welded.positions.len(), triangles);
+        let SurfaceStages { built, components, measures, .. } = &mut stages;
+        components.mark_solids(measures, &outsides.has_outside, &mut built.records);
+        stages
     }
-    orientation.clashes
-}
-
-/// The results of the first stages, for the last ones.
-struct Parts {
-    positions: Vec<[f32; 3]>,
-    triangles: Vec<[u32; 3]>,
-    sources: FaceSources,
-    table: EdgeTable,
-    clashes: Vec<u32>,
-    counts: MeshCounts,
 }
 
 fn finish(
-    model: &Model,
-    options: &BuildOptions,
-    report: &mut Report,
-    parts: Parts,
+    mut positions: Vec<[f32; 3]>,
+    mut faces: Faces,
     marks: &Marks,
+    options: &BuildOptions,
+    mut counts: MeshCounts,
+    rounding: Rounding,
+    report: &mut Report,
 ) -> EdgeMesh {
-    let Parts { mut positions, mut triangles, sources, table, clashes, mut counts } = parts;
-    let mut planes = planes::face_planes(&positions, &triangles);
-    let attributes = FaceAttributes::of(model, &sources);
-    let mut built = build_records(
-        &RecordInput {
-            positions: &positions,
-            triangles: &triangles,
-            planes: &planes,
-            sources: &sources,
-            attributes: &attributes,
-            marks,
-            clashes: &clashes,
-            has_split_edges: counts.edges.non_manifold > 0,
-            options,
-        },
-        &table,
-    );
+    let attributes = FaceAttributes::of(faces.model, &faces.sources);
+    let input = SurfaceInput {
+        positions: &positions,
+        rounding,
+        attributes: &attributes,
+        marks,
+        options,
+        has_split_edges: counts.edges.non_manifold > 0,
+    };
+    let stages = input.outward_stages(&mut faces, report);
+    let SurfaceStages { planes, built, components, .. } = stages;
+    let Faces { model, mut triangles, sources, table, clashes, .. } = faces;
+    report_slivers(model, &sources, &planes, report);
     report_split_edges(model, &sources, &table, built.split_edges, report);
-    let components = Components::of_records(triangles.len(), &built.records);
     counts.components = components.count_joined_by_edges(&table);
-    components.mark_solids(&positions, &triangles, &mut built.records);
     let fans = walk_fans(&FanInput {
         positions: &positions,
         triangles: &triangles,
-        planes: &planes,
+        planes: &planes.planes,
         twins: &built.twins,
         clashing: &clashing_vertices(&triangles, &table, &clashes),
     });
     drop(built.twins);
+    drop(table);
     let (mut records, mut vertex_normals) = (built.records, fans.normals);
     let fill = build_fill(&CornerInput {
         model,
         positions: &positions,
         triangles: &triangles,
         sources: &sources,
-        planes: &planes,
+        planes: &planes.planes,
         records: &records,
         attributes: &attributes,
         smoothing_angle_rad: options.smoothing_angle_rad,
         is_wanted: options.with_fill,
     });
-    lend_planes(model, &sources, &positions, &triangles, &table, &mut planes, report);
-    drop(table);
     report_splits(model, &sources, &fans.splits, report);
     let vertices = (&mut positions, &mut vertex_normals);
     let split_from = apply_splits(&fans.splits, vertices, &mut triangles, &mut records);
@@ -472,7 +493,7 @@ fn finish(
         split_from,
         vertex_normals,
         triangles,
-        face_planes: planes,
+        face_planes: planes.planes,
         records,
         fill,
         counts,
@@ -509,22 +530,8 @@ fn clashing_vertices(triangles: &[[u32; 3]], table: &EdgeTable, clashes: &[u32])
     vertices
 }
 
-/// Gives faces without area the planes of their neighbors, and counts them.
-fn lend_planes(
-    model: &Model,
-    sources: &FaceSources,
-    positions: &[[f32; 3]],
-    triangles: &[[u32; 3]],
-    table: &EdgeTable,
-    planes: &mut [crate::edge_mesh::FacePlane],
-    report: &mut Report,
-) {
-    let flat: Vec<usize> = (0..planes.len())
-        .into_par_iter()
-        .with_min_len(1 << 14)
-        .filter(|&face| !planes::has_area(&planes[face]))
-        .collect();
-    let place = flat.first().map(|&face| sources.place(model, face));
-    report.repair(RepairKind::ZeroAreaTriangles, flat.len(), place);
-    planes::lend_planes(positions, triangles, &flat, table, planes);
+/// Counts the faces that took the planes of their neighbors.
+fn report_slivers(model: &Model, sources: &FaceSources, planes: &Planes, report: &mut Report) {
+    let place = planes.slivers.first().map(|&face| sources.place(model, face as usize));
+    report.repair(RepairKind::ZeroAreaTriangles, planes.slivers.len(), place);
 }

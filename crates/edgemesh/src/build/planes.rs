@@ -1,85 +1,239 @@
-//! Face planes, which decide whether a face looks at the eye.
+//! The planes of faces: which side of a face the eye is on, and how far two faces turn.
 //!
-//! A face without area has no normal. It takes the plane of the face across its longest edge, so
-//! that no contour separates the two.
+//! A normal is worth as much as the height of its face: rounding of the coordinates tilts it by
+//! the rounding over the height. The normal of a needle or a sliver can be tilted by any angle, so
+//! on a flat face it would be a false crease and a false contour.
+//!
+//! Idea: a face whose normal is in doubt by more than a tenth of a turn of a right angle takes the
+//! plane of the face across its longest edge, if the faces around it agree; then it lies in one
+//! surface with them. If they disagree, it is a narrow face of its own, such as the rim of a thin
+//! plate, and keeps its plane. A face without area has none to keep, and always takes one.
+//!
+//! Rejected: taking the plane of a neighbor whenever a face is thin, which rounds off the rims of
+//! plates that are one unit of the last digit thick.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::edge_mesh::{EdgeTable, FacePlane, corners_of, face_normal};
+use super::components::Sets;
+use super::rounding::Rounding;
+use crate::edge_mesh::{EdgeTable, FacePlane, corners_of, face_normal, triangle_side};
+use crate::index::to_u32;
 
-/// The planes of all faces; a face without area has a normal of zero.
-pub(crate) fn face_planes(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<FacePlane> {
-    let plane = |triangle: &[u32; 3]| {
-        let [x, y, z] = face_normal(corners_of(positions, *triangle)).as_vec3().to_array();
-        let [px, py, pz] = positions[triangle[0] as usize];
-        FacePlane { normal: [x, y, z, 0.0], point: [px, py, pz, 1.0] }
-    };
-    triangles.par_iter().with_min_len(1 << 12).map(plane).collect()
+/// A normal that rounding may tilt by more than this angle, in radians, is in doubt.
+const DOUBTFUL_TILT_RAD: f32 = 0.2;
+
+/// A thin face is at least this many times as long as it is high.
+const THIN: f64 = 8.0;
+
+/// The cosine of the angle up to which the faces around a sliver agree: 30 degrees.
+const AGREEING_COSINE: f32 = 0.866;
+
+/// The planes of all faces, and what they are worth.
+#[derive(Debug, Default)]
+pub(crate) struct Planes {
+    pub(crate) planes: Vec<FacePlane>,
+    /// The largest angle by which rounding may have tilted each normal, in radians.
+    pub(crate) tilts: Vec<f32>,
+    /// The faces that took the plane of a neighbor, and those that found none, ascending.
+    pub(crate) slivers: Vec<u32>,
 }
 
-/// Whether a face has an area, before [`lend_planes`].
-pub(crate) fn has_area(plane: &FacePlane) -> bool {
+/// Whether a face has a normal, of its own or of a neighbor.
+pub(crate) fn has_normal(plane: &FacePlane) -> bool {
     plane.normal != [0.0; 4]
 }
 
-/// Gives the faces without area, `flat`, the planes of their neighbors.
-pub(crate) fn lend_planes(
-    positions: &[[f32; 3]],
-    triangles: &[[u32; 3]],
-    flat: &[usize],
-    table: &EdgeTable,
-    planes: &mut [FacePlane],
-) {
-    if flat.is_empty() {
-        return;
+impl Planes {
+    /// The planes of all faces; slivers have those of their neighbors.
+    pub(crate) fn of(
+        positions: &[[f32; 3]],
+        triangles: &[[u32; 3]],
+        table: &EdgeTable,
+        rounding: &Rounding,
+    ) -> Self {
+        let plane = |triangle: &[u32; 3]| {
+            let corners = corners_of(positions, *triangle);
+            let [x, y, z] = face_normal(corners).as_vec3().to_array();
+            let [px, py, pz] = positions[triangle[0] as usize];
+            let plane = FacePlane { normal: [x, y, z, 0.0], point: [px, py, pz, 1.0] };
+            (plane, tilt(&corners, rounding))
+        };
+        let (planes, tilts) = triangles.par_iter().with_min_len(1 << 12).map(plane).unzip();
+        let mut all = Self { planes, tilts, slivers: Vec::new() };
+        all.lend(&Slivers::find(&all, positions, triangles), table);
+        all
     }
-    // Slivers can be adjacent, so planes travel from face to face.
-    let mut takers = longest_edge_neighbors(positions, triangles, planes, table);
-    takers.sort_unstable_by_key(|&(face, donor)| (donor, face));
-    let mut donors: Vec<usize> =
-        takers.iter().map(|taker| taker.1).filter(|&donor| has_area(&planes[donor])).collect();
-    donors.dedup();
-    while let Some(donor) = donors.pop() {
-        let first = takers.partition_point(|taker| taker.1 < donor);
-        for &(face, _) in takers[first..].iter().take_while(|taker| taker.1 == donor) {
-            if !has_area(&planes[face]) {
-                planes[face] = planes[donor];
-                donors.push(face);
+
+    /// Gives slivers the planes of their neighbors.
+    fn lend(&mut self, slivers: &Slivers, table: &EdgeTable) {
+        if slivers.faces.is_empty() {
+            return;
+        }
+        self.slivers = slivers.takers(&self.planes, table);
+        let mut needs = vec![false; self.planes.len()];
+        for &face in &self.slivers {
+            needs[face as usize] = true;
+        }
+        // Slivers can be adjacent, so planes travel from face to face: first across the longest
+        // edges alone, then across the others too.
+        let mut pairs: Vec<(u32, u32)> = Vec::new();
+        for rank in 0..3 {
+            slivers.pairs(rank, table, |taker, donor| pairs.push((donor, taker)));
+            pairs.sort_unstable();
+            let mut donors: Vec<u32> = pairs.iter().map(|pair| pair.0).collect();
+            donors.dedup();
+            donors.retain(|&donor| !needs[donor as usize]);
+            while let Some(donor) = donors.pop() {
+                let first = pairs.partition_point(|pair| pair.0 < donor);
+                for &(_, face) in pairs[first..].iter().take_while(|pair| pair.0 == donor) {
+                    if std::mem::replace(&mut needs[face as usize], false) {
+                        self.planes[face as usize] = self.planes[donor as usize];
+                        self.tilts[face as usize] = self.tilts[donor as usize];
+                        donors.push(face);
+                    }
+                }
             }
         }
     }
 }
 
-/// For each face without area, the face across its longest edge.
-fn longest_edge_neighbors(
-    positions: &[[f32; 3]],
-    triangles: &[[u32; 3]],
-    planes: &[FacePlane],
-    table: &EdgeTable,
-) -> Vec<(usize, usize)> {
-    let longest_side = |face: usize| {
-        let [a, b, c] = corners_of(positions, triangles[face]);
-        let lengths = [b - a, c - b, a - c].map(DVec3::length_squared);
-        (0..3).fold(0, |best, side| if lengths[side] > lengths[best] { side } else { best })
-    };
-    let mut donors = Vec::new();
-    for (_, sides) in table.iter() {
-        for &side in sides {
-            let face = side as usize / 3;
-            if has_area(&planes[face]) || longest_side(face) != side as usize % 3 {
+/// The largest angle by which `rounding` may tilt a polygon, in radians: each side can turn the
+/// area by its length.
+pub(crate) fn tilt(corners: &[DVec3], rounding: &Rounding) -> f32 {
+    let (mut around, mut area, mut reach) = (0.0, DVec3::ZERO, DVec3::ZERO);
+    let mut previous = corners[corners.len() - 1];
+    for &corner in corners {
+        around += previous.distance(corner);
+        area += (previous - corners[0]).cross(corner - corners[0]);
+        reach = reach.max(corner.abs());
+        previous = corner;
+    }
+    // The three coordinates of a corner are rounded apart.
+    let moved = 3_f64.sqrt() * rounding.at(reach.max_element());
+    #[expect(clippy::cast_possible_truncation, reason = "7 digits are plenty")]
+    let angle = (moved * around / area.length()) as f32;
+    if angle < std::f32::consts::PI { angle } else { std::f32::consts::PI }
+}
+
+/// The thin faces whose normals are in doubt.
+struct Slivers<'a> {
+    triangles: &'a [[u32; 3]],
+    /// The faces, ascending.
+    faces: Vec<u32>,
+    /// For each of them, its sides (0 to 2) from the longest to the shortest.
+    sides: Vec<[u8; 3]>,
+    /// Whether each of them has no area at all.
+    is_flat: Vec<bool>,
+}
+
+impl<'a> Slivers<'a> {
+    fn find(planes: &Planes, positions: &[[f32; 3]], triangles: &'a [[u32; 3]]) -> Self {
+        let is_sliver = |face: &u32| {
+            let face = *face as usize;
+            let in_doubt = planes.tilts[face] > DOUBTFUL_TILT_RAD;
+            in_doubt && is_thin(corners_of(positions, triangles[face]))
+        };
+        let faces: Vec<u32> = (0..to_u32(triangles.len()))
+            .into_par_iter()
+            .with_min_len(1 << 14)
+            .filter(is_sliver)
+            .collect();
+        let by_length = |&face: &u32| {
+            let [a, b, c] = corners_of(positions, triangles[face as usize]);
+            let lengths = [b - a, c - b, a - c].map(DVec3::length_squared);
+            let mut sides = [0, 1, 2];
+            sides.sort_by(|&i, &j| lengths[usize::from(j)].total_cmp(&lengths[usize::from(i)]));
+            sides
+        };
+        let sides = faces.iter().map(by_length).collect();
+        let is_flat = |&face: &u32| !has_normal(&planes.planes[face as usize]);
+        Self { triangles, sides, is_flat: faces.iter().map(is_flat).collect(), faces }
+    }
+
+    fn index(&self, face: u32) -> Option<usize> {
+        self.faces.binary_search(&face).ok()
+    }
+
+    /// Calls `visit` with each sliver and the face across its side of a rank, the longest first: of
+    /// several faces there, the first that is wound the same way.
+    fn pairs(&self, rank: usize, table: &EdgeTable, mut visit: impl FnMut(u32, u32)) {
+        let runs_up = |side: u32| {
+            let [start, end] = triangle_side(self.triangles, side);
+            start < end
+        };
+        for (_, sides) in table.iter() {
+            let mut slivers = sides
+                .iter()
+                .filter_map(|&side| Some((side, self.index(side / 3)?)))
+                .filter(|&(side, index)| u32::from(self.sides[index][rank]) == side % 3)
+                .peekable();
+            if slivers.peek().is_none() {
                 continue;
             }
-            let other = sides.iter().map(|&side| side as usize / 3).find(|&other| other != face);
-            donors.extend(other.map(|other| (face, other)));
+            let [first_up, first_down] =
+                [true, false].map(|up| sides.iter().find(|&&side| runs_up(side) == up));
+            for (side, _) in slivers {
+                let across = if runs_up(side) { first_down } else { first_up };
+                across.into_iter().for_each(|other| visit(side / 3, other / 3));
+            }
         }
     }
-    donors
+
+    /// The slivers that need the plane of a neighbor, ascending.
+    ///
+    /// Slivers that lie along each other form a strip; a strip lies in one surface if the faces
+    /// along it agree.
+    fn takers(&self, planes: &[FacePlane], table: &EdgeTable) -> Vec<u32> {
+        let strips = Sets::new(self.faces.len());
+        let mut neighbors: Vec<(usize, u32)> = Vec::new();
+        for rank in 0..2 {
+            self.pairs(rank, table, |face, other| {
+                let Some(index) = self.index(face) else { return };
+                match self.index(other) {
+                    Some(beside) => strips.join(to_u32(index), to_u32(beside)),
+                    None => neighbors.push((index, other)),
+                }
+            });
+        }
+        // The first neighbor of each strip, and whether all others agree with it.
+        let mut first = vec![None; self.faces.len()];
+        let mut agrees = vec![true; self.faces.len()];
+        for (index, face) in neighbors {
+            let strip = strips.root(to_u32(index)) as usize;
+            let normal = planes[face as usize].normal;
+            let [x, y, z, _] = *first[strip].get_or_insert(normal);
+            let cosine = x * normal[0] + y * normal[1] + z * normal[2];
+            agrees[strip] &= cosine >= AGREEING_COSINE;
+        }
+        let takes = |index: &usize| {
+            let strip = strips.root(to_u32(*index)) as usize;
+            self.is_flat[*index] || first[strip].is_some() && agrees[strip]
+        };
+        (0..self.faces.len()).filter(takes).map(|index| self.faces[index]).collect()
+    }
+}
+
+fn is_thin([a, b, c]: [DVec3; 3]) -> bool {
+    let longest = (b - a).length_squared().max((c - b).length_squared());
+    let longest = longest.max((a - c).length_squared());
+    (b - a).cross(c - a).length() * THIN <= longest
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::edge_mesh::MeshFrame;
+    use crate::model::Model;
+
+    fn planes_of(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Planes {
+        let positions_in_file = positions.iter().map(|point| point.map(f64::from)).collect();
+        let model = Model { positions: positions_in_file, ..Model::default() };
+        let rounding =
+            Rounding::of(&model, &MeshFrame::default(), (DVec3::ZERO, DVec3::splat(2.0)));
+        let table = EdgeTable::from_triangles(positions.len(), triangles);
+        Planes::of(positions, triangles, &table, &rounding)
+    }
 
     /// ```text
     ///   2           (0,3,1) lies flat on the edge 0-1 of (0,1,2)
@@ -88,13 +242,38 @@ mod tests {
     /// ```
     #[test]
     fn a_sliver_takes_the_plane_across_its_longest_edge() {
-        let positions = [[0., 0., 0.], [2., 0., 0.], [0., 1., 0.], [1., 0., 0.]];
-        let triangles = [[0, 1, 2], [0, 3, 1]];
-        let mut planes = face_planes(&positions, &triangles);
-        assert!(has_area(&planes[0]) && !has_area(&planes[1]));
-        let table = EdgeTable::from_triangles(4, &triangles);
-        lend_planes(&positions, &triangles, &[1], &table, &mut planes);
-        assert_eq!(planes[1], planes[0]);
+        for height in [0.0, 1e-8, -1e-7] {
+            let positions = [[0., 0., 0.], [2., 0., 0.], [0., 1., 0.], [1., height, height]];
+            let planes = planes_of(&positions, &[[0, 1, 2], [0, 3, 1]]);
+            assert_eq!(planes.slivers, [1]);
+            assert_eq!(planes.planes[1], planes.planes[0], "{height}");
+        }
+        let positions = [[0., 0., 0.], [2., 0., 0.], [0., 1., 0.], [1., -1.234_5e-3, 1e-3]];
+        let planes = planes_of(&positions, &[[0, 1, 2], [0, 3, 1]]);
+        assert!(planes.slivers.is_empty(), "high enough");
+    }
+
+    /// A strip as high as the rounding between two faces that are flat, or at a right angle.
+    #[test]
+    fn a_narrow_face_between_faces_that_disagree_keeps_its_plane() {
+        let strip = |far: [f32; 3]| {
+            let h = 1e-7;
+            let positions =
+                [[0., 0., 0.], [2., 0., 0.], [2., h, 0.], [0., h, 0.], [1., -1., 0.], far];
+            planes_of(&positions, &[[0, 1, 2], [0, 2, 3], [1, 0, 4], [3, 2, 5]]).slivers
+        };
+        assert_eq!(strip([1., 1., 0.]), [0, 1]);
+        assert!(strip([1., 0., -1.]).is_empty());
+    }
+
+    /// Two slivers whose longest edge is the one between them.
+    #[test]
+    fn slivers_that_have_each_other_across_look_further() {
+        let positions = [[0., 0., 0.], [2., 0., 0.], [1., 1e-8, 0.], [1., -1e-8, 0.], [1., 1., 0.]];
+        let planes = planes_of(&positions, &[[0, 1, 2], [1, 0, 3], [2, 1, 4]]);
+        assert_eq!(planes.slivers, [0, 1]);
+        assert_eq!(planes.planes[0], planes.planes[2]);
+        assert_eq!(planes.planes[1], planes.planes[2]);
     }
 
     #[test]

@@ -5,9 +5,9 @@
 //! with the next face that has it on its near side. Two cubes that touch along an edge become two
 //! edges of a cube.
 //!
-//! The cosine of a crease is computed from the 32-bit normals of the planes, and again in 64 bits
-//! from positions if it is within rounding of a threshold: the result is that of 64 bits at the
-//! cost of 32.
+//! Such an edge is a feature only if one of its pairs is, or a face has no partner. Two bodies that
+//! share a face in all its triangles have four faces at each of its edges, and their pairs go on
+//! smoothly.
 //!
 //! Rejected: refusing such meshes, as half-edge structures do; pairs in file order, which join
 //! faces through one another.
@@ -24,25 +24,22 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
+use super::FaceAttributes;
+use super::creases::CreaseNormals;
 use super::faces::FaceSources;
 use super::marks::Marks;
-use super::planes::has_area;
-use super::{BuildOptions, FaceAttributes};
-use crate::edge_mesh::{
-    EdgeFlags, EdgePart, EdgeRecord, EdgeTable, FacePlane, corners_of, face_normal, triangle_side,
-};
+use crate::edge_mesh::{EdgeFlags, EdgePart, EdgeRecord, EdgeTable, triangle_side};
 use crate::index::{NONE, to_u32};
 
-/// An upper bound for the error of the cosine of two normals in 32 bits.
-const COSINE_ERROR: f64 = 1e-6;
+/// Faces whose directions around an edge differ by less than this angle, in radians, touch.
+const TOUCHING_RAD: f64 = 1e-4;
 
 /// The input of the records.
 #[derive(Debug)]
 pub(crate) struct RecordInput<'a> {
     pub(crate) positions: &'a [[f32; 3]],
     pub(crate) triangles: &'a [[u32; 3]],
-    /// Planes of faces; those of faces without area have no normal yet.
-    pub(crate) planes: &'a [FacePlane],
+    pub(crate) normals: &'a CreaseNormals<'a>,
     pub(crate) sources: &'a FaceSources,
     pub(crate) attributes: &'a FaceAttributes,
     pub(crate) marks: &'a Marks,
@@ -50,7 +47,8 @@ pub(crate) struct RecordInput<'a> {
     pub(crate) clashes: &'a [u32],
     /// Whether any edge may have more than two faces.
     pub(crate) has_split_edges: bool,
-    pub(crate) options: &'a BuildOptions,
+    /// The least steps of ridges and valleys.
+    pub(crate) crease_steps: [u32; 2],
 }
 
 /// The records, and the sides that they join.
@@ -121,7 +119,7 @@ impl RecordInput<'_> {
                     self.split(ends, sides, twins, &mut records);
                     let marked = self.marks.is_marked(edge);
                     for record in &mut records {
-                        record.flags.set(EdgeFlags::MARKED, marked);
+                        record.word.set(EdgeFlags::MARKED, marked);
                     }
                     SplitEdge { edge, records }
                 })
@@ -153,7 +151,7 @@ impl RecordInput<'_> {
                 }
             }
             if self.marks.is_marked(edge) {
-                records[at].flags |= EdgeFlags::MARKED;
+                records[at].word.insert(EdgeFlags::MARKED);
             }
             at += 1;
         }
@@ -161,7 +159,7 @@ impl RecordInput<'_> {
 
     fn single(&self, side: u32, flags: EdgeFlags) -> EdgeRecord {
         let [v0, v1] = triangle_side(self.triangles, side);
-        EdgeRecord { v0, v1, face_a: side / 3, face_b: NONE, flags }
+        EdgeRecord { v0, v1, face_a: side / 3, face_b: NONE, word: flags.into() }
     }
 
     /// The record of an edge with two faces; face A traverses it from the smaller vertex to the
@@ -170,27 +168,27 @@ impl RecordInput<'_> {
         let [start, end] = triangle_side(self.triangles, first);
         let clashes = self.clashes.binary_search(&to_u32(edge)).is_ok();
         let (a, b) = if start < end || clashes { (first, second) } else { (second, first) };
-        let mut record = self.single(a, EdgeFlags::empty());
-        record.face_b = b / 3;
-        if clashes {
-            record.flags |= EdgeFlags::CLASH;
-        } else {
+        let mut record = self.joined(a, b, clashes);
+        if !clashes {
             join(twins, a, b);
         }
         if self.sources.is_diagonal_edge(&[a, b]) || self.marks.is_suppressed(edge) {
-            record.flags |= EdgeFlags::DIAGONAL;
-            return record;
+            record.word = (record.flags() & EdgeFlags::CLASH | EdgeFlags::DIAGONAL).into();
         }
-        record.flags |= self.crease(&record, b);
-        record.flags |= self.attributes.borders(record.face_a, record.face_b);
         record
     }
 
-    fn crease(&self, record: &EdgeRecord, side_b: u32) -> EdgeFlags {
-        let apex_b = self.triangles[record.face_b as usize][(side_b as usize + 2) % 3];
-        let surface =
-            Surface { positions: self.positions, triangles: self.triangles, planes: self.planes };
-        surface.crease(record, apex_b, self.options)
+    /// The record of the faces of sides `a` and `b`, with all its classes.
+    fn joined(&self, a: u32, b: u32, clashes: bool) -> EdgeRecord {
+        let mut record = self.single(a, EdgeFlags::empty());
+        record.face_b = b / 3;
+        let direction = self.position(record.v1) - self.position(record.v0);
+        record.word = self.normals.word([a / 3, b / 3], direction, clashes);
+        let [ridge_steps, valley_steps] = self.crease_steps;
+        record.word.insert(record.word.creases(ridge_steps, valley_steps));
+        record.word.insert(self.attributes.borders(record.face_a, record.face_b));
+        record.word.set(EdgeFlags::CLASH, clashes);
+        record
     }
 
     fn position(&self, vertex: u32) -> DVec3 {
@@ -217,9 +215,14 @@ impl RecordInput<'_> {
             if runs_up(around[at]) && !runs_up(around[next]) && !is_paired[next] {
                 is_paired[at] = true;
                 is_paired[next] = true;
-                let mut record = self.single(around[at], EdgeFlags::NON_MANIFOLD);
-                record.face_b = around[next] / 3;
                 join(twins, around[at], around[next]);
+                let mut record = self.joined(around[at], around[next], false);
+                if record.flags().intersects(EdgeFlags::ALWAYS_DRAWN) {
+                    // A feature, whose class belongs to one pair only.
+                    record.word = EdgeFlags::NON_MANIFOLD.into();
+                } else {
+                    record.word.insert(EdgeFlags::PAIRED);
+                }
                 records.push(record);
             }
         }
@@ -230,79 +233,35 @@ impl RecordInput<'_> {
         }
     }
 
-    /// The sides of an edge, sorted by the angle of their faces around it, then by face.
+    /// The sides of an edge, sorted by the direction of their faces around it, then by face.
+    ///
+    /// Faces in one direction touch: those with their matter before them come first, so that there
+    /// is none between them. That holds for two bodies in contact and for both sides of a sheet.
     fn sorted_by_angle(&self, low: u32, high: u32, sides: &[u32]) -> Vec<u32> {
         let origin = self.position(low);
         let axis = (self.position(high) - origin).normalize_or_zero();
-        let across = axis.any_orthonormal_vector();
+        let arm = |side: u32| {
+            let apex = self.triangles[side as usize / 3][(side as usize + 2) % 3];
+            let arm = self.position(apex) - origin;
+            arm - axis * arm.dot(axis)
+        };
+        // Angles from a face have no jump at a face that touches it.
+        let across = sides.first().map_or(DVec3::X, |&side| arm(side)).normalize_or(DVec3::X);
         let upright = axis.cross(across);
-        let mut keyed: Vec<(f64, u32)> = sides
-            .iter()
-            .map(|&side| {
-                let apex = self.triangles[side as usize / 3][(side as usize + 2) % 3];
-                let arm = self.position(apex) - origin;
-                // Clockwise about the axis.
-                (f64::atan2(-arm.dot(upright), arm.dot(across)), side)
-            })
-            .collect();
+        let clockwise = |side: u32| {
+            let arm = arm(side);
+            let angle = f64::atan2(-arm.dot(upright), arm.dot(across));
+            if angle < -TOUCHING_RAD { angle + std::f64::consts::TAU } else { angle }
+        };
+        let mut keyed: Vec<(f64, u32)> =
+            sides.iter().map(|&side| (clockwise(side), side)).collect();
         keyed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let runs_up = |side: u32| triangle_side(self.triangles, side)[0] == low;
+        for touching in keyed.chunk_by_mut(|a, b| b.0 - a.0 < TOUCHING_RAD) {
+            touching.sort_by_key(|&(_, side)| (runs_up(side), side));
+        }
         keyed.into_iter().map(|(_, side)| side).collect()
     }
-}
-
-/// The input of creases.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Surface<'a> {
-    pub(crate) positions: &'a [[f32; 3]],
-    pub(crate) triangles: &'a [[u32; 3]],
-    pub(crate) planes: &'a [FacePlane],
-}
-
-impl Surface<'_> {
-    /// Ridge or valley by Equation 1, with thresholds between the face normals:
-    /// `n_A . n_B < cos(threshold)`. `apex_b` is the vertex of face B off the edge.
-    pub(crate) fn crease(
-        &self,
-        record: &EdgeRecord,
-        apex_b: u32,
-        options: &BuildOptions,
-    ) -> EdgeFlags {
-        let faces = [record.face_a, record.face_b];
-        let [plane_a, plane_b] = faces.map(|face| &self.planes[face as usize]);
-        let sign = if record.flags.contains(EdgeFlags::CLASH) { -1.0 } else { 1.0 };
-        let cosine: f32 = plane_a.normal.iter().zip(plane_b.normal).map(|(a, b)| a * b).sum();
-        let [ridge, valley] = options.crease_cosines();
-        let is_smooth = sign * f64::from(cosine) > ridge.max(valley) + COSINE_ERROR;
-        if is_smooth || !has_area(plane_a) || !has_area(plane_b) {
-            return EdgeFlags::empty();
-        }
-        let [normal_a, normal_b] = faces
-            .map(|face| face_normal(corners_of(self.positions, self.triangles[face as usize])));
-        let cosine = sign * normal_a.dot(normal_b);
-        // (v3 - v2) . n_A has the sign of (v3 - v0) . n_A, since v2 lies in A.
-        let [v0, v3] = [record.v0, apex_b]
-            .map(|vertex| Vec3::from(self.positions[vertex as usize]).as_dvec3());
-        let is_concave = (v3 - v0).dot(normal_a) > 0.0;
-        if is_concave && cosine < valley {
-            EdgeFlags::VALLEY
-        } else if !is_concave && cosine < ridge {
-            EdgeFlags::RIDGE
-        } else {
-            EdgeFlags::empty()
-        }
-    }
-}
-
-/// Finds the creases of records with the thresholds of `options`.
-pub(crate) fn reclassify(surface: &Surface, records: &mut [EdgeRecord], options: &BuildOptions) {
-    let never = EdgeFlags::NON_MANIFOLD | EdgeFlags::DIAGONAL;
-    let sound = |record: &&mut EdgeRecord| record.face_b != NONE && !record.flags.intersects(never);
-    records.par_iter_mut().with_min_len(1 << 12).filter(sound).for_each(|record| {
-        let off_edge = |&vertex: &u32| vertex != record.v0 && vertex != record.v1;
-        let apex_b = surface.triangles[record.face_b as usize].into_iter().find(off_edge);
-        record.flags -= EdgeFlags::RIDGE | EdgeFlags::VALLEY;
-        record.flags |= surface.crease(record, apex_b.unwrap_or(record.v0), options);
-    });
 }
 
 /// Makes two sides each other's twins.
@@ -314,7 +273,7 @@ fn join(twins: &[AtomicU32], a: u32, b: u32) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::build::build_edge_mesh;
+    use crate::build::{BuildOptions, build_edge_mesh};
     use crate::model::Model;
     use crate::report::Report;
 
@@ -328,7 +287,7 @@ mod tests {
         let positions = [[0., 0., 0.], [0., 1., 0.], [-1., 0., 0.], [1., 0., apex_z]];
         // The normal of the first face is +z.
         let records = records_of(&positions, &[&[0, 1, 2], &[0, 3, 1]]);
-        records.iter().find(|record| record.face_b != NONE).unwrap().flags
+        records.iter().find(|record| record.face_b != NONE).unwrap().flags()
     }
 
     #[test]
@@ -358,7 +317,7 @@ mod tests {
         let records = records_of(&positions, &polygons);
         let split: Vec<_> = records
             .iter()
-            .filter(|record| record.flags.contains(EdgeFlags::NON_MANIFOLD))
+            .filter(|record| record.flags().contains(EdgeFlags::NON_MANIFOLD))
             .map(|record| (record.face_a / 4, record.face_b / 4))
             .collect();
         assert_eq!(split.len(), 2);
@@ -372,7 +331,7 @@ mod tests {
         let positions = [[0., 0., 0.], [0., 0., 1.], [1., 0., 0.], [0., 1., 0.], [-1., -1., 0.]];
         let records = records_of(&positions, &[&[0, 1, 2], &[0, 1, 3], &[1, 0, 4]]);
         let split: Vec<_> =
-            records.iter().filter(|r| r.flags.contains(EdgeFlags::NON_MANIFOLD)).collect();
+            records.iter().filter(|r| r.flags().contains(EdgeFlags::NON_MANIFOLD)).collect();
         assert_eq!(split.len(), 2);
         assert_eq!(split.iter().filter(|record| record.face_b == NONE).count(), 1);
     }

@@ -2,10 +2,11 @@
 //!
 //! Idea: a fan from the first corner, (0, k, k+1), as most programs and the reference counts have
 //! it. If a triangle of the fan turns against its polygon, so that the fan would overlap itself,
-//! the polygon is cut by ear clipping (Meisters 1975) instead.
+//! the polygon is cut as [`concave`](super::concave) instead. A polygon that crosses itself has no
+//! inside; it stays a fan, with a warning.
 //!
-//! Rejected: ear clipping for all polygons. Its triangles are better, but its diagonals differ from
-//! those of other programs, and the diagonal of a polygon that is not flat can be a contour.
+//! Rejected: cutting all polygons in the better way. Its diagonals differ from those of other
+//! programs, and the diagonal of a polygon that is not flat can be a contour.
 //!
 //! ```text
 //!   3---2      (0,1,2) has the diagonal 2-0: side 2
@@ -16,13 +17,10 @@
 
 use glam::DVec3;
 
+use super::concave::{area_vector, cut_concave};
 use crate::index::to_u32;
 use crate::model::Model;
-use crate::report::{RepairKind, Report};
-
-/// Larger polygons are cut as fans in any case, because ear clipping takes quadratic time. The
-/// largest concave face seen in real files has 936 corners.
-const MAX_EAR_CLIPPED_CORNERS: usize = 4096;
+use crate::report::{RepairKind, Report, WarningCode};
 
 /// A triangle of a polygon.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,25 +41,24 @@ pub(crate) fn triangulate(model: &Model, report: &mut Report) -> Vec<PolygonTria
     for polygon in 0..model.polygon_count() {
         let range = model.corner_range(polygon);
         let (first, count) = (to_u32(range.start), range.len());
-        let mut push = |local: [usize; 3]| {
-            triangles.push(PolygonTriangle {
-                corners: local.map(|corner| first + to_u32(corner)),
-                polygon: to_u32(polygon),
-                diagonals: diagonal_sides(local, count),
-            });
+        let mut push = |local: [usize; 3], diagonals: u8| {
+            let corners = local.map(|corner| first + to_u32(corner));
+            triangles.push(PolygonTriangle { corners, polygon: to_u32(polygon), diagonals });
         };
         points.clear();
         points.extend(range.map(|corner| position_of(model, corner)));
-        if (4..=MAX_EAR_CLIPPED_CORNERS).contains(&count)
-            && fan_overlaps(&points)
-            && let Some(ears) = clip_ears(&points)
-        {
+        if count > 3 && fan_overlaps(&points) {
             let place = Some(model.polygon_place(polygon));
-            report.repair(RepairKind::EarClippedPolygons, 1, place);
-            ears.into_iter().for_each(push);
-        } else {
-            (1..count - 1).for_each(|k| push([0, k, k + 1]));
+            if let Some(cut) = cut_concave(&points) {
+                report.repair(RepairKind::EarClippedPolygons, 1, place);
+                cut.into_iter().for_each(|(local, diagonals)| push(local, diagonals));
+                continue;
+            }
+            report.warn(WarningCode::Crossing, place, || {
+                "a polygon crosses itself; it was cut as a fan".into()
+            });
         }
+        (1..count - 1).for_each(|k| push([0, k, k + 1], fan_diagonals(k, count)));
     }
     triangles
 }
@@ -70,17 +67,10 @@ fn position_of(model: &Model, corner: usize) -> DVec3 {
     DVec3::from(model.positions[model.corner_positions[corner] as usize])
 }
 
-/// The bits of the diagonals: sides whose ends are not successive in the polygon.
-fn diagonal_sides(local: [usize; 3], count: usize) -> u8 {
-    (0..3)
-        .filter(|&side| (local[side] + 1) % count != local[(side + 1) % 3])
-        .fold(0, |bits, side| bits | 1 << side)
-}
-
-/// Twice the polygon's area as a vector along its normal (Newell's method).
-fn area_vector(points: &[DVec3]) -> DVec3 {
-    let origin = points[0];
-    points.windows(2).map(|pair| (pair[0] - origin).cross(pair[1] - origin)).sum()
+/// The bits of the diagonals of the fan's triangle (0, k, k+1).
+const fn fan_diagonals(k: usize, count: usize) -> u8 {
+    let (starts, ends) = (k > 1, k + 2 < count);
+    starts as u8 | (ends as u8) << 2
 }
 
 fn fan_overlaps(points: &[DVec3]) -> bool {
@@ -88,51 +78,6 @@ fn fan_overlaps(points: &[DVec3]) -> bool {
     (1..points.len() - 1).any(|k| {
         let side = (points[k] - points[0]).cross(points[k + 1] - points[0]);
         side.dot(normal) < 0.0
-    })
-}
-
-/// Cuts off ears until a triangle is left; `None` if there is no ear, as in polygons that cross
-/// themselves.
-fn clip_ears(points: &[DVec3]) -> Option<Vec<[usize; 3]>> {
-    let normal = area_vector(points);
-    let mut ring: Vec<usize> = (0..points.len()).collect();
-    let mut ears = Vec::with_capacity(points.len() - 2);
-    // Cutting an ear can make ears only of its two neighbors.
-    let mut ear: Vec<bool> =
-        (0..ring.len()).map(|tip| is_ear(points, &ring, tip, normal)).collect();
-    // The search goes on after the last ear, so that a strip does not become a fan of slivers.
-    let mut at = 0;
-    while ring.len() > 3 {
-        let count = ring.len();
-        let found = (0..count).map(|step| (at + step) % count).find(|&tip| ear[tip])?;
-        let (before, after) = ((found + count - 1) % count, (found + 1) % count);
-        ears.push([ring[before], ring[found], ring[after]]);
-        ring.remove(found);
-        ear.remove(found);
-        let count = count - 1;
-        at = found % count;
-        for tip in [(found + count - 1) % count, at] {
-            ear[tip] = is_ear(points, &ring, tip, normal);
-        }
-    }
-    ears.push([ring[0], ring[1], ring[2]]);
-    Some(ears)
-}
-
-fn is_ear(points: &[DVec3], ring: &[usize], tip: usize, normal: DVec3) -> bool {
-    let count = ring.len();
-    let corner =
-        [(tip + count - 1) % count, tip, (tip + 1) % count].map(|place| points[ring[place]]);
-    let turn = |a: DVec3, b: DVec3, c: DVec3| (b - a).cross(c - a).dot(normal);
-    if turn(corner[0], corner[1], corner[2]) <= 0.0 {
-        return false;
-    }
-    !ring.iter().any(|&other| {
-        let point = points[other];
-        !corner.contains(&point)
-            && turn(corner[0], corner[1], point) >= 0.0
-            && turn(corner[1], corner[2], point) >= 0.0
-            && turn(corner[2], corner[0], point) >= 0.0
     })
 }
 
@@ -164,7 +109,7 @@ mod tests {
     ///   0'   '2
     /// ```
     #[test]
-    fn a_dart_is_cut_by_ears_and_covers_its_area_once() {
+    fn a_dart_covers_its_area_once() {
         let dart = [[-2., -1., 0.], [0., 0., 0.], [2., -1., 0.], [0., 3., 0.]];
         let (triangles, report) = cut(&dart);
         assert_eq!(report.repair_count(RepairKind::EarClippedPolygons), 1);
@@ -186,7 +131,8 @@ mod tests {
 
     #[test]
     fn a_polygon_that_crosses_itself_falls_back_to_a_fan() {
-        let (triangles, _) = cut(&[[0., 0., 0.], [1., 1., 0.], [1., 0., 0.], [0., 1., 0.]]);
+        let (triangles, report) = cut(&[[0., 0., 0.], [1., 1., 0.], [1., 0., 0.], [0., 3., 0.]]);
         assert_eq!(triangles.len(), 2);
+        assert_eq!(report.count(WarningCode::Crossing), 1);
     }
 }

@@ -20,7 +20,8 @@ bitflags::bitflags! {
         const MARKED = 1 << 3;
         /// The two faces have different materials.
         const MATERIAL = 1 << 4;
-        /// One pair of the faces of an edge with more than two.
+        /// One pair of the faces of an edge with more than two, or a face without a partner there,
+        /// that is a feature.
         const NON_MANIFOLD = 1 << 5;
         /// The diagonal of a polygon, which can only be a contour.
         const DIAGONAL = 1 << 6;
@@ -33,6 +34,12 @@ bitflags::bitflags! {
         const SOLID = 1 << 8;
         /// The two faces have different smoothing groups.
         const SMOOTHING = 1 << 9;
+        /// In a groove of a component that has an outside: one of the two triangles hides the edge
+        /// where it is a contour, seen from outside.
+        const GROOVE = 1 << 10;
+        /// One pair of the faces of an edge with more than two, where the surface goes on: no feature
+        /// by itself, but it can be a contour.
+        const PAIRED = 1 << 11;
     }
 }
 
@@ -48,7 +55,7 @@ impl EdgeFlags {
 }
 
 /// The names of the classes in files and messages.
-const CLASS_NAMES: [(EdgeFlags, &str); 10] = [
+const CLASS_NAMES: [(EdgeFlags, &str); 12] = [
     (EdgeFlags::BOUNDARY, "boundary"),
     (EdgeFlags::RIDGE, "ridge"),
     (EdgeFlags::VALLEY, "valley"),
@@ -59,6 +66,8 @@ const CLASS_NAMES: [(EdgeFlags, &str); 10] = [
     (EdgeFlags::CLASH, "clash"),
     (EdgeFlags::SOLID, "solid"),
     (EdgeFlags::SMOOTHING, "smoothing"),
+    (EdgeFlags::GROOVE, "groove"),
+    (EdgeFlags::PAIRED, "paired"),
 ];
 
 /// The names of the classes in `flags`, in the order of their bits.

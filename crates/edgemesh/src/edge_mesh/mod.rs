@@ -3,7 +3,7 @@
 //! - [`EdgeMesh`]: the mesh with its records, chains and triangles.
 //! - [`EdgeRecord`], [`EdgeVertex`], [`EdgeVertex16`], [`FinVertex`]: an edge in each layout;
 //!   [`replicate`], [`replicate_16`] and [`fins`] write the layouts that repeat vertices.
-//! - [`EdgeFlags`]: the classes of an edge. [`EdgeWord`]: these and the crease angle in 24 bits.
+//! - [`EdgeFlags`]: the classes of an edge. [`EdgeWord`]: these and the crease angle.
 //! - [`EdgeTable`], [`FaceEdges`], [`StaticLinks`]: which sides share an edge, which edges bound a
 //!   face, which edge follows which in a chain.
 //! - [`NormalCone`]: bounds of faces that all look one way.
@@ -11,7 +11,6 @@
 
 mod edge_flags;
 mod edge_word;
-mod edge_words;
 mod face_edges;
 mod face_normal;
 mod mesh;
@@ -23,9 +22,10 @@ mod static_links;
 mod topology;
 
 pub use self::edge_flags::{CHAIN_CLASSES, EdgeFlags, chain_class_of, class_names};
-pub(crate) use self::edge_word::STEPS_PER_DEGREE;
-pub use self::edge_word::{CONCAVE, CREASE_SHIFT, CREASE_STEPS, EdgeWord, threshold_steps};
-pub use self::edge_words::edge_words;
+pub use self::edge_word::{
+    CONCAVE, CONCAVE_16, CREASE_SHIFT, CREASE_SHIFT_16, CREASE_STEPS, EdgeWord, STEPS_PER_STEP_16,
+    threshold_steps,
+};
 pub use self::face_edges::FaceEdges;
 pub(crate) use self::face_edges::side_on;
 pub(crate) use self::face_normal::{corners_of, face_normal};

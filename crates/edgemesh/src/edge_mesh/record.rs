@@ -37,8 +37,16 @@ pub struct EdgeRecord {
     pub face_a: u32,
     /// The face across, or [`NONE`](crate::index::NONE).
     pub face_b: u32,
-    /// Classes that no view changes.
-    pub flags: EdgeFlags,
+    /// Classes that no view changes, and the crease angle.
+    pub word: EdgeWord,
+}
+
+impl EdgeRecord {
+    /// The classes that no view changes.
+    #[must_use]
+    pub const fn flags(&self) -> EdgeFlags {
+        self.word.flags()
+    }
 }
 
 /// The paper's edge vertex at 16 bits: 37 bytes (section 3.1), padded to 40 with the edge word.
@@ -63,7 +71,7 @@ pub struct EdgeVertex16 {
     /// The corner index i, 0 to 3, in the low two bits; the random scalar of the edge in the six
     /// bits above, in steps of 1 / 64.
     pub corner_and_random: u8,
-    /// The [`EdgeWord`], lowest byte first.
+    /// The [`EdgeWord`] in 24 bits, lowest byte first.
     pub flags: [u8; 3],
 }
 
@@ -84,7 +92,7 @@ impl EdgeVertex16 {
     #[must_use]
     pub const fn word(&self) -> EdgeWord {
         let [low, middle, high] = self.flags;
-        EdgeWord(u32::from_le_bytes([low, middle, high, 0]))
+        EdgeWord::from_24_bits(u32::from_le_bytes([low, middle, high, 0]))
     }
 
     /// The classes.
@@ -112,13 +120,13 @@ pub struct EdgeVertex {
     pub n1: [f32; 3],
     /// The random scalar of the edge, 0 to 1.
     pub r: f32,
-    /// The corner index i, 0 to 3, in the low two bits; the [`EdgeWord`] from bit 8 on.
+    /// The corner index i, 0 to 3, in the low two bits; the [`EdgeWord`] above.
     pub corner_and_flags: u32,
 }
 
 impl EdgeVertex {
     /// The lowest bit of the edge word in [`Self::corner_and_flags`].
-    pub(crate) const FLAGS_SHIFT: u32 = 8;
+    pub(crate) const FLAGS_SHIFT: u32 = 2;
 
     /// The corner index i, 0 to 3.
     #[must_use]

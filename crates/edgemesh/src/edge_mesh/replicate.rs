@@ -5,8 +5,8 @@
 //! same along all axes, so that angles are kept. A position moves by at most half a step along an
 //! axis, plus its rounding; a component of a normal errs by at most half of 1 / 32767.
 //!
-//! A face without area has the facing of its neighbor. The edge vertex cannot store that, so the
-//! third vertex of such a face is moved off the edge, in the plane of the neighbor.
+//! A sliver has the facing of its neighbor. The edge vertex cannot store that, so the third vertex
+//! of such a face is moved off the edge, in the plane of the neighbor.
 //!
 //! The paper sets `v3 = v0` for marked edges, too. A marked edge would then lose its second face,
 //! and so its contour; here the class bits mark it, and it keeps its vertex.
@@ -19,7 +19,6 @@ use rayon::prelude::*;
 
 use crate::edge_mesh::edge_flags::EdgeFlags;
 use crate::edge_mesh::edge_word::EdgeWord;
-use crate::edge_mesh::edge_words::edge_words;
 use crate::edge_mesh::face_normal::{corners_of, face_normal};
 use crate::edge_mesh::record::{EdgeRecord, EdgeVertex, EdgeVertex16, FinVertex, edge_random};
 use crate::edge_mesh::{Bounds, EdgeMesh};
@@ -38,7 +37,7 @@ struct EdgeCorners {
 }
 
 impl EdgeCorners {
-    fn of(mesh: &EdgeMesh, record: &EdgeRecord, word: EdgeWord) -> Self {
+    fn of(mesh: &EdgeMesh, record: &EdgeRecord) -> Self {
         let ends = [record.v0, record.v1].map(|vertex| mesh.positions[vertex as usize]);
         let normals = [record.v0, record.v1].map(|vertex| mesh.vertex_normals[vertex as usize]);
         let third = |face: u32, side: f32| {
@@ -48,7 +47,8 @@ impl EdgeCorners {
             }
             let plane = Vec3::from_slice(&mesh.face_planes[face as usize].normal);
             let corners = corners_of(&mesh.positions, mesh.triangles[face as usize]);
-            if face_normal(corners) != DVec3::ZERO || plane == Vec3::ZERO {
+            let is_own = face_normal(corners).as_vec3() == plane;
+            if is_own || plane == Vec3::ZERO {
                 return mesh.positions[vertex as usize];
             }
             let [v0, v1] = ends.map(Vec3::from);
@@ -56,7 +56,7 @@ impl EdgeCorners {
             (v0.midpoint(v1) + plane.cross(v1 - v0) * (0.25 * side)).to_array()
         };
         let positions = [ends[0], ends[1], third(record.face_a, 1.0), third(record.face_b, -1.0)];
-        Self { positions, normals, word }
+        Self { positions, normals, word: record.word }
     }
 
     fn random(&self) -> f32 {
@@ -69,12 +69,11 @@ fn replicate_with<T: Send>(
     mesh: &EdgeMesh,
     vertex: impl Fn(&EdgeCorners, u8) -> T + Sync,
 ) -> Vec<T> {
-    let words = edge_words(mesh);
-    let of_record = |(record, &word): (&EdgeRecord, &EdgeWord)| {
-        let corners = EdgeCorners::of(mesh, record, word);
+    let of_record = |record: &EdgeRecord| {
+        let corners = EdgeCorners::of(mesh, record);
         [0, 1, 2, 3].map(|corner| vertex(&corners, corner))
     };
-    mesh.records.par_iter().zip(&words).flat_map_iter(of_record).collect()
+    mesh.records.par_iter().flat_map_iter(of_record).collect()
 }
 
 /// Makes the paper's edge mesh in 32-bit floats: four edge vertices for each record, in order.
@@ -95,7 +94,7 @@ pub fn replicate_16(mesh: &EdgeMesh) -> Vec<EdgeVertex16> {
         let [v0, v1, v2, v3] = edge.positions.map(|position| quantization.quantize(position));
         let [n0, n1] = edge.normals.map(|normal| normal.map(quantize_normal));
         let corner_and_random = corner | quantize_random(edge.random()) << 2;
-        let [low, middle, high, _] = edge.word.0.to_le_bytes();
+        let [low, middle, high, _] = edge.word.to_24_bits().to_le_bytes();
         EdgeVertex16 { v0, v1, v2, v3, n0, n1, corner_and_random, flags: [low, middle, high] }
     })
 }
@@ -112,7 +111,7 @@ pub fn fins(mesh: &EdgeMesh) -> Vec<FinVertex> {
         let (a, b) = (record.face_a, record.face_b);
         let face_a = if a == NONE { [0.0, 1.0, 0.0] } else { normal(a) };
         let mut face_b = if b == NONE { face_a.map(|part| -part) } else { normal(b) };
-        if record.flags.contains(EdgeFlags::CLASH) {
+        if record.flags().contains(EdgeFlags::CLASH) {
             face_b = face_b.map(|part| -part);
         }
         let corners =
@@ -209,7 +208,7 @@ mod tests {
         let model = Model::from_polygons(&positions, &[&[0, 1, 2], &[1, 3, 2]]);
         let mut mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
         let inner = mesh.records.iter().position(|record| record.face_b != NONE).unwrap();
-        mesh.records[inner].flags |= EdgeFlags::MARKED;
+        mesh.records[inner].word.set(EdgeFlags::MARKED, true);
         let vertex = &replicate(&mesh)[4 * inner];
         assert!(vertex.v3 != vertex.v0 && vertex.flags().contains(EdgeFlags::MARKED));
     }

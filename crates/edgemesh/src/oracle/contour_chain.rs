@@ -46,7 +46,7 @@ const CUTS: EdgeFlags = EdgeFlags::CLASH.union(EdgeFlags::NON_MANIFOLD);
 #[must_use]
 pub fn successor(mesh: &EdgeMesh, faces: &FaceEdges, lines: &[Line], edge: u32) -> Successor {
     let record = &mesh.records[edge as usize];
-    if record.flags.intersects(CUTS) {
+    if record.flags().intersects(CUTS) {
         return Successor::Cut;
     }
     let a_faces = lines[edge as usize].bits.contains(LineBits::A_FACES);
@@ -57,7 +57,7 @@ pub fn successor(mesh: &EdgeMesh, faces: &FaceEdges, lines: &[Line], edge: u32) 
         let sides = faces.sides(face);
         let Some(side) = sides.iter().position(|side| *side == at) else { return Successor::Cut };
         at = sides[(side + 1) % 3];
-        if at == NONE || mesh.records[at as usize].flags.intersects(CUTS) {
+        if at == NONE || mesh.records[at as usize].flags().intersects(CUTS) {
             return Successor::Cut;
         }
         if lines[at as usize].bits.contains(LineBits::CONTOUR) {

@@ -136,7 +136,7 @@ mod tests {
 
     use super::*;
     use crate::build::{BuildOptions, build_edge_mesh};
-    use crate::edge_mesh::{EdgeFlags, edge_words};
+    use crate::edge_mesh::EdgeFlags;
     use crate::line::{ClassTable, LineClass};
     use crate::model::Model;
     use crate::report::Report;
@@ -151,7 +151,7 @@ mod tests {
         let model = Model::from_polygons(positions, polygons);
         let mesh = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
         let table = ClassTable { keeps_hidden: 1, ..ClassTable::new(|class| Some(class as u32)) };
-        let lines = classify_lines(&mesh, &edge_words(&mesh), eye, &table, true);
+        let lines = classify_lines(&mesh, eye, &table, true);
         let (faces, links) = (FaceEdges::of(&mesh), StaticLinks::of(&mesh));
         let of = {
             let mesh = mesh.clone();
@@ -226,7 +226,9 @@ mod tests {
         assert_eq!((all.len(), count), (12, 12), "six of each cube, none twice");
         let is_split = |vertex: u32| {
             let flags = EdgeFlags::NON_MANIFOLD;
-            mesh.records.iter().any(|r| [r.v0, r.v1].contains(&vertex) && r.flags.intersects(flags))
+            mesh.records
+                .iter()
+                .any(|r| [r.v0, r.v1].contains(&vertex) && r.flags().intersects(flags))
         };
         for chain in chains.iter().filter(|chain| !chain.is_closed) {
             let last = chain.elements[chain.elements.len() - 1];
@@ -257,7 +259,7 @@ mod tests {
             .collect();
         let polygons: Vec<&[u32]> = polygons.iter().map(|polygon| &polygon[..]).collect();
         let (mesh, of) = chains_of(&corners, &polygons, Vec4::new(3.0, 1.0, 2.0, 1.0));
-        let is_clash = |edge: u32| mesh.records[edge as usize].flags.contains(EdgeFlags::CLASH);
+        let is_clash = |edge: u32| mesh.records[edge as usize].flags().contains(EdgeFlags::CLASH);
         assert!((0..to_u32(mesh.records.len())).any(is_clash), "it cannot be oriented");
         for chain in of(LineClass::Contour) {
             let is_cut = chain.elements.iter().any(|element| is_clash(element.edge));

@@ -9,7 +9,7 @@
 
 use glam::{Vec3, Vec4};
 
-use crate::edge_mesh::{EdgeFlags, EdgeWord, STEPS_PER_DEGREE};
+use crate::edge_mesh::{EdgeFlags, EdgeWord};
 use crate::line::{ClassTable, LineClass, NO_LAYER};
 
 bitflags::bitflags! {
@@ -28,14 +28,6 @@ bitflags::bitflags! {
         const DRAWN = 1 << 28;
     }
 }
-
-/// The least crease angle of a groove, in steps: one degree. Flatter edges could be concave by
-/// rounding alone, most of all at 16 bits.
-pub const LEAST_GROOVE_STEPS: u32 = STEPS_PER_DEGREE;
-
-/// The largest crease angle of a groove, in steps: 150 degrees. Sharper edges are folds; in many
-/// meshes these are faces turned over, which nothing hides.
-pub const MOST_GROOVE_STEPS: u32 = 150 * STEPS_PER_DEGREE;
 
 /// The facing of the faces of an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -98,7 +90,7 @@ pub fn classify_edge(
     let is_turned_away = !faces.a_faces && !b_faces;
     let is_behind_solid = eye_is_outside
         && flags.contains(EdgeFlags::SOLID)
-        && (is_turned_away || is_contour && is_groove(word));
+        && (is_turned_away || is_contour && flags.contains(EdgeFlags::GROOVE));
     let is_drawn = classes != 0 && (!is_behind_solid || table.keeps_hidden != 0);
     let mut bits = LineBits::empty();
     bits.set(LineBits::CONTOUR, is_contour);
@@ -108,11 +100,6 @@ pub fn classify_edge(
     let class = classes.trailing_zeros();
     let layer = if is_drawn { table.layer(class) } else { NO_LAYER };
     Line { bits, layer }
-}
-
-fn is_groove(word: EdgeWord) -> bool {
-    let range = LEAST_GROOVE_STEPS..=MOST_GROOVE_STEPS;
-    word.is_concave() && range.contains(&word.crease_steps())
 }
 
 /// Whether the eye lies outside of the box from `min` to `max`, and so outside of every solid in
@@ -126,6 +113,7 @@ pub fn eye_is_outside(eye: Vec4, min: Vec3, max: Vec3) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::edge_mesh::threshold_steps;
 
     fn classify(flags: EdgeFlags, a_faces: bool, b_faces: bool, outside: bool) -> LineBits {
         let faces = EdgeFaces { has_b: true, a_faces, b_faces };
@@ -168,19 +156,11 @@ mod tests {
             assert!(is_drawn(ridge, a, b, true));
         }
         // A contour in a groove is behind what rises before it.
-        let contour = |degrees: f64, is_concave, outside| {
-            let word = EdgeWord::new(EdgeFlags::SOLID, degrees.to_radians(), is_concave);
-            let faces = EdgeFaces { has_b: true, a_faces: true, b_faces: false };
-            let bits = classify_edge(word, faces, &ClassTable::all_in_one(), outside).bits;
-            assert!(bits.contains(LineBits::CONTOUR));
-            bits.contains(LineBits::DRAWN)
-        };
-        assert!(!contour(1.0, true, true));
-        assert!(contour(0.9, true, true), "within rounding");
-        assert!(!contour(150.0, true, true));
-        assert!(contour(151.0, true, true), "a face turned over");
-        assert!(contour(20.0, false, true), "on a ridge");
-        assert!(contour(20.0, true, false), "from inside");
+        let groove = EdgeFlags::GROOVE | EdgeFlags::SOLID;
+        assert!(!is_drawn(groove, true, false, true));
+        assert!(is_drawn(groove, true, false, false), "from inside");
+        assert!(is_drawn(EdgeFlags::GROOVE, true, false, true), "not of a solid");
+        assert!(is_drawn(EdgeFlags::SOLID, true, false, true), "on a ridge");
         let keeping = ClassTable { keeps_hidden: 1, ..ClassTable::all_in_one() };
         let faces = EdgeFaces { has_b: true, a_faces: false, b_faces: false };
         let kept = classify_edge(ridge.into(), faces, &keeping, true).bits;
@@ -206,15 +186,17 @@ mod tests {
     }
 
     #[test]
-    fn thresholds_can_change_and_are_met_by_their_own_angle() {
+    fn thresholds_can_change_and_are_not_met_by_their_own_angle() {
         let word = |degrees: f64, is_concave| {
             EdgeWord::new(EdgeFlags::RIDGE, degrees.to_radians(), is_concave)
         };
-        let table = ClassTable { ridge_steps: 1350, valley_steps: 450, ..ClassTable::all_in_one() };
+        let [ridge_steps, valley_steps] =
+            [30.0_f64, 10.0].map(|degrees| threshold_steps(degrees.to_radians()));
+        let table = ClassTable { ridge_steps, valley_steps, ..ClassTable::all_in_one() };
         let has = |word, class: LineClass| static_classes(word, &table) >> class as u32 & 1 == 1;
-        assert!(has(word(30.0, false), LineClass::Ridge));
-        assert!(!has(word(29.9, false), LineClass::Ridge), "whatever it was built as");
-        assert!(has(word(10.0, true), LineClass::Valley));
+        assert!(has(word(30.01, false), LineClass::Ridge));
+        assert!(!has(word(30.0, false), LineClass::Ridge), "whatever it was built as");
+        assert!(has(word(10.01, true), LineClass::Valley));
         assert!(!has(word(40.0, true), LineClass::Ridge));
         let built = ClassTable::all_in_one();
         assert!(static_classes(word(1.0, false), &built) != 0, "as built");

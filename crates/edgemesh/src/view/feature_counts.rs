@@ -5,7 +5,7 @@ use std::ops::{Index, IndexMut};
 use glam::Vec4;
 use serde::{Serialize, Serializer};
 
-use crate::edge_mesh::{EdgeFlags, EdgeMesh, EdgeRecord, EdgeWord, edge_words};
+use crate::edge_mesh::{EdgeFlags, EdgeMesh, EdgeRecord};
 use crate::index::NONE;
 use crate::line::{ClassTable, LineClass};
 use crate::view::facing::faces_eye;
@@ -58,19 +58,17 @@ pub fn facing_bits(mesh: &EdgeMesh, eye: Vec4) -> Vec<bool> {
 /// Classifies all records of a mesh, in order, with all classes in one layer.
 #[must_use]
 pub fn classify_edges(mesh: &EdgeMesh, eye: Vec4) -> Vec<LineBits> {
-    let words = edge_words(mesh);
     let outside = eye_is_outside(eye, mesh.bounds.min.into(), mesh.bounds.max.into());
-    let lines = classify_lines(mesh, &words, eye, &ClassTable::all_in_one(), outside);
+    let lines = classify_lines(mesh, eye, &ClassTable::all_in_one(), outside);
     lines.into_iter().map(|line| line.bits).collect()
 }
 
-/// Classifies all records of a mesh by their words, in order.
+/// Classifies all records of a mesh, in order.
 ///
 /// `eye` has w = 1, or is the direction to the viewer with w = 0.
 #[must_use]
 pub fn classify_lines(
     mesh: &EdgeMesh,
-    words: &[EdgeWord],
     eye: Vec4,
     table: &ClassTable,
     eye_is_outside: bool,
@@ -81,10 +79,9 @@ pub fn classify_lines(
         let (a_faces, b_faces) = (faces(record.face_a), faces(record.face_b));
         EdgeFaces { has_b: record.face_b != NONE, a_faces, b_faces }
     };
-    let edges = mesh.records.iter().zip(words);
-    edges
-        .map(|(record, &word)| classify_edge(word, faces_of(record), table, eye_is_outside))
-        .collect()
+    let line =
+        |record: &EdgeRecord| classify_edge(record.word, faces_of(record), table, eye_is_outside);
+    mesh.records.iter().map(line).collect()
 }
 
 /// Counts the feature edges of each class, seen by `eye` (w = 1), or from that direction (w = 0).
@@ -92,12 +89,12 @@ pub fn classify_lines(
 pub fn count_features(mesh: &EdgeMesh, eye: Vec4) -> FeatureCounts {
     let mut counts = FeatureCounts::default();
     for (record, bits) in mesh.records.iter().zip(classify_edges(mesh, eye)) {
-        if record.flags.contains(EdgeFlags::NON_MANIFOLD) {
+        if record.flags().intersects(EdgeFlags::NON_MANIFOLD | EdgeFlags::PAIRED) {
             continue;
         }
         counts[LineClass::Contour] += u32::from(bits.contains(LineBits::CONTOUR));
         for class in LineClass::ALL {
-            counts[class] += u32::from(record.flags.intersects(class.counted_by()));
+            counts[class] += u32::from(record.flags().intersects(class.counted_by()));
         }
     }
     counts

@@ -11,9 +11,7 @@ pub use self::camera::{
     Camera, CameraError, DEFAULT_DIRECTION, DEFAULT_DISTANCE_RADII, DEFAULT_FOV_Y_DEG, View,
 };
 pub use self::facing::faces_eye;
-pub use self::feature::{
-    EdgeFaces, LEAST_GROOVE_STEPS, Line, LineBits, MOST_GROOVE_STEPS, classify_edge, eye_is_outside,
-};
+pub use self::feature::{EdgeFaces, Line, LineBits, classify_edge, eye_is_outside};
 pub use self::feature_counts::{
     FeatureCounts, classify_edges, classify_lines, count_features, facing_bits,
 };

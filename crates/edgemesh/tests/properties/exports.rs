@@ -103,10 +103,10 @@ fn lines(mut model: Model) -> Model {
 fn hard_edges(mesh: &EdgeMesh) -> [BTreeMap<Edge, Vec<String>>; 2] {
     let mut flags = [BTreeMap::<Edge, EdgeFlags>::new(), BTreeMap::new()];
     let hard = |flags: EdgeFlags| flags & EdgeFlags::ALWAYS_DRAWN;
-    for record in mesh.records.iter().filter(|record| !hard(record.flags).is_empty()) {
+    for record in mesh.records.iter().filter(|record| !hard(record.flags()).is_empty()) {
         let is_line = usize::from(record.face_a == NONE);
         let ends = [record.v0, record.v1].map(|vertex| mesh.positions[vertex as usize]);
-        *flags[is_line].entry(edge(ends)).or_default() |= hard(record.flags);
+        *flags[is_line].entry(edge(ends)).or_default() |= hard(record.flags());
     }
     let words = |flags| class_names(flags).map(str::to_owned).collect();
     flags.map(|flags| flags.into_iter().map(|(edge, flags)| (edge, words(flags))).collect())
@@ -140,16 +140,23 @@ fn check_gltf(mesh: &EdgeMesh, decoded: &DecodedFile) {
 fn check_silhouettes(mesh: &EdgeMesh, decoded: &DecodedFile) {
     let mut seen = 0;
     for record in &mesh.records {
-        if record.flags.intersects(EdgeFlags::ALWAYS_DRAWN) {
+        if record.flags().intersects(EdgeFlags::ALWAYS_DRAWN) {
             continue;
         }
         let ends = [record.v0, record.v1].map(|vertex| mesh.positions[vertex as usize]);
+        if decoded.hard.contains_key(&edge(ends)) {
+            continue; // Another pair of its faces is hard.
+        }
         let found = decoded.silhouettes.get(&edge(ends));
         seen += usize::from(found.is_some());
-        let sign = if record.flags.contains(EdgeFlags::CLASH) { -1.0 } else { 1.0 };
+        let sign = if record.flags().contains(EdgeFlags::CLASH) { -1.0 } else { 1.0 };
         let [a, b] = [normal(mesh, record.face_a), normal(mesh, record.face_b) * sign];
-        if a == DVec3::ZERO || b == DVec3::ZERO {
-            continue; // The plane of a neighbor, or none.
+        let is_own = |face: u32, normal: DVec3| {
+            let [x, y, z, _] = mesh.face_planes[face as usize].normal;
+            Vec3::new(x, y, z).as_dvec3().distance(normal) < 1e-6
+        };
+        if !is_own(record.face_a, a) || !is_own(record.face_b, b * sign) {
+            continue; // A sliver with the plane of a neighbor, or none.
         }
         match found {
             None => assert!(a.distance(b) < 2e-6, "{a} and {b} are not flat"),
@@ -209,7 +216,7 @@ fn read_back(bytes: &[u8], format: Format) -> (BTreeSet<Edge>, EdgeMesh) {
     let (model, report) = read_model_bytes("back", bytes, format).unwrap();
     assert!(report.warnings().is_empty(), "{report:?}");
     let mesh = build(&model);
-    let marked = mesh.records.iter().filter(|record| record.flags.contains(EdgeFlags::MARKED));
+    let marked = mesh.records.iter().filter(|record| record.flags().contains(EdgeFlags::MARKED));
     let ends = marked.map(|record| [record.v0, record.v1].map(|end| mesh.positions[end as usize]));
     (ends.map(edge).collect(), mesh)
 }
@@ -232,7 +239,10 @@ fn check_marks(mesh: &EdgeMesh) {
     for (written, read) in formats {
         let (marked, back) = read_back(&export(mesh, written), read);
         assert_eq!(marked, expected, "{written:?}");
-        assert_eq!(triangles(&back), triangles(mesh), "{written:?}");
+        // Triangles that were cut from different polygons can be the two sides of one.
+        if back.triangles.len() == back.counts.triangles {
+            assert_eq!(triangles(&back), triangles(mesh), "{written:?}");
+        }
     }
 }
 
@@ -268,9 +278,9 @@ fn check_json_edges(mesh: &EdgeMesh, edges: &[Value]) {
         let face = |face: u32| if face == NONE { Value::Null } else { face.into() };
         assert_eq!(edge["vertices"], serde_json::json!([record.v0, record.v1]));
         assert_eq!(edge["faces"], Value::from(vec![face(record.face_a), face(record.face_b)]));
-        let words: Vec<Value> = class_names(record.flags).map(Value::from).collect();
+        let words: Vec<Value> = class_names(record.flags()).map(Value::from).collect();
         assert_eq!(edge["classes"], Value::from(words));
-        let is_hard = record.flags.intersects(EdgeFlags::ALWAYS_DRAWN);
+        let is_hard = record.flags().intersects(EdgeFlags::ALWAYS_DRAWN);
         assert_eq!((edge["chain"].is_u64(), edge["arc_start"].is_f64()), (is_hard, is_hard));
     }
 }
@@ -357,7 +367,7 @@ fn contours(mesh: &EdgeMesh, eye: Vec3) -> BTreeSet<Edge> {
     let bits = classify_edges(mesh, eye.extend(1.0));
     let records = mesh.records.iter().zip(bits);
     let contours = records.filter(|(record, bits)| {
-        bits.contains(LineBits::CONTOUR) && !record.flags.intersects(EdgeFlags::ALWAYS_DRAWN)
+        bits.contains(LineBits::CONTOUR) && !record.flags().intersects(EdgeFlags::ALWAYS_DRAWN)
     });
     let end = |vertex: u32| mesh.positions[vertex as usize];
     contours.map(|(record, _)| edge([end(record.v0), end(record.v1)])).collect()

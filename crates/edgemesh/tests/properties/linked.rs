@@ -12,7 +12,7 @@ use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 
 use crate::config;
-use crate::meshes::{Mesh, Noise, one_sided_mesh, oriented_mesh, soup};
+use crate::meshes::{Mesh, Noise, assert_near, one_sided_mesh, oriented_mesh, soup};
 
 fn any_mesh() -> impl Strategy<Value = Mesh> {
     prop_oneof![oriented_mesh(), one_sided_mesh(), soup(3..=5)]
@@ -43,7 +43,7 @@ fn fans(mesh: &EdgeMesh) -> BTreeMap<u32, usize> {
         key
     };
     for record in mesh.records.iter().filter(|record| record.face_b != NONE) {
-        if record.flags.contains(EdgeFlags::CLASH) {
+        if record.flags().contains(EdgeFlags::CLASH) {
             continue;
         }
         for vertex in [record.v0, record.v1] {
@@ -78,7 +78,7 @@ proptest! {
             for link in links {
                 prop_assert!(seen.insert(link.record), "twice: {:?}", link);
                 prop_assert_eq!(link.chain, number);
-                let flags = built.records[link.record as usize].flags;
+                let flags = built.records[link.record as usize].flags();
                 let class = chain_class_of(flags).map(|class| CHAIN_CLASSES[class]);
                 prop_assert_eq!(class, Some(chain.class));
                 prop_assert!((f64::from(link.arc_start) - arc).abs() <= 1e-5 * (1.0 + arc));
@@ -100,7 +100,7 @@ proptest! {
             }
         }
         let features = (0..).zip(&built.records).filter(|(_, record)| {
-            record.flags.intersects(EdgeFlags::ALWAYS_DRAWN)
+            record.flags().intersects(EdgeFlags::ALWAYS_DRAWN)
         });
         prop_assert_eq!(seen, features.map(|(record, _)| record).collect::<BTreeSet<u32>>());
     }
@@ -111,7 +111,7 @@ proptest! {
         let clashing: BTreeSet<u32> = built
             .records
             .iter()
-            .filter(|record| record.flags.contains(EdgeFlags::CLASH))
+            .filter(|record| record.flags().contains(EdgeFlags::CLASH))
             .flat_map(|record| [record.v0, record.v1])
             .map(|vertex| built.welded_vertex(vertex))
             .collect();
@@ -171,8 +171,11 @@ proptest! {
         }
         let mut report = Report::default();
         let far = edgemesh::build::build_edge_mesh(&model, &BuildOptions::default(), &mut report);
+        if report.repair_count(RepairKind::EarClippedPolygons) > 0 {
+            return Ok(()); // Of equally good diagonals another may be chosen.
+        }
         if report.repair_count(RepairKind::Recentered) == 1 {
-            prop_assert_eq!(far.records, near.records);
+            assert_near(&far.records, &near.records);
             prop_assert_eq!(far.counts, near.counts);
             prop_assert_eq!(far.triangles, near.triangles);
         } else {

@@ -21,7 +21,7 @@ use std::sync::Arc;
 use bytemuck::Pod;
 use edgemesh::edge_mesh::{
     Bounds, EdgeMesh, EdgeVertex, EdgeVertex16, FacePlane, FinVertex, NormalCone, Quantization,
-    edge_words, fins, replicate, replicate_16,
+    fins, replicate, replicate_16,
 };
 use edgemesh::index::{MAX_INDEX, NONE, to_u32};
 use glam::Vec3;
@@ -123,8 +123,7 @@ impl MeshBuffers {
         let limits = chunk_limits(device, layout, mesh.records.len())?;
         let surface = options.surface.then(|| surface_arrays(device, mesh, layout)).transpose()?;
         let links = options.links.then(|| LinkTable::of(mesh));
-        let words = edge_words(mesh);
-        let chunks = chunks(mesh, &words, &limits);
+        let chunks = chunks(mesh, &limits);
         let upload = Upload {
             device,
             layout,

@@ -12,7 +12,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use edgemesh::edge_mesh::{EdgeMesh, EdgeRecord, EdgeWord, FacePlane};
+use edgemesh::edge_mesh::{EdgeMesh, EdgeRecord, FacePlane};
 use edgemesh::index::{NONE, to_u32};
 
 use crate::mesh::layout::{EDGES_PER_RUN, PackedRecord};
@@ -46,17 +46,12 @@ impl ChunkLimits {
     }
 }
 
-/// Cuts `mesh` into one chunk or more; `words` are the words of its edges.
-pub(crate) fn chunks<'a>(
-    mesh: &'a EdgeMesh,
-    words: &[EdgeWord],
-    limits: &ChunkLimits,
-) -> Vec<Chunk<'a>> {
+/// Cuts `mesh` into one chunk or more.
+pub(crate) fn chunks<'a>(mesh: &'a EdgeMesh, limits: &ChunkLimits) -> Vec<Chunk<'a>> {
     if limits.hold(mesh) {
-        let edges = mesh.records.iter().zip(words);
         return vec![Chunk {
             edges: 0..mesh.records.len(),
-            records: edges.map(|(record, &word)| packed(record, word)).collect(),
+            records: mesh.records.iter().map(packed).collect(),
             positions: (&mesh.positions).into(),
             normals: (&mesh.vertex_normals).into(),
             triangles: (&mesh.triangles).into(),
@@ -72,17 +67,17 @@ pub(crate) fn chunks<'a>(
             || cutter.faces.taken.len() + faces > limits.faces
             || cutter.vertices.taken.len() + vertices > limits.vertices;
         if is_full && at > first {
-            cutter.cut(first..at, words);
+            cutter.cut(first..at);
             first = at;
         }
         run.iter().for_each(|record| cutter.take(record));
     }
-    cutter.cut(first..mesh.records.len(), words);
+    cutter.cut(first..mesh.records.len());
     cutter.chunks
 }
 
-fn packed(record: &EdgeRecord, word: EdgeWord) -> PackedRecord {
-    let EdgeRecord { v0, v1, face_a, face_b, .. } = *record;
+fn packed(record: &EdgeRecord) -> PackedRecord {
+    let EdgeRecord { v0, v1, face_a, face_b, word } = *record;
     PackedRecord { v0, v1, face_a, face_b, word }
 }
 
@@ -174,20 +169,19 @@ impl<'a> Cutter<'a> {
         self.vertices.take(record.v1);
     }
 
-    fn cut(&mut self, edges: Range<usize>, words: &[EdgeWord]) {
+    fn cut(&mut self, edges: Range<usize>) {
         let renumber = |record: &EdgeRecord| EdgeRecord {
             v0: self.vertices.place(record.v0),
             v1: self.vertices.place(record.v1),
             face_a: self.faces.place(record.face_a),
             face_b: self.faces.place(record.face_b),
-            flags: record.flags,
+            word: record.word,
         };
         let triangles = self.faces.pick(&self.mesh.triangles).into_iter();
         self.chunks.push(Chunk {
             records: self.mesh.records[edges.clone()]
                 .iter()
-                .zip(&words[edges.clone()])
-                .map(|(record, &word)| packed(&renumber(record), word))
+                .map(|record| packed(&renumber(record)))
                 .collect(),
             positions: self.vertices.pick(&self.mesh.positions).into(),
             normals: self.vertices.pick(&self.mesh.vertex_normals).into(),
@@ -205,7 +199,6 @@ impl<'a> Cutter<'a> {
 #[cfg(test)]
 mod tests {
     use edgemesh::build::{BuildOptions, build_edge_mesh};
-    use edgemesh::edge_mesh::edge_words;
     use edgemesh::model::Model;
     use edgemesh::report::Report;
 
@@ -225,9 +218,8 @@ mod tests {
     #[test]
     fn chunks_have_every_edge_once_with_its_own_faces() {
         let mesh = strip();
-        let words = edge_words(&mesh);
         let limits = ChunkLimits { edges: 150, faces: 128, vertices: 256 };
-        let chunks = chunks(&mesh, &words, &limits);
+        let chunks = chunks(&mesh, &limits);
         assert!(chunks.len() > 3);
         let mut next = 0;
         for chunk in &chunks {
@@ -259,7 +251,7 @@ mod tests {
     fn a_mesh_that_fits_is_one_chunk_and_not_copied() {
         let mesh = strip();
         let limits = ChunkLimits { edges: 1000, faces: 1000, vertices: 1000 };
-        let chunks = chunks(&mesh, &edge_words(&mesh), &limits);
+        let chunks = chunks(&mesh, &limits);
         assert!(matches!(&chunks[..], [Chunk { positions: Cow::Borrowed(_), .. }]));
     }
 }

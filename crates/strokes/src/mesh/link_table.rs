@@ -142,14 +142,14 @@ fn next_half_edge(mesh: &EdgeMesh, faces: &FaceEdges, edge: u32, face: u32) -> u
     if face == NONE {
         return SURFACE_END;
     }
-    if mesh.records[edge as usize].flags.intersects(CUTS) {
+    if mesh.records[edge as usize].flags().intersects(CUTS) {
         return SURFACE_CUT;
     }
     let sides = faces.sides(face);
     let Some(side) = sides.iter().position(|side| *side == edge) else { return SURFACE_CUT };
     let next = sides[(side + 1) % 3];
     let Some(record) = mesh.records.get(next as usize) else { return SURFACE_CUT };
-    if record.flags.intersects(CUTS) {
+    if record.flags().intersects(CUTS) {
         return SURFACE_CUT;
     }
     2 * next + u32::from(record.face_a != face)
@@ -200,7 +200,7 @@ mod tests {
     fn three_faces_on_an_edge_cut() {
         let mesh = mesh(&[&[0, 1, 2], &[1, 0, 3], &[0, 1, 4]]);
         let table = LinkTable::of(&mesh);
-        let is_cut = |edge: u32| mesh.records[edge as usize].flags.intersects(CUTS);
+        let is_cut = |edge: u32| mesh.records[edge as usize].flags().intersects(CUTS);
         let cuts = (0..to_u32(mesh.records.len())).filter(|&edge| is_cut(edge)).count();
         assert!(cuts > 0, "an edge of three faces");
         for (edge, [next_a, ..]) in (0..).zip(&table.0) {

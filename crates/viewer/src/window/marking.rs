@@ -227,14 +227,14 @@ fn is_marked(mesh: &EdgeMesh, [a, b]: [u32; 2]) -> bool {
     let is_it = |v0: u32, v1: u32| [v0, v1] == [a, b] || [v0, v1] == [b, a];
     mesh.records
         .iter()
-        .any(|record| is_it(record.v0, record.v1) && record.flags.contains(EdgeFlags::MARKED))
+        .any(|record| is_it(record.v0, record.v1) && record.flags().contains(EdgeFlags::MARKED))
 }
 
 /// The vertices of the shortest path between two vertices along edges that are no diagonals
 /// (Dijkstra 1959).
 fn shortest_path(mesh: &EdgeMesh, start: u32, end: u32) -> Option<Vec<u32>> {
     let mut neighbors: Vec<Vec<u32>> = vec![Vec::new(); mesh.positions.len()];
-    for record in mesh.records.iter().filter(|r| !r.flags.contains(EdgeFlags::DIAGONAL)) {
+    for record in mesh.records.iter().filter(|r| !r.flags().contains(EdgeFlags::DIAGONAL)) {
         neighbors[record.v0 as usize].push(record.v1);
         neighbors[record.v1 as usize].push(record.v0);
     }
@@ -287,7 +287,7 @@ mod tests {
 
     fn marked(scene: &Scene) -> Vec<[u32; 2]> {
         let records = &scene.models[0].mesh.records;
-        let marked = records.iter().filter(|record| record.flags.contains(EdgeFlags::MARKED));
+        let marked = records.iter().filter(|record| record.flags().contains(EdgeFlags::MARKED));
         marked.map(|record| [record.v0.min(record.v1), record.v0.max(record.v1)]).collect()
     }
 

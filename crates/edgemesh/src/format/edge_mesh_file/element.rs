@@ -99,7 +99,8 @@ mod tests {
 
     #[test]
     fn an_aligned_list_is_not_copied() {
-        let list = [EdgeRecord { v0: 1, v1: 2, face_a: 3, face_b: 4, flags: EdgeFlags::RIDGE }; 2];
+        let list =
+            [EdgeRecord { v0: 1, v1: 2, face_a: 3, face_b: 4, word: EdgeFlags::RIDGE.into() }; 2];
         let bytes = to_bytes(&list);
         let is_borrowed = |list: &Cow<[EdgeRecord]>| matches!(list, Cow::Borrowed(_));
         let same = from_bytes::<EdgeRecord>(&bytes).unwrap();

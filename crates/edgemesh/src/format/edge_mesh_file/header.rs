@@ -12,7 +12,7 @@ use crate::format::little_endian::{u32_at, u64_at};
 const MAGIC: &[u8; 8] = b"EDGEMESH";
 
 /// The version that is written, and the newest that is read.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// The offset of the section table: the length of the header.
 pub(super) const TABLE_START: usize = 56;
@@ -27,6 +27,7 @@ const BEFORE_CHECKSUM: usize = 24;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Version {
     V1,
+    V2,
 }
 
 /// The content of a valid header.
@@ -108,6 +109,7 @@ fn version_of(number: u32) -> Result<Version, FileError> {
     let what = match number {
         0 => "version 0 does not exist: the file is damaged; build it again".into(),
         1 => return Ok(Version::V1),
+        2 => return Ok(Version::V2),
         newer => format!(
             "written by a newer Edgemesh: version {newer}, this one reads {VERSION}; \
              update Edgemesh, or build the file again"
@@ -145,8 +147,8 @@ mod tests {
     #[test]
     fn a_header_is_read_as_it_was_written() {
         let bytes = file();
-        assert_eq!(bytes[..20], *b"EDGEMESH\x01\0\0\0\x03\0\0\0\x50\0\0\0");
-        assert_eq!(Header::read(&bytes), Ok(Header { version: Version::V1, section_count: 3 }));
+        assert_eq!(bytes[..20], *b"EDGEMESH\x02\0\0\0\x03\0\0\0\x50\0\0\0");
+        assert_eq!(Header::read(&bytes), Ok(Header { version: Version::V2, section_count: 3 }));
     }
 
     #[test]
@@ -180,7 +182,7 @@ mod tests {
         bytes.truncate(60);
         let error = Header::read(&bytes).unwrap_err();
         assert_eq!(error.kind, FileErrorKind::Version);
-        let expected = "byte 8: written by a newer Edgemesh: version 7, this one reads 1; ";
+        let expected = "byte 8: written by a newer Edgemesh: version 7, this one reads 2; ";
         assert!(error.to_string().starts_with(expected), "{error}");
         bytes[8] = 0;
         assert_eq!(Header::read(&bytes).unwrap_err().kind, FileErrorKind::Version);

@@ -9,14 +9,14 @@
 //! parsed and copied element by element; compression, which would be undone before
 //! every use.
 //!
-//! # Layout, version 1
+//! # Layout, version 2
 //!
 //! All numbers are little-endian. A file has a header, a table, and sections:
 //!
 //! ```text
 //!  byte  bytes
 //!     0      8  magic, "EDGEMESH" in ASCII
-//!     8      4  version, u32: 1
+//!     8      4  version, u32: 2
 //!    12      4  number of sections S, u32
 //!    16      8  length of the whole file in bytes, u64
 //!    24     32  checksum: BLAKE3 of bytes 0 to 23 and 56 to the end
@@ -41,7 +41,7 @@
 //!  SPLT     4   s < V   welded vertex that vertex V - s + k was split from, u32
 //!  TRIS    12   F       triangle, 3 u32: vertices
 //!  PLAN    32   F       plane of a face, 8 f32: unit normal, 0, point, 1
-//!  EDGE    20   E       edge record, 5 u32: v0, v1, face A, face B, classes
+//!  EDGE    20   E       edge record, 5 u32: v0, v1, face A, face B, word
 //!  CHNS    20   C       chain: first link u32, links u32, length f32, 1 if closed
 //!                       u32, class u32
 //!  LNKS    16   L       edge of a chain: record u32, chain u32, length before it
@@ -74,12 +74,19 @@
 //! - Colors are sRGB, 0 to 1. A texture is multiplied by the diffuse color; (0, 0) is
 //!   the lower left corner of its picture.
 //! - Classes, from bit 0: boundary, ridge, valley, marked, material,
-//!   non-manifold, diagonal, clash, solid, smoothing
+//!   non-manifold, diagonal, clash, solid, smoothing, groove,
+//!   paired
 //!   ([`crate::edge_mesh::EdgeFlags`]).
+//! - The word of an edge has its classes in bits 0 to 11, the certain angle between
+//!   its face normals in bits 12 to 28, in steps of 1/720 degree, rounded up, and
+//!   bit 29 if it is concave ([`crate::edge_mesh::EdgeWord`]).
 //! - `RF32`: v0, v1, v2, v3, n0, n1 (3 f32 each), the random scalar (f32), and
-//!   a u32 of the corner 0 to 3 in bits 0 and 1 and the classes from bit 8.
+//!   a u32 of the corner 0 to 3 in bits 0 and 1 and the word from bit 2.
 //! - `RI16`: v0, v1, v2, v3, n0, n1 (3 i16 each), a byte of the corner in bits
-//!   0 and 1 and the random scalar times 64 above, and 3 bytes of classes.
+//!   0 and 1 and the random scalar times 64 above, and 3 bytes of the word: its
+//!   classes in bits 0 to 9, the angle in bits 10 to 22 in steps of 1/45 degree,
+//!   rounded up, and bit 23 if it is concave; there a diagonal is ridge and valley,
+//!   a paired edge boundary and non-manifold, and bit 6 is groove.
 //!   Normals are times 32767. Positions are in steps from the center of the
 //!   bounds; a step is their largest side / 65534, or 1 if that is 0.
 //! - `CNTS`: vertices of the file, welded vertices, triangles, degenerate triangles,
@@ -87,6 +94,8 @@
 //!   edges, diagonals, components; then of the polygons of the file: vertices,
 //!   polygons, triangles, edges, boundary edges, non-manifold edges, inconsistent
 //!   edges. All are below 2^32 - 1.
+//! - Version 1 is read, too. Its words have classes only, and its replicated layouts
+//!   are skipped.
 //! - `META`: `name` (of the model), `warnings` (`code`, `count`, `place`,
 //!   `message`), `repairs` (`kind`, `count`, `place`), optional `materials`, as many as
 //!   in `MTRL` (`name`, and the name of its `texture`), and optional `groups` (names).
@@ -108,6 +117,7 @@ mod read;
 mod samples;
 mod section;
 mod stored;
+mod version_1;
 mod write;
 
 pub use error::{FileError, FileErrorKind};

@@ -10,6 +10,7 @@ use super::meta::{MaterialNames, from_json};
 use super::numbers::{to_counts, to_frame};
 use super::section::{Sections, Tag};
 use super::stored::StoredMesh;
+use super::version_1::with_crease_angles;
 use crate::edge_mesh::{Bounds, FillRun};
 use crate::model::Material;
 
@@ -21,11 +22,12 @@ use crate::model::Material;
 pub fn parse(bytes: &[u8]) -> Result<StoredMesh<'_>, FileError> {
     let header = Header::read(bytes)?;
     let sections = Sections::read(bytes, header.section_count)?;
-    let mesh = match header.version {
-        Version::V1 => version_1(&sections)?,
-    };
+    let mesh = mesh_of(&sections)?;
     check(&mesh).map_err(|flaw| error_of(flaw, &sections))?;
-    Ok(mesh)
+    Ok(match header.version {
+        Version::V1 => with_crease_angles(mesh),
+        Version::V2 => mesh,
+    })
 }
 
 /// The error of a flaw, with its place in the file.
@@ -34,7 +36,7 @@ fn error_of(flaw: Flaw, sections: &Sections) -> FileError {
     flaw.at(place)
 }
 
-fn version_1<'a>(sections: &Sections<'a>) -> Result<StoredMesh<'a>, FileError> {
+fn mesh_of<'a>(sections: &Sections<'a>) -> Result<StoredMesh<'a>, FileError> {
     let [min, max] = sections.array(Tag::BOUNDS)?;
     let json = sections.list::<u8>(Tag::META)?;
     let meta = from_json(&json).map_err(|error| FileError {
@@ -100,7 +102,7 @@ mod tests {
             v1,
             face_a: 0,
             face_b: NONE,
-            flags: EdgeFlags::BOUNDARY,
+            word: EdgeFlags::BOUNDARY.into(),
         };
         [[0, 1], [2, 0], [1, 2]].map(record).to_vec()
     }
@@ -280,7 +282,7 @@ mod tests {
         let draft = Draft { version: 7, ..Draft::triangle() };
         let error = parse(&draft.to_bytes()).unwrap_err();
         assert_eq!(error.kind, FileErrorKind::Version);
-        assert!(error.what.starts_with("written by a newer Edgemesh: version 7, this one reads 1"));
+        assert!(error.what.starts_with("written by a newer Edgemesh: version 7, this one reads 2"));
     }
 
     /// A small file with every section.

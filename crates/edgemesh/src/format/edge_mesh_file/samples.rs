@@ -54,6 +54,23 @@ pub(super) fn sheet(side: u16) -> Sample {
     Sample::of_polygons("sheet", &positions, &polygons)
 }
 
+/// An octahedron whose tip is pushed inward.
+fn dented() -> Sample {
+    let positions =
+        [[1., 0., 0.], [-1., 0., 0.], [0., 1., 0.], [0., -1., 0.], [0., 0., -0.5], [0., 0., -1.]];
+    let faces: [&[u32]; 8] = [
+        &[0, 2, 4],
+        &[2, 1, 4],
+        &[1, 3, 4],
+        &[3, 0, 4],
+        &[2, 0, 5],
+        &[1, 2, 5],
+        &[3, 1, 5],
+        &[0, 3, 5],
+    ];
+    Sample::of_polygons("dented", &positions, &faces)
+}
+
 fn moebius_strip() -> Sample {
     let positions: Vec<[f32; 3]> = (0..16_u8)
         .map(|k| {
@@ -151,6 +168,7 @@ pub(super) fn samples() -> Vec<Sample> {
         triangle(),
         cube(),
         sheet(5),
+        dented(),
         moebius_strip(),
         bow_tie(),
         soup(),

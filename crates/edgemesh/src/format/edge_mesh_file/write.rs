@@ -199,7 +199,7 @@ mod tests {
     fn together_the_samples_fill_every_field() {
         let samples = samples();
         let some = |has: &dyn Fn(&Sample) -> bool| samples.iter().any(has);
-        let has_flag = |flag| some(&|s| s.mesh.records.iter().any(|r| r.flags.contains(flag)));
+        let has_flag = |flag| some(&|s| s.mesh.records.iter().any(|r| r.flags().contains(flag)));
         for flag in EdgeFlags::all().iter() {
             assert!(has_flag(flag), "{flag:?}");
         }

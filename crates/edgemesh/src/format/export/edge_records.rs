@@ -16,7 +16,7 @@ pub(super) fn welded_ends(mesh: &EdgeMesh, record: &EdgeRecord) -> [u32; 2] {
 
 /// The classes of an edge that are drawn in every view.
 pub(super) fn hard_classes(records: &[EdgeRecord]) -> EdgeFlags {
-    let all = records.iter().fold(EdgeFlags::empty(), |flags, record| flags | record.flags);
+    let all = records.iter().fold(EdgeFlags::empty(), |flags, record| flags | record.flags());
     all & EdgeFlags::ALWAYS_DRAWN
 }
 

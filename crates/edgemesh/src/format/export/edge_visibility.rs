@@ -141,7 +141,7 @@ fn contour_normals(mesh: &EdgeMesh, record: &EdgeRecord, side: usize) -> Option<
         let normal = glam::Vec4::from(plane.normal).xyz();
         (normal != Vec3::ZERO).then_some(normal)
     };
-    let sign = if record.flags.contains(EdgeFlags::CLASH) { -1.0 } else { 1.0 };
+    let sign = if record.flags().contains(EdgeFlags::CLASH) { -1.0 } else { 1.0 };
     let [a, b] = [normal(record.face_a)?, normal(record.face_b)? * sign];
     if (a - b).length() <= SAME_NORMAL {
         return None;

@@ -151,12 +151,12 @@ struct Edge {
 
 impl Edge {
     fn of(mesh: &EdgeMesh, record: &EdgeRecord, link: u32) -> Self {
-        let EdgeRecord { v0, v1, face_a, face_b, flags } = *record;
+        let EdgeRecord { v0, v1, face_a, face_b, word } = *record;
         let link = mesh.chains.links.get(link as usize);
         Self {
             vertices: [v0, v1],
             faces: [face_a, face_b].map(|face| (face != NONE).then_some(face)),
-            classes: class_names(flags).collect(),
+            classes: class_names(word.flags()).collect(),
             chain: link.map(|link| link.chain),
             arc_start: link.map(|link| length_in_file(mesh, link.arc_start)),
         }

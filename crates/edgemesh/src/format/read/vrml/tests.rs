@@ -120,7 +120,7 @@ fn the_column_is_made_of_solids() {
     assert!(report.warnings().is_empty(), "{report:?}");
     assert_eq!(report.repair_count(RepairKind::FlippedFaces), 0);
     assert_eq!(mesh.counts.components, 5);
-    assert!(mesh.records.iter().all(|record| record.flags.contains(EdgeFlags::SOLID)));
+    assert!(mesh.records.iter().all(|record| record.flags().contains(EdgeFlags::SOLID)));
 }
 
 #[test]
