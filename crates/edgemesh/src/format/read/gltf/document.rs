@@ -12,7 +12,7 @@ use serde_json::error::Category;
 
 use super::super::error::{ReadError, ReadErrorKind};
 use super::super::source::Source;
-use super::glb::Container;
+use super::glb::{CONVERT_VERSION_1, Container};
 use crate::report::{Place, Report};
 
 /// The most objects in the JSON: a node of two bytes takes about 300 bytes of memory.
@@ -81,7 +81,9 @@ pub(super) fn parse(
         return Err(source.error(ReadErrorKind::Size, None, what));
     }
     let fail = |error| json_error(source, container, &error);
-    check_rules(&serde_json::from_slice(json).map_err(fail)?, report);
+    let value = serde_json::from_slice(json).map_err(fail)?;
+    check_not_version_1(source, &value)?;
+    check_rules(&value, report);
     let document = serde_json::from_slice(json).map_err(fail)?;
     check_version(source, &document)?;
     Ok(document)
@@ -107,6 +109,21 @@ fn json_position(text: &[u8], line: usize, column: usize) -> usize {
     let lines_before = text.split_inclusive(|&byte| byte == b'\n').take(line.saturating_sub(1));
     let start: usize = lines_before.map(<[u8]>::len).sum();
     (start + column.saturating_sub(1)).min(text.len())
+}
+
+/// Fails for glTF 1.0, whose lists are objects, so that it cannot be parsed further. Its
+/// version need not be stated.
+fn check_not_version_1(source: &Source, json: &Value) -> Result<(), ReadError> {
+    let stated = json.pointer("/asset/version").and_then(Value::as_str);
+    let is_object = |name: &&str| json.get(name).is_some_and(Value::is_object);
+    let list = ["accessors", "meshes", "nodes", "buffers"].into_iter().find(is_object);
+    let part = match (stated, list) {
+        (Some(version), _) if version.starts_with("1.") => "asset.version",
+        (None, Some(list)) => list,
+        _ => return Ok(()),
+    };
+    let what = format!("is of glTF 1.0, which is not supported; {CONVERT_VERSION_1}");
+    Err(source.error(ReadErrorKind::Format, Some(Place::Part(part.into())), what))
 }
 
 fn check_version(source: &Source, document: &Document) -> Result<(), ReadError> {
@@ -165,6 +182,23 @@ mod tests {
         assert_eq!(kind(r#""version": "two""#), ReadErrorKind::Format);
         assert_eq!(kind(r#""version": "2.1", "minVersion": "2.1""#), ReadErrorKind::Format);
         assert_eq!(kind(r#""minVersion": "2.0""#), ReadErrorKind::Syntax, "no version");
+    }
+
+    #[test]
+    fn the_first_version_is_named_with_what_converts_it() {
+        for (json, part) in [
+            (r#"{"asset": {"version": "1.0"}, "accessors": {"a": {}}}"#, "asset.version"),
+            (r#"{"asset": {"version": "1.1"}, "meshes": []}"#, "asset.version"),
+            (r#"{"meshes": {"m": {"primitives": []}}}"#, "meshes"),
+            (r#"{"asset": {"generator": "old"}, "nodes": {"n": {}}}"#, "nodes"),
+        ] {
+            let error = refusal(json, None);
+            let place = Some(Place::Part(part.into()));
+            assert_eq!((error.kind, &error.place), (ReadErrorKind::Format, &place), "{error}");
+            assert!(error.what.contains("glTF 1.0") && error.what.contains("gltf-pipeline"));
+        }
+        let error = refusal(r#"{"asset": {"version": "2.0"}, "nodes": {}}"#, None);
+        assert_eq!(error.kind, ReadErrorKind::Syntax, "a fault of glTF 2.0");
     }
 
     #[test]

@@ -7,6 +7,10 @@
 //! glTF version  length  length  "JSON"  text, blanks  length  "BIN\0"  bytes  ...
 //! |---- header -------| |------ chunk 0 ------------| |------ chunk 1 ------| others
 //! ```
+//!
+//! Some programs (Blender 2.80, older exporters of three.js) do not pad a chunk to a multiple
+//! of 4 bytes, or pad it and state its length without the padding. Nothing is lost by that, so
+//! such files are read, with a warning.
 
 use super::super::byte_order_mark::without_mark;
 use super::super::error::{ReadError, ReadErrorKind};
@@ -19,6 +23,10 @@ const HEADER_BYTES: usize = 12;
 const CHUNK_HEADER_BYTES: usize = 8;
 const JSON: u32 = u32::from_le_bytes(*b"JSON");
 const BINARY: u32 = u32::from_le_bytes(*b"BIN\0");
+
+/// What to do about glTF 1.0.
+pub(super) const CONVERT_VERSION_1: &str =
+    "convert it to glTF 2.0, with `gltf-pipeline -i IN -o OUT`";
 
 /// The JSON and the binary data of a file in either form.
 #[derive(Debug)]
@@ -40,7 +48,8 @@ pub(super) fn open<'a>(
     report: &mut Report,
 ) -> Result<Container<'a>, ReadError> {
     if source.bytes.starts_with(MAGIC) {
-        return open_chunks(source, check_header(source, report)?);
+        let bytes = check_header(source, report)?;
+        return open_chunks(source, bytes, report);
     }
     let json = without_mark(source.bytes);
     if json.len() < source.bytes.len() {
@@ -61,8 +70,13 @@ fn check_header<'a>(source: &Source<'a>, report: &mut Report) -> Result<&'a [u8]
         return fail(ReadErrorKind::Truncated, bytes.len() as u64, what);
     };
     if version != 2 {
-        let what =
-            format!("binary glTF version {version} is not supported; convert it to version 2");
+        let what = format!(
+            "binary glTF version {version} is not supported; {}",
+            match version {
+                1 => CONVERT_VERSION_1,
+                _ => "export it as version 2",
+            }
+        );
         return fail(ReadErrorKind::Format, 4, what);
     }
     let Some(whole) = bytes.get(..length as usize) else {
@@ -81,18 +95,22 @@ fn check_header<'a>(source: &Source<'a>, report: &mut Report) -> Result<&'a [u8]
     Ok(whole)
 }
 
-fn open_chunks<'a>(source: &Source<'a>, bytes: &'a [u8]) -> Result<Container<'a>, ReadError> {
-    let first = chunk_at(source, bytes, HEADER_BYTES)?;
+fn open_chunks<'a>(
+    source: &Source<'a>,
+    bytes: &'a [u8],
+    report: &mut Report,
+) -> Result<Container<'a>, ReadError> {
+    let first = chunk_at(source, bytes, HEADER_BYTES, report)?;
     let at = |offset: usize| Some(Place::Byte(offset as u64));
     if first.kind != JSON {
         let what = format!("the first chunk has type {:#010x} instead of JSON", first.kind);
         return Err(source.error(ReadErrorKind::Syntax, at(HEADER_BYTES), what));
     }
     let mut binary = None;
-    let mut offset = HEADER_BYTES + CHUNK_HEADER_BYTES + first.bytes.len();
-    let second = offset;
+    let second = first.end;
+    let mut offset = second;
     while offset < bytes.len() {
-        let chunk = chunk_at(source, bytes, offset)?;
+        let chunk = chunk_at(source, bytes, offset, report)?;
         match chunk.kind {
             BINARY if offset == second => binary = Some(chunk.bytes),
             BINARY | JSON => {
@@ -102,7 +120,7 @@ fn open_chunks<'a>(source: &Source<'a>, bytes: &'a [u8]) -> Result<Container<'a>
             // Chunks of other types belong to extensions.
             _ => {}
         }
-        offset += CHUNK_HEADER_BYTES + chunk.bytes.len();
+        offset = chunk.end;
     }
     let json_offset = Some(HEADER_BYTES + CHUNK_HEADER_BYTES);
     Ok(Container { json: first.bytes, json_offset, binary })
@@ -111,25 +129,51 @@ fn open_chunks<'a>(source: &Source<'a>, bytes: &'a [u8]) -> Result<Container<'a>
 struct Chunk<'a> {
     kind: u32,
     bytes: &'a [u8],
+    /// The offset of the next chunk, or of the end of the file.
+    end: usize,
 }
 
-fn chunk_at<'a>(source: &Source, bytes: &'a [u8], offset: usize) -> Result<Chunk<'a>, ReadError> {
-    let fail = |kind, what: String| Err(source.error(kind, Some(Place::Byte(offset as u64)), what));
+fn chunk_at<'a>(
+    source: &Source,
+    bytes: &'a [u8],
+    offset: usize,
+    report: &mut Report,
+) -> Result<Chunk<'a>, ReadError> {
+    let place = Place::Byte(offset as u64);
+    let fail =
+        |what: String| Err(source.error(ReadErrorKind::Truncated, Some(place.clone()), what));
     let (Some(length), Some(kind)) = (u32_at(bytes, offset), u32_at(bytes, offset + 4)) else {
-        let what = "the file ends within the header of a chunk".into();
-        return fail(ReadErrorKind::Truncated, what);
+        return fail("the file ends within the header of a chunk".into());
     };
     let start = offset + CHUNK_HEADER_BYTES;
     let rest = bytes.get(start..).unwrap_or_default();
     let Some(inside) = rest.get(..length as usize) else {
-        let what = format!("a chunk states {length} bytes, and the file has {} more", rest.len());
-        return fail(ReadErrorKind::Truncated, what);
+        return fail(format!(
+            "a chunk states {length} bytes, and the file has {} more",
+            rest.len()
+        ));
     };
     if !length.is_multiple_of(4) {
-        let what = format!("a chunk has {length} bytes, which is not a multiple of 4");
-        return fail(ReadErrorKind::Syntax, what);
+        report.warn(WarningCode::Syntax, Some(place), || {
+            format!(
+                "a chunk has {length} bytes, which is not a multiple of 4; it was read as it is"
+            )
+        });
     }
-    Ok(Chunk { kind, bytes: inside })
+    Ok(Chunk { kind, bytes: inside, end: end_of_chunk(bytes, start + inside.len()) })
+}
+
+/// The offset of what follows a chunk whose bytes end at `end`: there, or at the next multiple
+/// of 4 if the padding is not part of the stated length.
+///
+/// The type of a chunk cannot be read at both offsets, because they are fewer than 4 bytes
+/// apart.
+fn end_of_chunk(bytes: &[u8], end: usize) -> usize {
+    let padded = end.next_multiple_of(4).min(bytes.len());
+    let is_padding = bytes[end..padded].iter().all(|byte| matches!(byte, 0 | b' '));
+    let is_last = padded == bytes.len();
+    let has_chunk = u32_at(bytes, padded + 4).is_some_and(|kind| matches!(kind, JSON | BINARY));
+    if is_padding && (is_last || has_chunk) { padded } else { end }
 }
 
 #[cfg(test)]
@@ -188,7 +232,10 @@ mod tests {
         let json = chunk(JSON, b"{}  ");
         let refused = |chunks: &[Vec<u8>]| refusal(&file(chunks));
         assert_eq!(refused(&[chunk(BINARY, b"")]), (ReadErrorKind::Syntax, at(12)));
-        assert_eq!(refused(&[chunk(JSON, b"{}")]), (ReadErrorKind::Syntax, at(12)));
+        assert_eq!(
+            refused(&[chunk(JSON, b"{}"), vec![b'x'; 3]]),
+            (ReadErrorKind::Truncated, at(22))
+        );
         assert_eq!(refused(&[json.clone(), json.clone()]), (ReadErrorKind::Syntax, at(24)));
         let binary = chunk(BINARY, b"");
         let twice = [json.clone(), binary.clone(), binary];
@@ -196,6 +243,27 @@ mod tests {
         assert_eq!(refused(&[json.clone(), vec![0; 7]]), (ReadErrorKind::Truncated, at(24)));
         let cut = [json, chunk(BINARY, b"1234")[..10].to_vec()];
         assert_eq!(refused(&cut), (ReadErrorKind::Truncated, at(24)));
+    }
+
+    #[test]
+    fn chunks_need_no_padding() {
+        let [json, binary] = [chunk(JSON, b"{}"), chunk(BINARY, b"12345")];
+        let padding = |bytes: &[u8]| bytes.to_vec();
+        for (chunks, warnings) in [
+            (vec![json.clone(), binary.clone()], 2),
+            (vec![json.clone(), chunk(BINARY, b"12345\0\0\0")], 1),
+            (vec![json.clone(), padding(b"  "), binary.clone()], 2),
+            (vec![json.clone(), padding(b"  "), binary.clone(), padding(b"\0\0\0")], 2),
+            (vec![chunk(JSON, b"{}  "), binary], 1),
+        ] {
+            let mut report = Report::default();
+            let (text, data) = opened(&file(&chunks), &mut report).unwrap();
+            assert_eq!((text.trim_ascii(), &data.unwrap()[..5]), (&b"{}"[..], &b"12345"[..]));
+            assert_eq!(report.count(WarningCode::Syntax), warnings, "{report:?}");
+        }
+        let mut report = Report::default();
+        assert_eq!(opened(&file(&[json]), &mut report).unwrap(), (b"{}".to_vec(), None));
+        assert_eq!(report.warnings()[0].place, Some(Place::Byte(12)));
     }
 
     #[test]
