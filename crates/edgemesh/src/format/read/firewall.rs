@@ -1,10 +1,10 @@
-//! Checks the model that any reader returns: indices in range, finite positions, at least three
+//! Checks the model that any reader returns: indices in range, finite numbers, at least three
 //! corners a polygon, counts within the limits. Readers may check more, and earlier.
 
 use super::error::{ReadError, ReadErrorKind};
 use super::source::Source;
 use crate::index::{MAX_INDEX, NONE, to_u32};
-use crate::model::Model;
+use crate::model::{Material, Model};
 use crate::report::{Place, Report, WarningCode};
 
 /// Larger coordinates count as infinite: the size of a box around them would be.
@@ -12,14 +12,15 @@ pub(crate) const LARGEST_COORDINATE: f64 = 1e300;
 
 /// Checks `model` and drops what is unusable, with warnings.
 ///
-/// A corner with a wrong texture coordinate or normal loses only that. A polygon is
-/// dropped if one of its vertices is not finite; `warned_of_vertices` is set if the
-/// reader has already warned of those. A model that loses all its faces here is
-/// returned empty.
+/// A corner with a wrong texture coordinate or normal loses only that, a material with a
+/// number that is not finite only this number. A polygon is dropped if one of its vertices
+/// is not finite; `warned_of_vertices` is set if the reader has already warned of those. A
+/// model that loses all its faces here is returned empty, if it has a finite vertex.
 ///
 /// # Errors
 /// Fails if a face or line names a vertex that does not exist, if there are more
-/// than [`MAX_INDEX`] elements, and if the file has no face and no line at all.
+/// than [`MAX_INDEX`] elements, if the file has no face and no line at all, and if no
+/// vertex is finite.
 pub(crate) fn check(
     source: &Source,
     model: &mut Model,
@@ -45,9 +46,18 @@ pub(crate) fn check(
     }
     drop_wrong_attributes(model, report);
     let is_finite = finite_vertices(model);
+    if !is_finite.is_empty() && !is_finite.contains(&true) {
+        let what = format!(
+            "none of the {} vertices is finite, so nothing can be drawn; export the model again",
+            is_finite.len()
+        );
+        return Err(source.error(ReadErrorKind::Number, Some(Place::Vertex(1)), what));
+    }
     if !warned_of_vertices {
         warn_of_vertices(&is_finite, report);
     }
+    clear_attributes_not_finite(model, report);
+    clear_colors_not_finite(&mut model.materials, report);
     drop_polygons(model, &is_finite, report);
     model.segments.retain(|segment| {
         let [a, b] = segment.ends.map(|end| end as usize);
@@ -86,6 +96,42 @@ fn drop_wrong_attributes(model: &mut Model, report: &mut Report) {
             });
             *index = NONE;
         }
+    }
+}
+
+/// Sets normals, texture coordinates and colors that are not finite to 0; the builder
+/// replaces a normal of 0.
+fn clear_attributes_not_finite(model: &mut Model, report: &mut Report) {
+    clear("normal", &mut model.normals, report);
+    clear("texture coordinate", &mut model.texcoords, report);
+    clear("color", &mut model.colors, report);
+}
+
+fn clear<const N: usize>(name: &str, list: &mut [[f32; N]], report: &mut Report) {
+    let is_finite = |element: &[f32; N]| element.iter().all(|number| number.is_finite());
+    for (at, element) in list.iter_mut().enumerate().filter(|(_, element)| !is_finite(element)) {
+        report.warn(WarningCode::NonFinite, None, || {
+            format!("{name} {} of the file is not finite; it was set to 0", at + 1)
+        });
+        *element = [0.0; N];
+    }
+}
+
+/// Removes the numbers of materials that are not finite.
+fn clear_colors_not_finite(materials: &mut [Material], report: &mut Report) {
+    for material in materials {
+        let Material { name, ambient, diffuse, specular, shininess, opacity, .. } = material;
+        let mut count = 0;
+        for color in [ambient, diffuse, specular] {
+            count +=
+                usize::from(color.take_if(|color| !color.iter().all(|x| x.is_finite())).is_some());
+        }
+        for number in [shininess, opacity] {
+            count += usize::from(number.take_if(|number| !number.is_finite()).is_some());
+        }
+        report.warn_many(WarningCode::NonFinite, count, None, || {
+            format!("a number of the material '{name}' is not finite; it was left out")
+        });
     }
 }
 
@@ -237,8 +283,45 @@ mod tests {
         let mut model = Model::from_polygons(&[[0.0; 3]; 3], &[]);
         let error = check(&SOURCE, &mut model, &mut report, false).unwrap_err();
         assert_eq!(error.kind, ReadErrorKind::Empty);
-        let mut model = Model::from_polygons(&[[f32::NAN; 3]; 3], &[&[0, 1, 2]]);
+        let corners = [[0.0; 3], [f32::NAN; 3], [f32::INFINITY, 0.0, 0.0]];
+        let mut model = Model::from_polygons(&corners, &[&[0, 1, 2]]);
         check(&SOURCE, &mut model, &mut report, false).unwrap();
-        assert_eq!((model.polygon_count(), report.count(WarningCode::NonFinite)), (0, 3));
+        assert_eq!((model.polygon_count(), report.count(WarningCode::NonFinite)), (0, 2));
+    }
+
+    #[test]
+    fn a_model_without_a_finite_vertex_is_an_error() {
+        let mut model = Model::from_polygons(&[[f32::NAN; 3]; 3], &[&[0, 1, 2]]);
+        let error = check(&SOURCE, &mut model, &mut Report::default(), false).unwrap_err();
+        assert_eq!((error.kind, error.place), (ReadErrorKind::Number, Some(Place::Vertex(1))));
+        assert!(error.what.contains("none of the 3 vertices is finite"), "{}", error.what);
+    }
+
+    #[test]
+    fn attributes_and_materials_lose_numbers_that_are_not_finite() {
+        let mut model = square();
+        model.normals = vec![[0.0, f32::NAN, 1.0], [0.0, 0.0, 1.0]];
+        model.texcoords = vec![[f32::INFINITY, 0.0]];
+        model.colors = vec![[1.0; 3], [f32::NEG_INFINITY; 3]];
+        model.materials = vec![
+            Material { shininess: Some(8.0), ..Material::default() },
+            Material {
+                name: "steel".into(),
+                diffuse: Some([0.5, f32::NAN, 0.5]),
+                specular: Some([0.5; 3]),
+                opacity: Some(f32::INFINITY),
+                ..Material::default()
+            },
+        ];
+        let mut report = Report::default();
+        check(&SOURCE, &mut model, &mut report, false).unwrap();
+        assert_eq!(model.normals, [[0.0; 3], [0.0, 0.0, 1.0]]);
+        assert_eq!(model.texcoords, [[0.0; 2]]);
+        assert_eq!(model.colors, [[1.0; 3], [0.0; 3]]);
+        let [sound, steel] = &model.materials[..] else { panic!("{:?}", model.materials) };
+        assert_eq!(sound.shininess, Some(8.0));
+        assert_eq!((steel.diffuse, steel.specular, steel.opacity), (None, Some([0.5; 3]), None));
+        assert_eq!(report.count(WarningCode::NonFinite), 5);
+        assert_eq!(model.polygon_count(), 2, "the faces are kept");
     }
 }

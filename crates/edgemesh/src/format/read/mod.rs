@@ -17,6 +17,7 @@ mod firewall;
 mod format;
 mod gltf;
 mod load;
+mod non_finite;
 mod normal_transform;
 mod number;
 mod obj;

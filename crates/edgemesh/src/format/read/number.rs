@@ -1,12 +1,23 @@
 //! Decimal numbers of text formats, correctly rounded to 64 bits.
 //!
+//! Numbers that are not finite are read as C libraries print them: `nan`, `-inf`, and the
+//! spellings in `non_finite`, two of which hold a character that ends a word or a line in
+//! some formats.
+//!
 //! Rejected: 32 bits, which lose what recentering needs.
 
-/// The number that `word` consists of, as [`str::parse`] reads it: decimal, with
-/// infinities and NaN, without hexadecimal.
+use super::non_finite::non_finite_prefix;
+
+/// The number that `word` consists of, as [`str::parse`] reads it (decimal, with
+/// infinities and NaN, without hexadecimal) or as a C library prints it.
 #[must_use]
 pub(crate) fn parse_number(word: &[u8]) -> Option<f64> {
-    fast_float2::parse(word).ok()
+    let decimal = fast_float2::parse(word).ok();
+    decimal.or_else(|| {
+        non_finite_prefix(word)
+            .filter(|&(_, length)| length == word.len())
+            .map(|(number, _)| number)
+    })
 }
 
 /// The number at the start of `text`, with its length in bytes; `None` if there is
@@ -47,6 +58,17 @@ mod tests {
     fn other_words_are_not_numbers() {
         for word in ["", "-", ".", "e5", "1e", "1e+", "0x10", "1,5", "1.2.3", "--1", "1 ", "one"] {
             assert_eq!((parse_number(word.as_bytes()), bits(word)), (None, None), "{word}");
+        }
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_are_read_as_c_libraries_print_them() {
+        for word in ["-nan(ind)", "nan(0x8000)", "1.#QNAN", "-1.#IND00", "-1.#J", "NaNQ"] {
+            assert!(parse_number(word.as_bytes()).is_some_and(f64::is_nan), "{word}");
+        }
+        assert_eq!(parse_number(b"1.#INF"), Some(f64::INFINITY));
+        for word in ["nan(ind", "1.#", "1.#INFO", "3.#comment", "nano"] {
+            assert_eq!(parse_number(word.as_bytes()), None, "{word}");
         }
     }
 

@@ -6,6 +6,7 @@
 
 use std::ops::Range;
 
+use crate::format::read::number::parse_number;
 use crate::model::Material;
 
 /// The name of a material whose `newmtl` has none.
@@ -42,8 +43,7 @@ pub(super) fn parse_mtl(text: &str) -> Vec<LibraryMaterial> {
 impl LibraryMaterial {
     fn add_statement(&mut self, keyword: &str, rest: &str) {
         let Self { material, diffuse_map } = self;
-        let numbers: Vec<f32> =
-            rest.split_whitespace().map_while(|word| word.parse().ok()).collect();
+        let numbers: Vec<f32> = rest.split_whitespace().map_while(number_of).collect();
         let number = numbers.first().copied();
         let color = match *numbers {
             [red, green, blue, ..] => Some([red, green, blue]),
@@ -72,7 +72,7 @@ pub(super) fn map_file(statement: &str) -> &str {
         rest = after;
         for at in 0..count.end {
             let (word, after) = split_word(rest);
-            if at >= count.start && word.parse::<f32>().is_err() {
+            if at >= count.start && number_of(word).is_none() {
                 break;
             }
             rest = after;
@@ -92,6 +92,12 @@ fn option_words(option: &str) -> Option<Range<usize>> {
         "-o" | "-s" | "-t" => Some(1..3),
         _ => None,
     }
+}
+
+/// A number in 32 bits; it need not be finite.
+#[expect(clippy::cast_possible_truncation, reason = "a material needs no more")]
+fn number_of(word: &str) -> Option<f32> {
+    parse_number(word.as_bytes()).map(|number| number as f32)
 }
 
 /// The first word of a text, and the text after it.
@@ -119,6 +125,16 @@ mod tests {
         assert_eq!(unnamed.material.name, UNNAMED);
         assert_eq!(unnamed.material.diffuse, Some([1.0, 2.0, 3.0]));
         assert_eq!(unnamed.diffuse_map.as_deref(), Some("a b.png"));
+    }
+
+    /// The firewall removes them from the model, with a warning.
+    #[test]
+    fn numbers_that_are_not_finite_are_numbers() {
+        let text = "newmtl a\nKd -nan(ind) 0 0\nKs 1.#INF00 1 1\nd 1.#IND\nmap_Kd -o 1.#J a.png\n";
+        let [a] = &parse_mtl(text)[..] else { panic!("{text}") };
+        let colors = [a.material.diffuse, a.material.specular].map(|color| color.unwrap()[0]);
+        assert!(colors.iter().all(|red| !red.is_finite()) && a.material.opacity.unwrap().is_nan());
+        assert_eq!(a.diffuse_map.as_deref().map(map_file), Some("a.png"));
     }
 
     #[test]

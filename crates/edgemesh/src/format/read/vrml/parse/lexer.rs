@@ -3,9 +3,11 @@
 //! Both versions ignore white space, commas, and comments from `#` to the end of the line
 //! (VRML 97 annex A; VRML 1.0, "Language Basics"). Numbers are words here, because a name
 //! may look like a number. VRML 1.0 writes sets of flags as `(SIDES | TOP)`, which is a
-//! list with other brackets; in VRML 97 these characters are parts of names.
+//! list with other brackets; in VRML 97 these characters are parts of names. Numbers such
+//! as `1.#INF` and `nan(ind)` are one word in both.
 
 use super::version::Version;
+use crate::format::read::non_finite::non_finite_prefix;
 
 /// A token of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -141,7 +143,9 @@ impl<'a> Lexer<'a> {
         let is_end =
             |&byte: &u8| ends_word(byte) || self.version == Version::One && ends_flag(byte);
         // The first byte is always taken, so that the lexer makes progress.
-        let length = rest.iter().skip(1).position(is_end).map_or(rest.len(), |length| length + 1);
+        let end_of_word =
+            || rest.iter().skip(1).position(is_end).map_or(rest.len(), |length| length + 1);
+        let length = non_finite_prefix(rest).map_or_else(end_of_word, |(_, length)| length);
         self.at += length;
         Token::Word(&rest[..length])
     }
@@ -204,6 +208,24 @@ mod tests {
             (Token::UnclosedText, 3),
         ];
         assert_eq!(tokens(text, Version::Two), expected);
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_are_words() {
+        let text = "1.#INF -1.#IND00,nan(ind) [1.#J]#1.#INF\n1.#note\n2";
+        for version in [Version::One, Version::Two] {
+            let expected = [
+                (word("1.#INF"), 1),
+                (word("-1.#IND00"), 1),
+                (word("nan(ind)"), 1),
+                (Token::OpenBracket, 1),
+                (word("1.#J"), 1),
+                (Token::CloseBracket, 1),
+                (word("1."), 2),
+                (word("2"), 3),
+            ];
+            assert_eq!(tokens(text, version), expected);
+        }
     }
 
     #[test]
