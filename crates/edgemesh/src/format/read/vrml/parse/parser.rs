@@ -29,7 +29,8 @@ pub(crate) fn parse(
     report: &mut Report,
 ) -> Result<Document, ReadError> {
     let lexer = Lexer::new(text, version);
-    let mut parser = Parser { builder: DocumentBuilder::new(origin, version), lexer, report };
+    let builder = DocumentBuilder::new(origin, version);
+    let mut parser = Parser { builder, lexer, version, report };
     while let Some(lexeme) = parser.lexer.next() {
         match parser.builder.list_line() {
             Some(opened) => parser.in_list(lexeme, opened)?,
@@ -42,6 +43,7 @@ pub(crate) fn parse(
 struct Parser<'a> {
     builder: DocumentBuilder,
     lexer: Lexer<'a>,
+    version: Version,
     report: &'a mut Report,
 }
 
@@ -192,6 +194,10 @@ impl<'a> Parser<'a> {
                 self.lexer.next();
                 self.text(text);
             }
+            Some(Token::Word(word)) if self.is_bare_string(name, word) => {
+                self.lexer.next();
+                self.builder.push_word(word);
+            }
             Some(Token::Word(word)) if is_number(word) => self.numbers()?,
             Some(Token::Word(b"IS")) => self.skip_words(2),
             Some(Token::Word(word)) => {
@@ -201,6 +207,13 @@ impl<'a> Parser<'a> {
             _ => {}
         }
         Ok(())
+    }
+
+    /// Whether `word` looks like a number and is a string without quotes, which VRML 1.0
+    /// allows, such as the name of a file in `filename 3d.jpg`.
+    fn is_bare_string(&self, field: &[u8], word: &[u8]) -> bool {
+        const STRING_FIELDS: [&[u8]; 4] = [b"filename", b"name", b"string", b"description"];
+        self.version == Version::One && STRING_FIELDS.contains(&field) && is_number(word)
     }
 
     fn numbers(&mut self) -> Result<(), ReadError> {
@@ -292,11 +305,15 @@ impl<'a> Parser<'a> {
 }
 
 /// Whether a word is read as a number. Some programs write `nan` and `inf`, as the C
-/// library prints them.
+/// library prints them. A path such as `../a.jpg`, which VRML 1.0 allows without quotes, is
+/// no number.
 fn is_number(word: &[u8]) -> bool {
-    let starts_as_number =
-        word.first().is_some_and(|&first| first.is_ascii_digit() || b"+-.".contains(&first));
-    starts_as_number || word.eq_ignore_ascii_case(b"nan") || word.eq_ignore_ascii_case(b"inf")
+    let is_path = matches!(word, [b'.', b'/' | b'\\', ..] | [b'.', b'.', ..]);
+    match word.first() {
+        Some(b'+' | b'-' | b'.' | b'0'..=b'9') => !is_path,
+        Some(b'n' | b'N' | b'i' | b'I') => parse_number(word).is_some(),
+        _ => false,
+    }
 }
 
 /// Parses a hexadecimal number such as `0x1F`, the format of pixels.
@@ -434,6 +451,35 @@ mod tests {
         assert_eq!(failure("Sphere {\nradius [ 0 \n 1e ] }"), (ReadErrorKind::Number, 3));
         let document = two("Sphere { radius nan }");
         assert!(document.root().first_child().unwrap().number("radius", 1.0).is_nan());
+    }
+
+    #[test]
+    fn names_of_files_need_no_quotes_in_the_first_version() {
+        for name in ["../t.jpg", "./t.jpg", "..\\t.jpg", "a/b.jpg", "3d.jpg", "-1.jpg", "1.2.3"] {
+            let text = format!("Texture2 {{ filename {name} image 1 1 1 255 }}");
+            let (document, report) = parsed(&text, Version::One).unwrap();
+            let texture = document.root().first_child().unwrap();
+            assert_eq!(texture.word("filename"), Some(name));
+            assert_eq!(texture.numbers("image").values, [1.0, 1.0, 1.0, 255.0]);
+            assert_eq!(report, Report::default(), "{name}");
+        }
+        let inline = two("Inline { url [ ../a.wrl ./b.wrl ] }");
+        let urls: Vec<_> = inline.root().first_child().unwrap().words("url").collect();
+        assert_eq!(urls, ["../a.wrl", "./b.wrl"]);
+        assert_eq!(failure("Sphere {\nradius .x }"), (ReadErrorKind::Number, 2));
+        assert_eq!(failure("Sphere {\nradius - }"), (ReadErrorKind::Number, 2));
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_are_numbers() {
+        let text = "Coordinate3 { point [ -nan(ind) 1.#INF 0, 1.#IND nan -inf ] }";
+        for version in [Version::One, Version::Two] {
+            let (document, report) = parsed(text, version).unwrap();
+            let values = document.root().first_child().unwrap().numbers("point").values.to_vec();
+            let finite: Vec<bool> = values.iter().map(|value| value.is_finite()).collect();
+            assert_eq!(finite, [false, false, true, false, false, false]);
+            assert_eq!(report, Report::default());
+        }
     }
 
     #[test]
