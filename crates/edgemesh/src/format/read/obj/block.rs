@@ -9,11 +9,13 @@
 use memchr::memchr2;
 
 use super::statement::{
-    BlockIndex, name_of, parse_index, smoothing_group, split_keyword, without_comment, words,
+    BlockIndex, begins_statement, name_of, parse_index, smoothing_group, split_keyword,
+    without_capitals, without_comment, words,
 };
 use crate::format::read::error::ReadErrorKind;
 use crate::format::read::firewall::LARGEST_COORDINATE;
 use crate::format::read::number::{parse_number, parse_prefix};
+use crate::format::read::words::quoted;
 use crate::index::{NONE, to_u32};
 use crate::model::{Corner, Model, Segment};
 use crate::report::{Place, Report, WarningCode};
@@ -234,6 +236,7 @@ impl Parser<'_> {
         while self.at < self.text.len() {
             self.line = self.line.saturating_add(1);
             let line = self.next_line();
+            self.warn_of_joined(line);
             joined.push(b' ');
             match line.strip_suffix(b"\\") {
                 Some(line) => joined.extend_from_slice(line),
@@ -244,6 +247,21 @@ impl Parser<'_> {
             }
         }
         self.statement(first_line, &joined)
+    }
+
+    /// Warns if a line that continues the one before looks like a statement, such as a face
+    /// behind a comment that ends in the backslash of a path.
+    fn warn_of_joined(&mut self, line: &[u8]) {
+        if !begins_statement(line) {
+            return;
+        }
+        self.warn(WarningCode::Syntax, self.line, || {
+            format!(
+                "this line continues the one before, which ends in '\\', so that {} is no \
+                 statement; remove the '\\' if it should be one",
+                quoted(line)
+            )
+        });
     }
 
     /// The line at `at` without surrounding blanks; it ends with LF, CR LF or CR.
@@ -263,6 +281,16 @@ impl Parser<'_> {
 
     fn statement(&mut self, line: u32, text: &[u8]) -> Result<(), BlockError> {
         let (keyword, rest) = split_keyword(text);
+        let keyword = match without_capitals(keyword) {
+            Some(known) => {
+                self.warn(WarningCode::Syntax, line, || {
+                    let [written, known] = [keyword, known].map(String::from_utf8_lossy);
+                    format!("'{written}' was read as '{known}'; keywords have small letters")
+                });
+                known
+            }
+            None => keyword,
+        };
         let values = without_comment(rest);
         match keyword {
             b"v" => self.vertex(line, values)?,

@@ -114,7 +114,7 @@ mod tests {
 
     use super::*;
     use crate::build::{BuildOptions, build_edge_mesh};
-    use crate::format::read::{picture, read_model};
+    use crate::format::read::{Format, picture, read_model, read_model_bytes};
     use crate::index::NONE;
     use crate::model::{Material, Segment, Smoothing, Texture, TextureSource};
     use crate::report::{Place, WarningCode};
@@ -154,6 +154,58 @@ mod tests {
         let model = read(text);
         assert_eq!(model.corner_positions, [0, 1, 2, 2, 1, 0]);
         assert_eq!(model.polygon_lines, [4, 7]);
+    }
+
+    /// The only warning, with its count and line.
+    fn syntax_warning(report: &Report) -> (usize, Option<Place>) {
+        let [warning] = report.warnings() else { panic!("{report:?}") };
+        assert_eq!(warning.code, WarningCode::Syntax, "{report:?}");
+        (warning.count, warning.place.clone())
+    }
+
+    #[test]
+    fn a_statement_that_a_backslash_joins_to_another_line_gives_a_warning() {
+        for before in ["# from D:\\parts\\", "g D:\\parts\\", "usemtl a\\", "o \\", "v 0 0 1\\"] {
+            let text = format!("{THREE}{before}\nf 1 2 3\nf 3 2 1\n");
+            let (model, report) = try_read(text.as_bytes(), 8);
+            assert_eq!(model.unwrap().polygon_count(), 1, "{before}");
+            assert_eq!(syntax_warning(&report), (1, Some(Place::Line(5))), "{before}");
+            let message = &report.warnings()[0].message;
+            assert!(message.contains("'f 1 2 3'") && message.contains("remove the"), "{message}");
+        }
+        let text = format!("{THREE}# \\\nf 1 2 3\\\nl 1 2\nf 1 2 3\n");
+        let (_, report) = try_read(text.as_bytes(), BLOCK_BYTES);
+        assert_eq!(syntax_warning(&report), (2, Some(Place::Line(5))));
+        let text = format!("{THREE}# a\\\nb\nmtllib a.mtl\\\nb.mtl\ng a\\\n b\nf 1\\\n2\\\n3\n");
+        let (model, report) = try_read(text.as_bytes(), BLOCK_BYTES);
+        assert_eq!((model.unwrap().polygon_count(), report.count(WarningCode::Syntax)), (1, 0));
+    }
+
+    #[test]
+    fn keywords_in_capitals_are_read_with_a_warning() {
+        let text = "V 0 0 0\nV 1 0 0\nv 0 1 0\nVT 0 0\nUSEMTL red\nF 1/1 2/1 3/1\nFACE 1\n";
+        let (model, report) = try_read(text.as_bytes(), 8);
+        let model = model.unwrap();
+        assert_eq!((model.positions.len(), &model.corner_texcoords[..]), (3, &[0, 0, 0][..]));
+        assert_eq!(model.materials[0].name, "red");
+        assert_eq!(syntax_warning(&report), (5, Some(Place::Line(1))));
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_may_be_spelled_as_c_libraries_do() {
+        for number in ["nan", "-nan(ind)", "1.#INF00", "-1.#IND", "1.#QNAN", "1.#SNAN", "1.#J"] {
+            let text = format!(
+                "{THREE}v {number} 0 {number}\nv 0 0 {number} # corner\nvn {number} 0 0\n\
+                 vt 0 {number}\nf 1 2 3\nf 1 2 4\n"
+            );
+            let (model, report) = read_model_bytes("a", text.as_bytes(), Format::Obj).unwrap();
+            assert_eq!((model.polygon_count(), model.positions.len()), (1, 5), "{number}");
+            let [warning] = report.warnings() else { panic!("{number}: {report:?}") };
+            let found = (warning.code, warning.count, warning.place.clone());
+            assert_eq!(found, (WarningCode::NonFinite, 4, Some(Place::Line(4))), "{number}");
+        }
+        let (model, _) = try_read(b"v 1 2 3.#note\n", BLOCK_BYTES);
+        assert_eq!(model.unwrap().positions, [[1.0, 2.0, 3.0]]);
     }
 
     #[test]

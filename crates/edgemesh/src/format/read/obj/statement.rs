@@ -1,5 +1,8 @@
 //! The words, indices and names of statements.
 
+use memchr::memchr;
+
+use crate::format::read::non_finite::non_finite_prefix;
 use crate::index::{MAX_INDEX, NONE};
 
 /// An index within a block: absolute and counted from 0, or relative to the block's
@@ -70,9 +73,49 @@ pub(super) fn split_keyword(text: &[u8]) -> (&[u8], &[u8]) {
     (&text[..end], text[end..].trim_ascii_start())
 }
 
-/// The text before a comment.
+/// Keywords that numbers or indices follow.
+const OF_NUMBERS: [&[u8]; 8] = [b"v", b"vt", b"vn", b"vp", b"f", b"fo", b"l", b"p"];
+
+/// Keywords that names follow, and `s`.
+const OF_NAMES: [&[u8]; 5] = [b"g", b"o", b"s", b"usemtl", b"mtllib"];
+
+/// The keyword that `keyword` is when its capitals are small letters, if that is one of a
+/// statement; `None` if it has no capitals. The format has none, but some programs write
+/// `V` and `F`, and no other program gives these words a meaning of their own.
+pub(super) fn without_capitals(keyword: &[u8]) -> Option<&'static [u8]> {
+    if !keyword.iter().any(u8::is_ascii_uppercase) {
+        return None;
+    }
+    let mut known = OF_NUMBERS.iter().chain(&OF_NAMES);
+    known.find(|known| known.eq_ignore_ascii_case(keyword)).copied()
+}
+
+/// Whether a line is a statement, if it does not continue another one: a keyword, and after it
+/// a number or a name as it needs.
+pub(super) fn begins_statement(line: &[u8]) -> bool {
+    let (keyword, rest) = split_keyword(line);
+    match rest.first() {
+        Some(first) if OF_NUMBERS.contains(&keyword) => {
+            first.is_ascii_digit() || b"+-.".contains(first)
+        }
+        Some(_) => OF_NAMES.contains(&keyword),
+        None => false,
+    }
+}
+
+/// The text before a comment. The `#` of a number such as `1.#INF` begins none.
 pub(super) fn without_comment(text: &[u8]) -> &[u8] {
-    text.iter().position(|&byte| byte == b'#').map_or(text, |at| &text[..at])
+    let mut from = 0;
+    while let Some(found) = memchr(b'#', &text[from..]) {
+        let at = from + found;
+        let before = &text[..at];
+        let word = before.iter().rposition(u8::is_ascii_whitespace).map_or(0, |blank| blank + 1);
+        match non_finite_prefix(&text[word..]) {
+            Some((_, length)) if word + length > at => from = word + length,
+            _ => return before,
+        }
+    }
+    text
 }
 
 /// The words of a text.
@@ -111,6 +154,36 @@ mod tests {
             assert!(parse_index(word.as_bytes(), 5).is_err(), "{word}");
         }
         assert_ne!(BlockIndex::relative(MAX_INDEX as i64 - 1).0, NONE);
+    }
+
+    #[test]
+    fn comments_end_a_statement_and_numbers_that_are_not_finite_do_not() {
+        for (text, before) in [
+            ("1 2 3 # up", "1 2 3 "),
+            ("1 2 3.#up", "1 2 3."),
+            ("1.#INF -1.#IND00 0#1.#INF", "1.#INF -1.#IND00 0"),
+            ("1.#QNAN # 1.#INF", "1.#QNAN "),
+            ("#1.#INF", ""),
+            ("1.#INF#", "1."),
+            ("1.#J", "1.#J"),
+            ("1 2", "1 2"),
+        ] {
+            assert_eq!(without_comment(text.as_bytes()), before.as_bytes(), "{text}");
+        }
+    }
+
+    #[test]
+    fn statements_are_known_by_their_keyword_and_what_follows() {
+        for line in ["f 1 2 3", "v -1 .5 0", "l\t1 2", "vn .5 0 0", "usemtl red", "g a b", "s off"]
+        {
+            assert!(begins_statement(line.as_bytes()), "{line}");
+        }
+        for line in ["", "f", "g", "v one", "1 2 3", "face 1", "# f 1 2 3", "of 3 parts", "-1 -2"] {
+            assert!(!begins_statement(line.as_bytes()), "{line}");
+        }
+        assert_eq!(without_capitals(b"VN"), Some(&b"vn"[..]));
+        assert_eq!(without_capitals(b"UseMtl"), Some(&b"usemtl"[..]));
+        assert_eq!((without_capitals(b"f"), without_capitals(b"FACE")), (None, None));
     }
 
     #[test]
