@@ -63,8 +63,8 @@ pub enum WarningCode {
     /// A material library or a texture is missing, unreadable, outside of the
     /// folder, or not PNG or JPEG.
     Material,
-    /// Another file that the model names is missing, unreadable, or outside of the
-    /// folder.
+    /// Another file that the model names, or its file of marks, is missing, unreadable, or
+    /// outside of the folder.
     Uri,
     /// A statement, node or extension of the file is not supported.
     Unsupported,

@@ -304,7 +304,7 @@ fn a_full_disk_is_an_error() {
 #[cfg(target_os = "linux")]
 #[test]
 fn endless_input_is_refused() {
-    assert_refused(Path::new("/dev/zero"), "binary data");
+    assert_refused(Path::new("/dev/zero"), "a device, not a regular file");
 }
 
 #[cfg(target_os = "linux")]
@@ -318,16 +318,36 @@ fn a_path_may_be_any_bytes() {
     assert_eq!(json(&output)["source"]["polygons"].as_u64(), Some(6));
 }
 
-/// A pipe has no size and cannot be read twice.
+/// A pipe may wait for its writer forever, so only standard input is read as a stream.
 #[cfg(target_os = "linux")]
 #[test]
-fn a_model_may_come_through_a_pipe() {
-    let (reader, mut writer) = std::io::pipe().unwrap();
-    writer.write_all(CUBE.as_bytes()).unwrap();
-    drop(writer);
-    let mut command = Command::new("sh");
-    command.args(["-c", "exec \"$0\" info /dev/fd/3 3<&0"]).arg(program("edgemesh"));
-    let output = command.stdin(reader).output().unwrap();
+fn a_model_comes_through_a_pipe_as_standard_input_only() {
+    let run_with_cube = |script: &str| {
+        let (reader, mut writer) = std::io::pipe().unwrap();
+        writer.write_all(CUBE.as_bytes()).unwrap();
+        drop(writer);
+        let mut command = Command::new("sh");
+        command.args(["-c", script]).arg(program("edgemesh"));
+        command.stdin(reader).output().unwrap()
+    };
+    let output = run_with_cube("exec \"$0\" info - --format obj");
     assert_status(&output, 0);
     assert!(String::from_utf8_lossy(&output.stdout).contains("polygons"), "{output:?}");
+    let output = run_with_cube("exec \"$0\" info /dev/fd/3 3<&0");
+    assert_status(&output, 1);
+    assert_eq!(one_error(&output, &["/dev/fd/3: ", "a pipe, not a regular file"]), Ok(()));
+}
+
+/// Opening a pipe without a writer would wait forever.
+#[cfg(unix)]
+#[test]
+fn a_pipe_without_a_writer_is_refused_at_once() {
+    let (folder, cube) = file("cube.obj", CUBE.as_bytes());
+    let pipe = folder.path().join("pipe.obj");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    assert_refused(&pipe, "a pipe, not a regular file");
+    let output = info_with(&cube, &["--marks", pipe.to_str().unwrap()]);
+    assert_eq!(one_error(&output, &["pipe.obj: ", "a pipe, not a regular file"]), Ok(()));
+    let output = info_with(&pipe, &["--format", "edgemesh"]);
+    assert_eq!(one_error(&output, &["pipe.obj: ", "a pipe, not a regular file"]), Ok(()));
 }

@@ -150,12 +150,13 @@ fn an_endless_edge_mesh_is_refused() {
         command.args(["-c", &script]).arg(program("edgemesh")).env("RAYON_NUM_THREADS", "2");
         run(command.stdout(Stdio::piped()))
     };
-    for script in
-        ["\"$0\" info --format edgemesh /dev/zero", "\"$0\" info --format edgemesh - < /dev/zero"]
-    {
+    for (script, why) in [
+        ("\"$0\" info --format edgemesh /dev/zero", "a device, not a regular file"),
+        ("\"$0\" info --format edgemesh - < /dev/zero", "is not an edge mesh"),
+    ] {
         let output = shell(script);
         assert_status(&output, 1);
-        assert_eq!(one_error(&output, &["is not an edge mesh"]), Ok(()), "{script}");
+        assert_eq!(one_error(&output, &[why]), Ok(()), "{script}");
     }
 }
 
@@ -231,6 +232,33 @@ fn marks_come_from_a_side_file() {
     let output = in_folder(folder, &["info", "cube.obj", "--marks", "bad"]);
     assert_status(&output, 1);
     assert_eq!(one_error(&output, &["bad:1: "]), Ok(()));
+    #[cfg(target_os = "linux")]
+    {
+        let output = in_folder(folder, &["info", "cube.obj", "--marks", "/dev/zero"]);
+        assert_status(&output, 1);
+        assert_eq!(one_error(&output, &["/dev/zero: ", "a device"]), Ok(()));
+    }
+}
+
+/// A link could make a command read, and quote, any file.
+#[cfg(unix)]
+#[test]
+fn marks_beside_a_model_are_not_read_through_a_link_out_of_its_folder() {
+    use std::os::unix::fs::symlink;
+    let outer = folder(&[("outside", "3 4\nsecret\n")]);
+    let folder = folder(&[("cube.obj", CUBE), ("inside", "3 4\n2 3\n")]);
+    let (folder, side) = (folder.path(), folder.path().join("cube.obj.marks"));
+    symlink(folder.join("inside"), &side).unwrap();
+    let cube = info(folder, &["cube.obj"]);
+    assert_eq!(cube["features"]["marked"].as_u64(), Some(3));
+    fs::remove_file(&side).unwrap();
+    symlink(outer.path().join("outside"), &side).unwrap();
+    let cube = info(folder, &["cube.obj", "-q"]);
+    assert_eq!(cube["features"]["marked"].as_u64(), Some(1));
+    assert_eq!(cube["warnings"][0]["code"].as_str(), Some("uri"));
+    let output = in_folder(folder, &["info", "cube.obj"]);
+    assert!(stderr(&output).contains("out of the model's folder"), "{}", stderr(&output));
+    assert!(!stderr(&output).contains("secret"), "{}", stderr(&output));
 }
 
 #[test]

@@ -1,6 +1,5 @@
 //! Loads files, or standard input, as edge meshes.
 
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
@@ -9,15 +8,16 @@ use glam::DVec3;
 
 use super::error::LoadError;
 use super::loaded_mesh::{LoadedMesh, ModelSource};
-use super::marks::{SideMarks, read_marks, side_file};
+use super::marks::{SideMarks, marks_beside, read_marks};
 use super::options::{InputFormat, LoadOptions};
 use super::progress::{Progress, Stage, StageGuard};
 use crate::build::{BuildOptions, box_of, build_with_file_vertices, reclassify};
 use crate::edge_mesh::{EdgeMesh, MeshFrame};
 use crate::format::edge_mesh_file::{HEADER_BYTES, is_edge_mesh, parse, stated_length};
 use crate::format::read::{Format, read_model_as, read_model_stream};
+use crate::format::regular_file::open_regular;
 use crate::model::Model;
-use crate::report::Report;
+use crate::report::{Report, WarningCode};
 
 /// The path of the embedded model, a torus knot.
 pub const DEMO: &str = "demo:";
@@ -87,7 +87,7 @@ fn read(path: &Path, options: &LoadOptions, progress: &dyn Progress) -> Result<I
         Some(InputFormat::Model(format)) => Some(format),
         None if !is_edge_mesh_file(path) => None,
         Some(InputFormat::EdgeMesh) | None => {
-            let stream = File::open(path).map_err(|error| unreadable(path, error))?;
+            let stream = open_regular(path).map_err(|error| unreadable(path, error))?;
             return stored(path, stream, options);
         }
     };
@@ -131,9 +131,8 @@ fn finish(
         Input::Model(model, mut report, path) => {
             let _running = StageGuard::begin(progress, Stage::Building(&model.name))?;
             let mut build = build.clone();
-            let side = path.as_deref().map(side_file).filter(|side| side.is_file());
-            if let Some(side) = side.filter(|_| options.marks.is_none()) {
-                let SideMarks { marked, unmarked } = read_marks(&side)?;
+            if let Some(path) = path.as_deref().filter(|_| options.marks.is_none()) {
+                let SideMarks { marked, unmarked } = marks_of(path, &mut report)?;
                 (build.marks, build.unmarked) = (marked, unmarked);
             }
             let (mesh, file_vertices) = build_with_file_vertices(&model, &build, &mut report);
@@ -154,6 +153,25 @@ fn finish(
         return Err(LoadError::Warnings { file: loaded.name, report: loaded.report });
     }
     Ok(loaded)
+}
+
+/// The marks in the side file of a model; none without a side file. Warns of one outside of the
+/// model's folder.
+fn marks_of(model: &Path, report: &mut Report) -> Result<SideMarks, LoadError> {
+    match marks_beside(model) {
+        Ok(None) => Ok(SideMarks::default()),
+        Ok(Some(side)) => Ok(read_marks(&side)?),
+        Err(side) => {
+            report.warn(WarningCode::Uri, None, || {
+                format!(
+                    "the marks {} are a link out of the model's folder and were not read; put the \
+                     file there itself, or name it as the file of marks",
+                    side.display()
+                )
+            });
+            Ok(SideMarks::default())
+        }
+    }
 }
 
 fn unreadable(path: &Path, reason: io::Error) -> LoadError {
@@ -187,14 +205,11 @@ fn frame_of(inputs: &[Input]) -> MeshFrame {
     MeshFrame::of_box(low, high)
 }
 
-/// Whether the file at `path` begins like an edge mesh. Pipes are not read, because their bytes
-/// could not be read again.
+/// Whether the file at `path` begins like an edge mesh.
 fn is_edge_mesh_file(path: &Path) -> bool {
-    let is_file = path.metadata().is_ok_and(|metadata| metadata.is_file());
     let mut head = [0; 8];
-    is_file
-        && File::open(path).and_then(|mut file| file.read_exact(&mut head)).is_ok()
-        && is_edge_mesh(&head)
+    let read = open_regular(path).and_then(|mut file| file.read_exact(&mut head));
+    read.is_ok() && is_edge_mesh(&head)
 }
 
 #[cfg(test)]

@@ -1,7 +1,9 @@
 //! Side files of marked edges. Each line has a pair of vertices, counted from 1 in the order of the
 //! model file; `-` before a pair removes the mark that the model has there; `#` begins a comment.
 //!
-//! `MODEL.marks` beside a model is read with it.
+//! `MODEL.marks` beside a model is read with it, if it lies in the model's folder or below: a
+//! symbolic link that leads elsewhere is not followed, so that a model cannot make a command
+//! read any file of its user. A file that the user names may lie anywhere.
 
 use std::fmt::Write as _;
 use std::io;
@@ -9,11 +11,19 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::format::regular_file::read_regular;
+use crate::format::whole_file::folder_of;
+
+/// The largest side file that is read: 256 MiB, more than a mark for each edge of the largest
+/// models.
+const MAX_MARKS_BYTES: u64 = 256 << 20;
+
 /// A side file could not be read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MarksError {
-    /// The operating system cannot read the file, or it is not UTF-8.
+    /// The operating system cannot read the file, or it is not a regular file, larger than
+    /// 256 MiB, or not UTF-8.
     #[error("{}: cannot be read: {reason}", path.display())]
     Io {
         /// The side file.
@@ -50,13 +60,32 @@ pub fn side_file(model: &Path) -> PathBuf {
     name.into()
 }
 
+/// The side file that is read with `model`, if there is one.
+///
+/// # Errors
+/// Fails with its path if it is a link out of the model's folder.
+pub(super) fn marks_beside(model: &Path) -> Result<Option<PathBuf>, PathBuf> {
+    let side = side_file(model);
+    let (Ok(folder), Ok(target)) = (folder_of(model).canonicalize(), side.canonicalize()) else {
+        return Ok(None);
+    };
+    match (target.is_file(), target.starts_with(folder)) {
+        (false, _) => Ok(None),
+        (true, true) => Ok(Some(side)),
+        (true, false) => Err(side),
+    }
+}
+
 /// Reads the side file at `path`.
 ///
 /// # Errors
-/// Fails if the file cannot be read, or at the first malformed line.
+/// Fails if it is not a regular file, is larger than 256 MiB or cannot be read, or at the first
+/// malformed line.
 pub fn read_marks(path: &Path) -> Result<SideMarks, MarksError> {
-    let text = std::fs::read_to_string(path)
-        .map_err(|reason| MarksError::Io { path: path.to_owned(), reason })?;
+    let failed = |reason| MarksError::Io { path: path.to_owned(), reason };
+    let bytes = read_regular(path, MAX_MARKS_BYTES).map_err(failed)?;
+    let text = String::from_utf8(bytes)
+        .map_err(|_| failed(io::Error::new(io::ErrorKind::InvalidData, "it is not UTF-8 text")))?;
     parse_marks(&text).map_err(|(line, what)| MarksError::Line {
         path: path.to_owned(),
         line,
@@ -113,6 +142,40 @@ fn vertex(line: usize, word: &str) -> Result<u32, (usize, String)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn marks_beside_a_model_are_read_in_its_folder_only() {
+        let outer = tempfile::tempdir().unwrap();
+        let folder = outer.path().join("models");
+        std::fs::create_dir_all(folder.join("marks")).unwrap();
+        let model = folder.join("a.obj");
+        let side = side_file(&model);
+        assert_eq!(marks_beside(&model), Ok(None));
+        std::fs::write(&side, "1 2\n").unwrap();
+        assert_eq!(marks_beside(&model), Ok(Some(side.clone())));
+        #[cfg(unix)]
+        for (place, expected) in
+            [(folder.join("marks/a"), Ok(Some(side.clone()))), (outer.path().join("a"), Err(side))]
+        {
+            std::fs::write(&place, "3 4\n").unwrap();
+            std::fs::remove_file(side_file(&model)).unwrap();
+            std::os::unix::fs::symlink(&place, side_file(&model)).unwrap();
+            assert_eq!(marks_beside(&model), expected);
+        }
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn marks_are_a_regular_file_of_text() {
+        let error = read_marks(Path::new("/dev/zero")).unwrap_err();
+        assert!(error.to_string().contains("a device, not a regular file"), "{error}");
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("marks");
+        std::fs::write(&path, [b'1', b' ', 0xff]).unwrap();
+        assert!(read_marks(&path).unwrap_err().to_string().contains("not UTF-8"));
+        std::fs::File::create(&path).unwrap().set_len(MAX_MARKS_BYTES + 1).unwrap();
+        assert!(read_marks(&path).unwrap_err().to_string().contains("larger than 256 MiB"));
+    }
 
     #[test]
     fn pairs_and_comments() {

@@ -1,6 +1,5 @@
 //! Reads the bytes of a model file or stream and detects its format.
 
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -8,6 +7,7 @@ use super::error::{ReadError, ReadErrorKind};
 use super::format::Format;
 use super::sniff::sniff;
 use super::source::MAX_FILE_BYTES;
+use crate::format::regular_file::open_regular;
 
 /// Files of this size or more are read by several threads.
 const PARALLEL_BYTES: u64 = 8 << 20;
@@ -19,30 +19,33 @@ const SNIFF_BYTES: u64 = 64 << 10;
 /// its first bytes.
 ///
 /// # Errors
-/// Fails if the file cannot be read, is empty, larger than [`MAX_FILE_BYTES`], or
-/// not a model.
+/// Fails if the file is not a regular one, cannot be read, is empty, larger than
+/// [`MAX_FILE_BYTES`], or not a model.
 pub(crate) fn load(path: &Path, format: Option<Format>) -> Result<(Vec<u8>, Format), ReadError> {
     load_file(path, format).map_err(|error| error.in_file(path))
 }
 
 fn load_file(path: &Path, format: Option<Format>) -> Result<(Vec<u8>, Format), LoadError> {
-    let file = File::open(path).map_err(LoadError::Io)?;
-    let metadata = file.metadata().map_err(LoadError::Io)?;
-    if metadata.is_dir() {
+    if path.is_dir() {
         let what = "is a folder; name a model file in it".into();
         return Err(LoadError::Other(ReadErrorKind::Io, what));
     }
-    // Pipes and devices have no size.
-    let size = Some(metadata.len()).filter(|_| metadata.is_file());
+    let file = open_regular(path).map_err(|error| match error.kind() {
+        io::ErrorKind::InvalidInput => {
+            LoadError::Other(ReadErrorKind::Format, format!("cannot be read: {error}"))
+        }
+        _ => LoadError::Io(error),
+    })?;
+    let size = file.metadata().map_err(LoadError::Io)?.len();
     let mut rest = |bytes: &mut Vec<u8>| match size {
         #[cfg(unix)]
-        Some(size) if (PARALLEL_BYTES..=MAX_FILE_BYTES).contains(&size) => {
+        PARALLEL_BYTES..=MAX_FILE_BYTES => {
             *bytes = parallel::read_all(&file, size).map_err(LoadError::Io)?;
             Ok(())
         }
-        _ => read_rest(&file, size, bytes),
+        _ => read_rest(&file, Some(size), bytes),
     };
-    load_from(&file, size, path, format, &mut rest)
+    load_from(&file, Some(size), path, format, &mut rest)
 }
 
 /// As [`load`], from a stream; `name` stands for it in messages, and its extension
@@ -101,7 +104,10 @@ fn load_from(
     let format = match format {
         Some(format) => format,
         None => sniff(&bytes, size, name).map_err(|found| {
-            LoadError::Other(ReadErrorKind::Format, format!("is not a model file but {found}"))
+            LoadError::Other(
+                ReadErrorKind::Format,
+                format!("is not a supported model file but {found}"),
+            )
         })?,
     };
     rest(&mut bytes)?;
@@ -166,7 +172,7 @@ mod parallel {
 
 #[cfg(test)]
 mod tests {
-    use std::fs;
+    use std::fs::{self, File};
 
     use super::*;
 
@@ -176,6 +182,16 @@ mod tests {
         let what = |path: &Path| load(path, None).unwrap_err().what;
         assert!(what(folder.path()).contains("is a folder"));
         assert!(what(&folder.path().join("none.obj")).contains("cannot be read"));
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn devices_are_refused() {
+        for format in [None, Some(Format::Obj)] {
+            let error = load(Path::new("/dev/zero"), format).unwrap_err();
+            assert_eq!(error.kind, ReadErrorKind::Format);
+            assert!(error.what.contains("a device, not a regular file"), "{error}");
+        }
     }
 
     #[test]

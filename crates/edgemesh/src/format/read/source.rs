@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use super::error::{ReadError, ReadErrorKind};
+use crate::format::regular_file::read_regular;
 use crate::report::Place;
 
 /// The largest file that is read: 4 GiB. As text, a model with
@@ -82,7 +83,7 @@ impl Source<'_> {
     /// As [`Self::sidecar_file`]; also if the file cannot be read.
     pub(crate) fn sidecar(&self, relative: &str) -> Result<Vec<u8>, String> {
         let target = self.sidecar_file(relative, MAX_FILE_BYTES)?;
-        fs::read(&target).map_err(|error| error.to_string())
+        read_regular(&target, MAX_FILE_BYTES).map_err(|error| error.to_string())
     }
 }
 
