@@ -303,6 +303,25 @@ fn exports_come_back_with_their_edges() {
     assert_eq!(String::from_utf8_lossy(&output.stdout), text);
 }
 
+/// Such a file could not be read again.
+#[test]
+fn a_model_of_which_nothing_is_left_is_not_exported() {
+    let point = "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n";
+    let no_number = "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let folder = folder(&[("point.obj", point), ("one.obj", no_number)]);
+    let folder = folder.path();
+    for model in ["point.obj", "one.obj"] {
+        for ending in ["glb", "gltf", "ply", "obj"] {
+            let target = format!("out.{ending}");
+            let output = in_folder(folder, &["export", "-q", model, "-o", &target]);
+            assert_status(&output, 1);
+            assert_eq!(one_error(&output, &[model, "no face and no line is left"]), Ok(()));
+            assert!(!folder.join(target).exists(), "{model} {ending}");
+        }
+        assert_status(&in_folder(folder, &["export", "-q", model, "-o", "out.json"]), 0);
+    }
+}
+
 #[test]
 fn completions_and_manuals_come_from_the_same_definitions() {
     for program in ["edgemesh", "viewer"] {

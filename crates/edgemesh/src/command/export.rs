@@ -73,6 +73,14 @@ impl ExportCommand {
             if !is_quiet {
                 print_warnings(&loaded.name, &loaded.report);
             }
+            let is_empty = loaded.mesh.triangles.is_empty() && loaded.mesh.records.is_empty();
+            if is_empty && format != ExportFormat::Json {
+                // No reader takes a file without faces and lines, ours neither.
+                return Err(Failure::fault(format!(
+                    "{}: no face and no line is left to export; mend the model first",
+                    loaded.name
+                )));
+            }
             let _progress = TerminalLine::start(format!("writing {}", target.display()), is_quiet);
             let name = input.file_stem().unwrap_or_else(|| Path::new("mesh").as_os_str());
             let bytes = to_bytes(&loaded.mesh, &name.to_string_lossy(), format)
