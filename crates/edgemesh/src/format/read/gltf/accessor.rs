@@ -11,18 +11,19 @@
 //! ```
 //!
 //! All ranges are checked in 64 bits before a byte is read. Numbers become 32-bit
-//! floats, which hold all component types exactly except unsigned 32-bit integers;
-//! those occur only in indices.
+//! floats, which hold all component types exactly except 32-bit integers; those occur
+//! only in indices.
 
 use std::ops::Range;
 
 use gltf_json as json;
-use json::accessor::{ComponentType, Type};
+use json::accessor::Type;
 use json::validation::Checked;
 
 use super::super::error::{ReadError, ReadErrorKind};
 use super::super::source::Source;
 use super::asset::Asset;
+use super::component::Component;
 use crate::report::Place;
 
 /// An accessor without a view consists of zeros, which take no bytes of the file: at
@@ -35,7 +36,7 @@ pub(super) struct Accessor<'a> {
     source: &'a Source<'a>,
     index: usize,
     count: usize,
-    component: ComponentType,
+    component: Component,
     kind: Type,
     is_normalized: bool,
     /// `None` for zeros.
@@ -83,12 +84,13 @@ impl Asset<'_> {
     ) -> Result<Accessor<'_>, ReadError> {
         let json = self.get(&self.document.accessors, index, "accessors", part)?;
         let part = || format!("accessors[{index}]");
-        let (Checked::Valid(component), Checked::Valid(kind)) = (&json.component_type, &json.type_)
+        let (Some(component), Checked::Valid(kind)) =
+            (Component::of_number(json.component_type), &json.type_)
         else {
             let what = "has a type or component type that glTF does not define";
             return Err(self.error(ReadErrorKind::Syntax, part(), what));
         };
-        let size = (component.0.size() * kind.multiplicity()) as u64;
+        let size = (component.size() * kind.multiplicity()) as u64;
         let elements = match json.buffer_view {
             Some(view) => {
                 let offset = json.byte_offset.unwrap_or_default().0;
@@ -106,7 +108,7 @@ impl Asset<'_> {
             source: self.source,
             index,
             count,
-            component: component.0,
+            component,
             kind: *kind,
             is_normalized: json.normalized,
             elements,
@@ -131,17 +133,21 @@ impl Asset<'_> {
         part: &dyn Fn() -> String,
     ) -> Result<Sparse<'_>, ReadError> {
         let json::accessor::sparse::Sparse { count: replaced, indices, values, .. } = json;
-        let Checked::Valid(component) = &indices.component_type else {
+        let component = match &indices.component_type {
+            Checked::Valid(component) => Component::of_number(component.0.as_gl_enum()),
+            Checked::Invalid => None,
+        };
+        let Some(component) = component else {
             let what = "has sparse indices with a component type that is not allowed";
             return Err(self.error(ReadErrorKind::Syntax, part(), what));
         };
         let at = |view: usize, offset, size| {
             self.elements(&ElementLayout { view, offset, count: replaced.0, size }, part)
         };
-        let index_size = component.0.size() as u64;
+        let index_size = component.size() as u64;
         let found = at(indices.buffer_view.value(), indices.byte_offset.0, index_size)?;
         let values = at(values.buffer_view.value(), values.byte_offset.0, size)?;
-        let indices: Vec<[u32; 1]> = found.unsigned(component.0);
+        let indices: Vec<[u32; 1]> = found.unsigned(component);
         self.spend(indices.len(), part)?;
         match indices.iter().find(|[index]| *index as usize >= count) {
             Some([index]) => {
@@ -226,13 +232,13 @@ impl Accessor<'_> {
     }
 
     /// The type of its components.
-    pub(super) const fn component(&self) -> ComponentType {
+    pub(super) const fn component(&self) -> Component {
         self.component
     }
 
     /// Whether its numbers are those of the file, not normalized.
     pub(super) const fn is_raw(&self) -> bool {
-        matches!(self.component, ComponentType::F32) || !self.is_normalized
+        matches!(self.component, Component::F32) || !self.is_normalized
     }
 
     /// Normalizes integers to 0 to 1 or -1 to 1, even if the file does not ask for it.
@@ -247,21 +253,41 @@ impl Accessor<'_> {
     /// `Syntax` if they do not have `N` components.
     pub(super) fn numbers<const N: usize>(&self) -> Result<Vec<[f32; N]>, ReadError> {
         self.check_components(N)?;
+        if self.component == Component::I32 {
+            return Err(self.wrong("has signed 32-bit integers, which glTF does not define"));
+        }
         Ok(self.collect(|elements| elements.numbers(self.component, self.is_normalized)))
     }
 
-    /// Its elements as unsigned integers, such as indices.
+    /// Its elements as unsigned integers.
     ///
     /// # Errors
     /// `Syntax` if they do not have `N` components, or are of another type.
     pub(super) fn unsigned<const N: usize>(&self) -> Result<Vec<[u32; N]>, ReadError> {
         self.check_components(N)?;
         match self.component {
-            ComponentType::U8 | ComponentType::U16 | ComponentType::U32 => {
+            Component::U8 | Component::U16 | Component::U32 => {
                 Ok(self.collect(|elements| elements.unsigned(self.component)))
             }
             _ => Err(self.wrong("must have unsigned integers")),
         }
+    }
+
+    /// Its elements as indices. glTF requires unsigned integers; those of other programs may be
+    /// of a signed type, which is as good if none is negative.
+    ///
+    /// # Errors
+    /// `Syntax` if they are not single integers, or one is negative.
+    pub(super) fn indices(&self) -> Result<Vec<u32>, ReadError> {
+        if !self.component.is_signed_integer() {
+            return self.unsigned::<1>().map(Vec::into_flattened);
+        }
+        self.check_components(1)?;
+        let signed = self.collect(|elements| elements.signed(self.component));
+        let indices = signed.iter().enumerate().map(|(at, &[index])| {
+            u32::try_from(index).map_err(|_| self.wrong(format!("has the index {index} at {at}")))
+        });
+        indices.collect()
     }
 
     fn check_components(&self, count: usize) -> Result<(), ReadError> {
@@ -297,39 +323,45 @@ impl Accessor<'_> {
 }
 
 impl Elements<'_> {
-    fn numbers<const N: usize>(
-        &self,
-        component: ComponentType,
-        is_normalized: bool,
-    ) -> Vec<[f32; N]> {
+    /// Empty for signed 32-bit integers.
+    fn numbers<const N: usize>(&self, component: Component, is_normalized: bool) -> Vec<[f32; N]> {
         let scaled = |number: f32, largest: f32| match is_normalized {
             // The least signed integer would be a little below -1.
             true => (number / largest).max(-1.0),
             false => number,
         };
         match component {
-            ComponentType::I8 => {
-                self.map(|bytes| scaled(f32::from(i8::from_le_bytes(bytes)), 127.0))
-            }
-            ComponentType::U8 => self.map(|[byte]| scaled(f32::from(byte), 255.0)),
-            ComponentType::I16 => {
+            Component::I8 => self.map(|bytes| scaled(f32::from(i8::from_le_bytes(bytes)), 127.0)),
+            Component::U8 => self.map(|[byte]| scaled(f32::from(byte), 255.0)),
+            Component::I16 => {
                 self.map(|bytes| scaled(f32::from(i16::from_le_bytes(bytes)), 32_767.0))
             }
-            ComponentType::U16 => {
+            Component::U16 => {
                 self.map(|bytes| scaled(f32::from(u16::from_le_bytes(bytes)), 65_535.0))
             }
-            ComponentType::U32 => self.map(|bytes| u32::from_le_bytes(bytes) as f32),
-            ComponentType::F32 => self.map(f32::from_le_bytes),
+            Component::U32 => self.map(|bytes| u32::from_le_bytes(bytes) as f32),
+            Component::I32 => Vec::new(),
+            Component::F32 => self.map(f32::from_le_bytes),
         }
     }
 
     /// Empty for other component types.
-    fn unsigned<const N: usize>(&self, component: ComponentType) -> Vec<[u32; N]> {
+    fn unsigned<const N: usize>(&self, component: Component) -> Vec<[u32; N]> {
         match component {
-            ComponentType::U8 => self.map(|[byte]| byte.into()),
-            ComponentType::U16 => self.map(|bytes| u16::from_le_bytes(bytes).into()),
-            ComponentType::U32 => self.map(u32::from_le_bytes),
-            ComponentType::I8 | ComponentType::I16 | ComponentType::F32 => Vec::new(),
+            Component::U8 => self.map(|[byte]| byte.into()),
+            Component::U16 => self.map(|bytes| u16::from_le_bytes(bytes).into()),
+            Component::U32 => self.map(u32::from_le_bytes),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Empty for other component types.
+    fn signed<const N: usize>(&self, component: Component) -> Vec<[i32; N]> {
+        match component {
+            Component::I8 => self.map(|bytes| i8::from_le_bytes(bytes).into()),
+            Component::I16 => self.map(|bytes| i16::from_le_bytes(bytes).into()),
+            Component::I32 => self.map(i32::from_le_bytes),
+            _ => Vec::new(),
         }
     }
 
@@ -470,6 +502,29 @@ mod tests {
         };
         assert_eq!(zeros(2).unwrap(), [[0.0; 3]; 2]);
         assert_eq!(zeros(1 << 40).unwrap_err().kind, ReadErrorKind::Bounds);
+    }
+
+    #[test]
+    fn indices_may_be_of_a_signed_type() {
+        let read = |component: u32, count: u32, bytes: &[u8]| {
+            let accessor = json!({"componentType": component, "count": count, "type": "SCALAR"});
+            with(&sample(bytes, &json!({}), accessor), |accessor| accessor.indices())
+        };
+        assert_eq!(read(5120, 2, &[3, 127]).unwrap(), [3, 127]);
+        assert_eq!(read(5122, 2, &[2, 1, 0xff, 0x7f]).unwrap(), [258, 32_767]);
+        assert_eq!(read(5124, 2, &[2, 1, 0, 0, 0, 0, 1, 0]).unwrap(), [258, 65_536]);
+        assert_eq!(read(5123, 1, &[0xff, 0xff]).unwrap(), [65_535]);
+        for (component, bytes) in [(5120, &[0, 255][..]), (5122, &[0, 0, 255, 255])] {
+            let error = read(component, 2, bytes).unwrap_err();
+            assert_eq!(error.place, Some(Place::Part("accessors[0]".into())));
+            assert_eq!(
+                (error.kind, &*error.what),
+                (ReadErrorKind::Syntax, "has the index -1 at 1")
+            );
+        }
+        assert!(read(5124, 1, &[0, 0, 0, 128]).is_err());
+        assert!(read(5126, 1, &[0; 4]).is_err(), "floats");
+        assert!(read(5127, 1, &[0; 4]).is_err(), "unknown");
     }
 
     #[test]

@@ -247,7 +247,7 @@ impl<'a> ModelBuilder<'a> {
         };
         let part = || format!("{}.indices", primitive.part());
         let accessor = self.asset.accessor(index.value(), part)?;
-        let corners = accessor.unsigned::<1>()?.into_flattened();
+        let corners = accessor.indices()?;
         match corners.iter().position(|&corner| corner >= range.count) {
             None => Ok(corners),
             Some(at) => {

@@ -6,6 +6,7 @@
 //! specification.
 
 use gltf_json as json;
+use json::validation::Checked;
 use serde::Deserialize;
 use serde_json::Value;
 use serde_json::error::Category;
@@ -33,7 +34,7 @@ pub(super) struct Document {
     #[serde(default)]
     pub(super) buffer_views: Vec<json::buffer::View>,
     #[serde(default)]
-    pub(super) accessors: Vec<json::Accessor>,
+    pub(super) accessors: Vec<Accessor>,
     #[serde(default)]
     pub(super) materials: Vec<json::Material>,
     /// A list, unless the file is broken.
@@ -51,6 +52,23 @@ pub(super) struct Document {
     #[serde(default)]
     pub(super) scenes: Vec<Scene>,
     pub(super) scene: Option<usize>,
+}
+
+/// An accessor. In `gltf-json` it cannot have signed 32-bit integers.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Accessor {
+    pub(super) buffer_view: Option<json::Index<json::buffer::View>>,
+    pub(super) byte_offset: Option<json::validation::USize64>,
+    pub(super) component_type: u32,
+    pub(super) count: json::validation::USize64,
+    #[serde(rename = "type")]
+    pub(super) type_: Checked<json::accessor::Type>,
+    pub(super) min: Option<Value>,
+    pub(super) max: Option<Value>,
+    #[serde(default)]
+    pub(super) normalized: bool,
+    pub(super) sparse: Option<json::accessor::sparse::Sparse>,
 }
 
 /// Nodes that are drawn together.

@@ -20,7 +20,7 @@ use super::super::error::{ReadError, ReadErrorKind};
 use super::accessor::Accessor;
 use super::primitive::Primitive;
 use super::topology::polyline;
-use crate::report::{Report, WarningCode};
+use crate::report::{Place, Report, WarningCode};
 
 const VISIBILITY: &str = "EXT_mesh_primitive_edge_visibility";
 const OUTLINE: &str = "CESIUM_primitive_outline";
@@ -58,18 +58,18 @@ pub(super) fn edge_marks(
     vertex_count: u32,
     report: &mut Report,
 ) -> EdgeMarks {
-    let reader = Reader { primitive, triangles };
+    let mut reader = Reader { primitive, triangles, report };
     let mut edges = EdgeMarks::default();
     if let Some(json) = primitive.extension(VISIBILITY) {
         match reader.visibility(json) {
             Ok(visibility) => edges = visibility,
-            Err(error) => error.warn_left_out(report),
+            Err(error) => error.warn_left_out(reader.report),
         }
     }
     if let Some(json) = primitive.extension(OUTLINE) {
         match reader.outline(json) {
             Ok(outline) => edges.marked.extend(outline),
-            Err(error) => error.warn_left_out(report),
+            Err(error) => error.warn_left_out(reader.report),
         }
     }
     let marked = edges.marked.len();
@@ -86,10 +86,11 @@ pub(super) fn edge_marks(
 struct Reader<'a> {
     primitive: Primitive<'a>,
     triangles: &'a [[u32; 3]],
+    report: &'a mut Report,
 }
 
-impl Reader<'_> {
-    fn visibility(&self, json: &Value) -> Result<EdgeMarks, ReadError> {
+impl<'a> Reader<'a> {
+    fn visibility(&mut self, json: &Value) -> Result<EdgeMarks, ReadError> {
         let json: EdgeVisibility = self.parse(VISIBILITY, json)?;
         let mut edges = EdgeMarks::default();
         if let Some(accessor) = json.visibility {
@@ -106,7 +107,7 @@ impl Reader<'_> {
         for line in json.line_strings {
             let accessor = self.accessor(VISIBILITY, line.indices)?;
             let restart = largest(&accessor);
-            let indices = accessor.unsigned::<1>()?.into_flattened();
+            let indices = self.indices(VISIBILITY, &accessor)?;
             edges.marked.extend(indices.split(|&index| index == restart).flat_map(polyline));
         }
         Ok(edges)
@@ -127,9 +128,9 @@ impl Reader<'_> {
         Ok(bytes.into_iter().flat_map(|[byte]| [0, 2, 4, 6].map(|shift| (byte >> shift) & 3)))
     }
 
-    fn outline(&self, json: &Value) -> Result<Vec<[u32; 2]>, ReadError> {
+    fn outline(&mut self, json: &Value) -> Result<Vec<[u32; 2]>, ReadError> {
         let json: Indices = self.parse(OUTLINE, json)?;
-        let indices = self.accessor(OUTLINE, json.indices)?.unsigned::<1>()?.into_flattened();
+        let indices = self.indices(OUTLINE, &self.accessor(OUTLINE, json.indices)?)?;
         match indices.as_chunks() {
             (pairs, []) => Ok(pairs.to_vec()),
             _ => {
@@ -138,11 +139,22 @@ impl Reader<'_> {
         }
     }
 
+    /// The indices in an accessor of the extension `name`; warns if they are of a signed type.
+    fn indices(&mut self, name: &str, accessor: &Accessor) -> Result<Vec<u32>, ReadError> {
+        let indices = accessor.indices()?;
+        if accessor.component().is_signed_integer() {
+            self.report.warn(WarningCode::Syntax, Some(Place::Part(self.part(name))), || {
+                "has indices of a signed type; none is negative, so they were taken".into()
+            });
+        }
+        Ok(indices)
+    }
+
     fn parse<'j, T: Deserialize<'j>>(&self, name: &str, json: &'j Value) -> Result<T, ReadError> {
         T::deserialize(json).map_err(|error| self.error(name, error.to_string()))
     }
 
-    fn accessor(&self, name: &str, index: usize) -> Result<Accessor<'_>, ReadError> {
+    fn accessor(&self, name: &str, index: usize) -> Result<Accessor<'a>, ReadError> {
         self.primitive.asset.accessor(index, || self.part(name))
     }
 
@@ -157,11 +169,12 @@ impl Reader<'_> {
 
 /// The largest index of an accessor, which ends a line string.
 fn largest(accessor: &Accessor) -> u32 {
-    match accessor.component().size() {
+    let largest = match accessor.component().size() {
         1 => u8::MAX.into(),
         2 => u16::MAX.into(),
         _ => u32::MAX,
-    }
+    };
+    if accessor.component().is_signed_integer() { largest / 2 } else { largest }
 }
 
 #[cfg(test)]
@@ -246,5 +259,32 @@ mod tests {
         let (marked, _, report) = outline(&[[1], [0], [2]]);
         assert!(marked.is_empty());
         assert_eq!(report.count(WarningCode::Syntax), 1);
+    }
+
+    /// The sample of `CESIUM_primitive_outline` itself has signed indices.
+    #[test]
+    fn indices_of_a_signed_type_are_taken_if_none_is_negative() {
+        let outline = |indices: [i16; 4]| {
+            square(OUTLINE, |sample| {
+                let bytes: Vec<u8> = indices.iter().flat_map(|index| index.to_le_bytes()).collect();
+                let view = sample.view(&bytes, &json!({}));
+                let indices = sample.accessor(json!({
+                    "bufferView": view, "componentType": 5122, "count": 4, "type": "SCALAR"
+                }));
+                json!({"indices": indices})
+            })
+        };
+        let place = |part: &str| Some(Place::Part(part.into()));
+        let (marked, _, report) = outline([1, 0, 2, 3]);
+        assert_eq!(marked, [[0, 1], [2, 3]]);
+        let [warning] = report.warnings() else { panic!("{report:?}") };
+        let part = "meshes[0].primitives[0].extensions.CESIUM_primitive_outline";
+        assert_eq!((warning.code, &warning.place), (WarningCode::Syntax, &place(part)));
+        let (marked, _, report) = outline([1, 0, 2, -1]);
+        assert!(marked.is_empty());
+        let [warning] = report.warnings() else { panic!("{report:?}") };
+        let found = (warning.code, &warning.place, &*warning.message);
+        let message = "has the index -1 at 3; it was left out";
+        assert_eq!(found, (WarningCode::Syntax, &place("accessors[2]"), message));
     }
 }

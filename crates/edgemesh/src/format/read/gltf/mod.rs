@@ -22,6 +22,7 @@ mod accessor;
 mod asset;
 mod buffer;
 mod builder;
+mod component;
 mod deform;
 mod document;
 mod edge_extensions;

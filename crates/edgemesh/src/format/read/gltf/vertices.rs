@@ -12,6 +12,7 @@ use json::mesh::Semantic;
 
 use super::super::error::{ReadError, ReadErrorKind};
 use super::accessor::Accessor;
+use super::document::Accessor as JsonAccessor;
 use super::primitive::Primitive;
 use crate::report::{Place, Report, WarningCode};
 
@@ -54,7 +55,7 @@ pub(super) fn positions(
     Ok(Some(positions))
 }
 
-fn check_bounds(json: &json::Accessor, index: usize, found: &[[f32; 3]], report: &mut Report) {
+fn check_bounds(json: &JsonAccessor, index: usize, found: &[[f32; 3]], report: &mut Report) {
     let stated = |list: &Option<json::Value>, at: usize| list.as_ref()?.get(at)?.as_f64();
     for (at, axis) in ["x", "y", "z"].into_iter().enumerate() {
         let (Some(least), Some(most)) = (stated(&json.min, at), stated(&json.max, at)) else {
