@@ -52,7 +52,13 @@ pub(super) fn read_binary(source: &Source, report: &mut Report) -> Result<Model,
     let (facets, _) = body.as_chunks::<FACET_BYTES>();
     let whole = facets.len();
     if count == 0 {
-        let what = format!("the count of triangles is 0 in a file with room for {whole}");
+        let what = match whole {
+            0 => "the file has no triangles; export the model again".into(),
+            _ => format!(
+                "the file states that it has no triangles, though it has room for {whole}; \
+                 export the model again"
+            ),
+        };
         return error(ReadErrorKind::Empty, HEAD_BYTES as u64 - 4, what);
     }
     if whole == 0 {
@@ -161,6 +167,13 @@ mod tests {
             let error = read(&bytes, &mut Report::default()).unwrap_err();
             assert_eq!((error.kind, error.place), (kind, Some(Place::Byte(place))));
         }
+    }
+
+    #[test]
+    fn a_file_without_triangles_says_so() {
+        let what = |bytes: &[u8]| read(bytes, &mut Report::default()).unwrap_err().what;
+        assert_eq!(what(&file(0, 0)), "the file has no triangles; export the model again");
+        assert!(what(&file(0, 2)).contains("no triangles, though it has room for 2"));
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! Text STL.
 //!
-//! Words may be in upper or lower case, and on any line; only the name of a solid
-//! and the three numbers of a vertex end with their line.
+//! Words may be in upper or lower case, and on any line; only the three numbers of a vertex end
+//! with their line. The name of a solid ends with its line too, or at `facet normal` and a
+//! number: some programs write a whole file as one line.
 //!
 //! ```text
 //! solid NAME                      a group
@@ -113,8 +114,7 @@ impl<'a> TextReader<'_, 'a> {
             Some(Keyword::Solid) => self.begin_solid(),
             Some(Keyword::EndSolid) => {
                 self.end_facet();
-                self.words.take_rest_of_line();
-                self.solid = None;
+                self.end_solid();
             }
             None => self.unknown(word),
         }
@@ -149,9 +149,53 @@ impl<'a> TextReader<'_, 'a> {
         self.end_facet();
         self.warn_of_open_solid();
         self.solid = Some(self.words.line());
-        let name = self.words.take_rest_of_line();
+        let name = match self.facet_in_line() {
+            Some(facet) => self.take_until(facet),
+            None => self.words.take_rest_of_line(),
+        };
         let group = if name.is_empty() { NONE } else { self.group(name) };
         self.model.set_attributes(Attributes { group, ..Attributes::default() });
+    }
+
+    /// Skips the name after `endsolid`, up to the next solid or facet of this line.
+    fn end_solid(&mut self) {
+        self.solid = None;
+        let Some(facet) = self.facet_in_line() else {
+            self.words.take_rest_of_line();
+            return;
+        };
+        while self.words.at() < facet.at() {
+            let before = self.words.clone();
+            if self.words.word().is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) {
+                self.words = before;
+                return;
+            }
+        }
+        self.words = facet;
+    }
+
+    /// The cursor before the next `facet normal` of this line that a number follows.
+    fn facet_in_line(&self) -> Option<Words<'a>> {
+        let mut ahead = self.words.clone();
+        loop {
+            let facet = ahead.clone();
+            if !ahead.word()?.eq_ignore_ascii_case(b"facet") {
+                continue;
+            }
+            let mut normal = ahead.clone();
+            let is_normal = normal.word().is_some_and(|word| word.eq_ignore_ascii_case(b"normal"));
+            if is_normal && matches!(normal.number(), Some(Ok(_))) {
+                return Some(facet);
+            }
+        }
+    }
+
+    /// Moves to `to`; returns the text before it without surrounding blanks.
+    fn take_until(&mut self, to: Words<'a>) -> &'a [u8] {
+        let length = to.at() - self.words.at();
+        let text = self.words.left().get(..length).unwrap_or_default();
+        self.words = to;
+        text.trim_ascii()
     }
 
     fn end_facet(&mut self) {
@@ -303,7 +347,45 @@ mod tests {
     }
 
     #[test]
+    fn a_whole_file_may_be_one_line() {
+        let one = FACET.replace('\n', " ");
+        for (text, groups, facets) in [
+            (format!("solid a {one}{one}endsolid a"), vec!["a"], 2),
+            (format!("solid {one}endsolid"), vec![], 1),
+            (format!("solid a b {one}endsolid a b solid c {one}endsolid c\n"), vec!["a b", "c"], 2),
+            (
+                format!("SOLID facet normals {} ENDSOLID", one.to_uppercase()),
+                vec!["facet normals"],
+                1,
+            ),
+            (format!("solid facet normal map\n{FACET}endsolid\n"), vec!["facet normal map"], 1),
+            (format!("solid a\n{FACET}endsolid a {one}"), vec!["a"], 2),
+        ] {
+            let mut report = Report::default();
+            let model = read(&text, &mut report).unwrap();
+            assert_eq!(
+                (&model.groups, model.polygon_count()),
+                (&groups.iter().map(|&g| g.into()).collect(), facets),
+                "{text}"
+            );
+            assert_eq!(report, Report::default(), "{text}");
+        }
+    }
+
+    #[test]
+    fn vertices_that_are_not_finite_may_be_spelled_as_c_libraries_do() {
+        let text = FACET.replace("vertex 1 0 0", "vertex -nan(ind) 1.#INF00 -1.#IND");
+        let model = read(&text, &mut Report::default()).unwrap();
+        assert!(model.positions[1].iter().all(|x| !x.is_finite()), "{:?}", model.positions);
+    }
+
+    #[test]
     fn many_solids_take_linear_time() {
+        let on_a_line: String = (0..100_000).map(|k| format!("endsolid solid {k} ")).collect();
+        let facet = FACET.replace('\n', " ");
+        for text in [format!("{on_a_line}\n"), format!("solid {on_a_line}{facet}endsolid")] {
+            assert!(read(&text, &mut Report::default()).unwrap().groups.len() < 3);
+        }
         let text: String = (0..100_000).map(|k| format!("solid {k}\nendsolid\n")).collect();
         let model = read(&text, &mut Report::default()).unwrap();
         assert_eq!((model.groups.len(), model.polygon_count()), (100_000, 0));
