@@ -22,6 +22,7 @@ mod normal_transform;
 mod number;
 mod obj;
 mod picture;
+mod picture_structure;
 mod ply;
 mod sniff;
 mod source;

@@ -1,63 +1,49 @@
-//! Finds the pictures that a model names and checks that they are PNG or JPEG, from
-//! their first bytes. They are decoded later, when they are drawn.
+//! Finds the pictures that a model names and checks that they are PNG or JPEG and whole
+//! (`picture_structure`). They are decoded later, when they are drawn.
 //!
 //! Errors follow the picture's name in a sentence and reveal nothing of the file's
 //! content. A missing picture is a warning; the geometry is read all the same.
 
-use std::fs::File;
-use std::io::Read as _;
+use std::io::Cursor;
 use std::sync::Arc;
 
+#[cfg(test)]
+pub(super) use super::picture_structure::SAMPLES;
+use super::picture_structure::check_picture;
 use super::source::Source;
+use crate::format::regular_file::open_regular;
 use crate::model::{MAX_PICTURE_BYTES, Texture, TextureSource};
-
-const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
-const JPEG: &[u8] = b"\xff\xd8\xff";
 
 /// The picture in a file that the model names, of at most [`MAX_PICTURE_BYTES`].
 ///
 /// # Errors
-/// As [`Source::sidecar_file`]; also if the file is not PNG or JPEG.
+/// As [`Source::sidecar_file`]; also if the file is not PNG or JPEG, or cut short.
 pub(super) fn picture_beside(source: &Source, name: &str) -> Result<Texture, String> {
     let path = source.sidecar_file(name, MAX_PICTURE_BYTES)?;
-    let mut head = Vec::new();
-    let read =
-        File::open(&path).and_then(|file| file.take(PNG.len() as u64).read_to_end(&mut head));
-    read.map_err(|error| error.to_string())?;
-    check_kind(&head)?;
+    let opened = open_regular(&path).and_then(|file| Ok((file.metadata()?.len(), file)));
+    let (size, file) = opened.map_err(|error| error.to_string())?;
+    check_picture(file, size)?;
     Ok(Texture { name: name.into(), source: TextureSource::File(path) })
 }
 
 /// The picture that `bytes` of the model file hold.
 ///
 /// # Errors
-/// Fails if they are not PNG or JPEG.
+/// Fails if they are not PNG or JPEG, or cut short.
 pub(super) fn picture_of_bytes(name: &str, bytes: impl Into<Arc<[u8]>>) -> Result<Texture, String> {
     let bytes = bytes.into();
-    check_kind(&bytes)?;
+    check_picture(Cursor::new(&*bytes), bytes.len() as u64)?;
     Ok(Texture { name: name.into(), source: TextureSource::Bytes(bytes) })
 }
 
-fn check_kind(head: &[u8]) -> Result<(), String> {
-    match head.starts_with(PNG) || head.starts_with(JPEG) {
-        true => Ok(()),
-        false => Err("is not a PNG or JPEG picture".into()),
-    }
-}
-
-/// The first bytes of a PNG and of a JPEG picture.
-#[cfg(test)]
-pub(super) const SAMPLES: [&[u8]; 2] =
-    [b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", b"\xff\xd8\xff\xe0\0\x10JFIF"];
-
 #[cfg(test)]
 mod tests {
-    use std::fs;
+    use std::fs::{self, File};
 
     use super::*;
 
     #[test]
-    fn pictures_are_recognized_by_their_first_bytes() {
+    fn pictures_are_recognized_by_their_content() {
         let folder = tempfile::tempdir().unwrap();
         let write = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).unwrap();
         fs::create_dir(folder.path().join("maps")).unwrap();
@@ -65,6 +51,7 @@ mod tests {
         write("b.png", SAMPLES[1]);
         write("c.png", b"GIF89a");
         write("empty.png", b"");
+        write("cut.png", &SAMPLES[0][..40]);
         let source = Source { name: "model", folder: Some(folder.path()), bytes: b"" };
         let found = picture_beside(&source, "maps\\a.png").unwrap();
         let path = folder.path().canonicalize().unwrap().join("maps/a.png");
@@ -73,6 +60,7 @@ mod tests {
         let why = |name| picture_beside(&source, name).unwrap_err();
         assert_eq!(why("c.png"), "is not a PNG or JPEG picture");
         assert_eq!(why("empty.png"), "is not a PNG or JPEG picture");
+        assert_eq!(why("cut.png"), "is cut short");
         assert_eq!(why("d.png"), "was not found");
         assert!(why("../d.png").contains("outside"));
         assert!(why("maps").contains("is not a regular file"));
