@@ -115,7 +115,21 @@ fn what_is_no_model_is_named() {
 
 #[test]
 fn other_formats_under_obj_are_named() {
-    let cases: [(&[u8], &str); 5] = [
+    let iges = format!("{:<72}S      1\n", "a part of our own");
+    let cases: [(&[u8], &str); 18] = [
+        (b"ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('AP214'));\n", "a STEP model: convert it"),
+        (b"ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC4'));\n", "an IFC model: convert it"),
+        (iges.as_bytes(), "an IGES model: convert it"),
+        (b"0\nSECTION\n2\nENTITIES\n", "a DXF drawing: convert it"),
+        (b"# vtk DataFile Version 3.0\n", "a VTK data set: save it"),
+        (b"<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">", "a VTK data set: save it"),
+        (b"#usda 1.0\n", "a USD model: convert it"),
+        (b"<?xml version=\"1.0\"?>\n<COLLADA>", "a COLLADA model: convert it"),
+        (b"<?xml version=\"1.0\"?>\n<X3D>", "an X3D model: convert it"),
+        (b"#X3D V3.3 utf8\n", "an X3D model: convert it"),
+        (b"; FBX 7.4.0 project file\n", "an FBX model: convert it"),
+        (b"0 A brick\n3 16 0 0 0 1 0 0 0 1 0\n", "an LDraw model: convert it"),
+        (b"#Inventor V2.1 ascii\n", "an Open Inventor model: convert it"),
         (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "a PNG picture"),
         (b"<!DOCTYPE html>\n<html><body>404</body></html>\n", "HTML"),
         (b"\x1f\x8b\x08\0\0\0\0\0", "gzip"),

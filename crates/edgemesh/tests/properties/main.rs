@@ -9,6 +9,7 @@
 //! - `readers`: the same polygons and materials as two other OBJ parsers.
 //! - `readers_ply_stl`: the same polygons as other PLY and STL parsers; sound, broken and cut
 //!   files.
+//! - `readers_field`: files that people reported in other projects.
 //! - `readers_gltf`: sound and broken glTF files of other projects.
 //!
 //! `PROPTEST_CASES` (256 for the usual count) makes runs longer,
@@ -23,6 +24,7 @@ mod gltf_edges;
 mod linked;
 mod meshes;
 mod readers;
+mod readers_field;
 mod readers_gltf;
 mod readers_ply_stl;
 mod views;

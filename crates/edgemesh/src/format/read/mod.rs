@@ -14,6 +14,7 @@
 mod byte_order_mark;
 mod error;
 mod firewall;
+mod foreign;
 mod format;
 mod gltf;
 mod load;

@@ -3,13 +3,14 @@
 use std::path::Path;
 
 use super::byte_order_mark::without_mark;
+use super::foreign::foreign_model;
 use super::format::Format;
 use super::stl::size_fits;
 use crate::format::edge_mesh_file::is_edge_mesh;
 
 /// First bytes of common files that are not models, and what to call each in a
 /// message.
-const OTHERS: [(&[u8], &str); 10] = [
+const OTHERS: [(&[u8], &str); 8] = [
     (b"\x89PNG", "a PNG picture"),
     (b"\xff\xd8\xff", "a JPEG picture"),
     (b"GIF8", "a GIF picture"),
@@ -17,8 +18,6 @@ const OTHERS: [(&[u8], &str); 10] = [
     (b"PK\x03\x04", "a ZIP archive: unpack it first"),
     (b"BZh", "bzip2 data: unpack it first"),
     (b"\xff\xfe\0\0", "UTF-32 text: save it as UTF-8"),
-    (b"Kaydara FBX", "an FBX model: convert it to glTF"),
-    (b"PXR-USDC", "a USD model: convert it to glTF"),
     (b"version https://git-lfs", "a Git LFS pointer: fetch the file itself (git lfs pull)"),
 ];
 
@@ -30,6 +29,12 @@ const OTHERS: [(&[u8], &str); 10] = [
 pub(crate) fn sniff(head: &[u8], size: Option<u64>, name: &Path) -> Result<Format, String> {
     if let Some(format) = by_magic(head) {
         return Ok(format);
+    }
+    if size.is_some_and(|size| size_fits(head, size)) {
+        return Ok(Format::Stl);
+    }
+    if let Some(found) = foreign_model(head, size) {
+        return Err(found.into());
     }
     if let Some((_, found)) = OTHERS.iter().find(|(magic, _)| head.starts_with(magic)) {
         return Err((*found).into());
@@ -43,9 +48,6 @@ pub(crate) fn sniff(head: &[u8], size: Option<u64>, name: &Path) -> Result<Forma
             Some(Format::Wrl) => Ok(Format::Wrl),
             _ => Err("gzip data: unpack it first (gunzip)".into()),
         };
-    }
-    if size.is_some_and(|size| size_fits(head, size)) {
-        return Ok(Format::Stl);
     }
     let is_utf16 = head.starts_with(b"\xff\xfe") || head.starts_with(b"\xfe\xff");
     if is_utf16 && named != Some(Format::Obj) {
