@@ -174,7 +174,10 @@ impl ModelMaterials {
             textures.push(match material.diffuse_texture.as_ref().map(base_texture) {
                 Some(Ok(levels)) => upload_levels(gpu, &material.name, &levels),
                 Some(Err(what)) => {
-                    log::warn!("the texture of the material '{}' {what}", material.name);
+                    log::error!(
+                        "the texture of the material '{}' was left out: {what}",
+                        material.name
+                    );
                     images.white(gpu)
                 }
                 None => images.white(gpu),
