@@ -27,7 +27,7 @@ pub struct InputArguments {
     #[arg(long, conflicts_with = "weld")]
     pub no_weld: bool,
     /// File of marked edges: a pair of vertices on each line, counted from 1 [default:
-    /// MODEL.marks, if it exists]
+    /// MODEL.marks, if it exists in the folder of the model]
     #[arg(long, value_name = "FILE")]
     pub marks: Option<PathBuf>,
     /// Treat warnings as errors
