@@ -41,7 +41,7 @@ const EXAMPLES: &str = "Examples:\n  \
 /// Opens the window.
 #[derive(Debug, Args)]
 struct WindowCommand {
-    /// Models (OBJ, PLY, STL, glTF, VRML), edge meshes, or scene files (.toml) [default: a
+    /// Models (OBJ, PLY, STL, glTF, VRML, OFF), edge meshes, or scene files (.toml) [default: a
     /// demo model]
     #[arg(value_name = "MODEL")]
     models: Vec<PathBuf>,

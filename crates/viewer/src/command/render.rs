@@ -34,7 +34,7 @@ use crate::watch::Watcher;
 #[derive(Debug, Clone, Args)]
 #[command(after_long_help = long_help(), after_help = EXAMPLES)]
 pub(super) struct RenderCommand {
-    /// Models (OBJ, PLY, STL, glTF, VRML), edge meshes, or scene files (.toml); - is standard
+    /// Models (OBJ, PLY, STL, glTF, VRML, OFF), edge meshes, or scene files (.toml); - is standard
     /// input
     #[arg(value_name = "MODEL", required = true)]
     models: Vec<PathBuf>,

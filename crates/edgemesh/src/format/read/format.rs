@@ -19,11 +19,14 @@ pub enum Format {
     Glb,
     /// VRML 1.0 and VRML 97.
     Wrl,
+    /// OFF, text or binary.
+    Off,
 }
 
 impl Format {
     /// All formats.
-    pub const ALL: [Self; 6] = [Self::Obj, Self::Ply, Self::Stl, Self::Gltf, Self::Glb, Self::Wrl];
+    pub const ALL: [Self; 7] =
+        [Self::Obj, Self::Ply, Self::Stl, Self::Gltf, Self::Glb, Self::Wrl, Self::Off];
 
     /// The usual file extension, in lower case; `--format` takes the same word.
     #[must_use]
@@ -35,6 +38,7 @@ impl Format {
             Self::Gltf => "gltf",
             Self::Glb => "glb",
             Self::Wrl => "wrl",
+            Self::Off => "off",
         }
     }
 
@@ -48,6 +52,7 @@ impl Format {
             Self::Gltf => "glTF",
             Self::Glb => "binary glTF",
             Self::Wrl => "VRML",
+            Self::Off => "OFF",
         }
     }
 
@@ -63,6 +68,7 @@ impl Format {
             "gltf" => Some(Self::Gltf),
             "glb" => Some(Self::Glb),
             "wrl" | "vrml" | "wrz" => Some(Self::Wrl),
+            "off" => Some(Self::Off),
             "gz" => Self::of_name(Path::new(path.file_stem()?)).filter(|&f| f == Self::Wrl),
             _ => None,
         }

@@ -22,6 +22,7 @@ mod non_finite;
 mod normal_transform;
 mod number;
 mod obj;
+mod off;
 mod picture;
 mod picture_structure;
 mod ply;
@@ -101,6 +102,7 @@ fn read_source(source: &Source, format: Format) -> Result<(Model, Report), ReadE
         Format::Stl => stl::read_stl(source, &mut report),
         Format::Gltf | Format::Glb => gltf::read_gltf(source, validate::gltf::check, &mut report),
         Format::Wrl => vrml::read_vrml(source, &mut report),
+        Format::Off => off::read_off(source, &mut report),
     };
     // A panic may leave the report half written; the caller does not get it then.
     let mut model = catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|_| {

@@ -5,6 +5,7 @@ use std::path::Path;
 use super::byte_order_mark::without_mark;
 use super::foreign::foreign_model;
 use super::format::Format;
+use super::off::begins_with_keyword;
 use super::stl::size_fits;
 use crate::format::edge_mesh_file::is_edge_mesh;
 
@@ -65,6 +66,9 @@ pub(crate) fn sniff(head: &[u8], size: Option<u64>, name: &Path) -> Result<Forma
     if starts(b"{") {
         return Ok(Format::Gltf);
     }
+    if begins_with_keyword(head) {
+        return Ok(Format::Off);
+    }
     by_name(head, named, is_utf16)
 }
 
@@ -91,7 +95,9 @@ fn by_name(head: &[u8], named: Option<Format>, is_utf16: bool) -> Result<Format,
         }
         Some(Format::Gltf) => Err("text without '{' at its start, which glTF needs".into()),
         Some(Format::Stl) => Ok(Format::Stl),
-        Some(Format::Obj) | None if is_binary => Err("binary data".into()),
+        Some(Format::Obj | Format::Off) | None if is_binary => Err("binary data".into()),
+        // A keyword is not needed, and `sniff` has looked for it.
+        Some(Format::Off) => Ok(Format::Off),
         // Text of unknown kind: OBJ is the only format without a signature.
         Some(Format::Obj) | None => Ok(Format::Obj),
     }
@@ -121,6 +127,9 @@ mod tests {
         assert_eq!(sniffed(b"glTF\x02\0\0\0", "a.stl"), Ok(Format::Glb));
         assert_eq!(sniffed(b"#VRML V2.0 utf8\n", "a"), Ok(Format::Wrl));
         assert_eq!(sniffed(b"  {\"asset\"", "a"), Ok(Format::Gltf));
+        assert_eq!(sniffed(b"# comment\nCOFF 8 6 12\n", "a.obj"), Ok(Format::Off));
+        assert_eq!(sniffed(b"OFF BINARY\n\0\0\0\x08", "a"), Ok(Format::Off));
+        assert_eq!(sniffed(b"8 6 12\n", "a.off"), Ok(Format::Off), "the keyword may be missing");
         assert_eq!(sniffed(b"\x1f\x8b\x08", "a.wrl.gz"), Ok(Format::Wrl));
         assert!(sniffed(b"Shape {}", "a.wrl").unwrap_err().contains("#VRML"));
     }
