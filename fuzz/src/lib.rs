@@ -8,6 +8,7 @@ use edgemesh::edge_mesh::{EdgeMesh, replicate, replicate_16};
 use edgemesh::format::read::{Format, ReadErrorKind, read_model_bytes};
 use edgemesh::line::LineClass;
 use edgemesh::view::{Camera, count_features};
+use flate2::Crc;
 
 /// Reads a model and, where that succeeds, builds and uses its edge mesh.
 ///
@@ -28,4 +29,25 @@ pub fn use_mesh(mesh: &EdgeMesh) {
     let counts = count_features(mesh, eye);
     assert!(counts[LineClass::Contour] as usize <= mesh.records.len());
     assert_eq!(replicate(mesh).len(), replicate_16(mesh).len());
+}
+
+/// A ZIP archive of one part, not packed.
+#[must_use]
+pub fn stored_part(name: &str, content: &[u8]) -> Vec<u8> {
+    let size = u32::try_from(content.len()).unwrap_or(u32::MAX).to_le_bytes();
+    let name_length = u16::try_from(name.len()).unwrap_or(u16::MAX).to_le_bytes();
+    let mut checksum = Crc::new();
+    checksum.update(content);
+    // Version 2.0, no flags, not packed, no date.
+    let header =
+        [&[20, 0, 0, 0, 0, 0, 0, 0, 0, 0], &checksum.sum().to_le_bytes()[..], &size, &size]
+            .concat();
+    let local =
+        [b"PK\x03\x04", &header[..], &name_length, &[0, 0], name.as_bytes(), content].concat();
+    let record =
+        [b"PK\x01\x02", &[20, 0][..], &header, &name_length, &[0; 16], name.as_bytes()].concat();
+    let place = [local.len(), record.len()].map(|n| u32::try_from(n).unwrap_or(u32::MAX));
+    let [start, length] = place.map(u32::to_le_bytes);
+    let end = [b"PK\x05\x06", &[0, 0, 0, 0, 1, 0, 1, 0][..], &length, &start, &[0, 0]].concat();
+    [local, record, end].concat()
 }

@@ -26,7 +26,7 @@ use crate::view::{FeatureCounts, count_features};
     edgemesh info part.stl --ridge 20 --valley 60\n  \
     edgemesh info part.edgemesh other.glb --json")]
 pub struct InfoCommand {
-    /// Models (OBJ, PLY, STL, glTF, VRML, OFF) or edge meshes; - is standard input
+    /// Models (OBJ, PLY, STL, glTF, VRML, OFF, 3MF) or edge meshes; - is standard input
     #[arg(value_name = "MODEL", required = true)]
     pub models: Vec<PathBuf>,
     /// Print JSON: an object, or an array of objects for several models

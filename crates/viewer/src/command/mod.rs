@@ -41,8 +41,8 @@ const EXAMPLES: &str = "Examples:\n  \
 /// Opens the window.
 #[derive(Debug, Args)]
 struct WindowCommand {
-    /// Models (OBJ, PLY, STL, glTF, VRML, OFF), edge meshes, or scene files (.toml) [default: a
-    /// demo model]
+    /// Models (OBJ, PLY, STL, glTF, VRML, OFF, 3MF), edge meshes, or scene files (.toml)
+    /// [default: a demo model]
     #[arg(value_name = "MODEL")]
     models: Vec<PathBuf>,
     #[command(flatten)]

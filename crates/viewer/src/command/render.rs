@@ -34,8 +34,8 @@ use crate::watch::Watcher;
 #[derive(Debug, Clone, Args)]
 #[command(after_long_help = long_help(), after_help = EXAMPLES)]
 pub(super) struct RenderCommand {
-    /// Models (OBJ, PLY, STL, glTF, VRML, OFF), edge meshes, or scene files (.toml); - is standard
-    /// input
+    /// Models (OBJ, PLY, STL, glTF, VRML, OFF, 3MF), edge meshes, or scene files (.toml); -
+    /// is standard input
     #[arg(value_name = "MODEL", required = true)]
     models: Vec<PathBuf>,
     /// The picture to write (PNG), or - for standard output

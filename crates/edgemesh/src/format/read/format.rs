@@ -21,12 +21,22 @@ pub enum Format {
     Wrl,
     /// OFF, text or binary.
     Off,
+    /// 3MF.
+    ThreeMf,
 }
 
 impl Format {
     /// All formats.
-    pub const ALL: [Self; 7] =
-        [Self::Obj, Self::Ply, Self::Stl, Self::Gltf, Self::Glb, Self::Wrl, Self::Off];
+    pub const ALL: [Self; 8] = [
+        Self::Obj,
+        Self::Ply,
+        Self::Stl,
+        Self::Gltf,
+        Self::Glb,
+        Self::Wrl,
+        Self::Off,
+        Self::ThreeMf,
+    ];
 
     /// The usual file extension, in lower case; `--format` takes the same word.
     #[must_use]
@@ -39,6 +49,7 @@ impl Format {
             Self::Glb => "glb",
             Self::Wrl => "wrl",
             Self::Off => "off",
+            Self::ThreeMf => "3mf",
         }
     }
 
@@ -53,6 +64,7 @@ impl Format {
             Self::Glb => "binary glTF",
             Self::Wrl => "VRML",
             Self::Off => "OFF",
+            Self::ThreeMf => "3MF",
         }
     }
 
@@ -69,6 +81,7 @@ impl Format {
             "glb" => Some(Self::Glb),
             "wrl" | "vrml" | "wrz" => Some(Self::Wrl),
             "off" => Some(Self::Off),
+            "3mf" => Some(Self::ThreeMf),
             "gz" => Self::of_name(Path::new(path.file_stem()?)).filter(|&f| f == Self::Wrl),
             _ => None,
         }

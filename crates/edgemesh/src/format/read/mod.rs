@@ -29,6 +29,7 @@ mod ply;
 mod sniff;
 mod source;
 mod stl;
+mod threemf;
 mod vrml;
 mod words;
 
@@ -103,6 +104,7 @@ fn read_source(source: &Source, format: Format) -> Result<(Model, Report), ReadE
         Format::Gltf | Format::Glb => gltf::read_gltf(source, validate::gltf::check, &mut report),
         Format::Wrl => vrml::read_vrml(source, &mut report),
         Format::Off => off::read_off(source, &mut report),
+        Format::ThreeMf => threemf::read_3mf(source, &mut report),
     };
     // A panic may leave the report half written; the caller does not get it then.
     let mut model = catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|_| {

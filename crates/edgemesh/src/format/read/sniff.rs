@@ -34,6 +34,11 @@ pub(crate) fn sniff(head: &[u8], size: Option<u64>, name: &Path) -> Result<Forma
     if size.is_some_and(|size| size_fits(head, size)) {
         return Ok(Format::Stl);
     }
+    if head.starts_with(b"PK\x03\x04")
+        && (holds_model_part(head) || Format::of_name(name) == Some(Format::ThreeMf))
+    {
+        return Ok(Format::ThreeMf);
+    }
     if let Some(found) = foreign_model(head, size) {
         return Err(found.into());
     }
@@ -72,6 +77,11 @@ pub(crate) fn sniff(head: &[u8], size: Option<u64>, name: &Path) -> Result<Forma
     by_name(head, named, is_utf16)
 }
 
+/// Whether the first parts of a ZIP archive have the name of a model part of 3MF.
+fn holds_model_part(head: &[u8]) -> bool {
+    memchr::memmem::find(head, b"3D/3dmodel.model").is_some()
+}
+
 fn by_magic(head: &[u8]) -> Option<Format> {
     let first_line = without_mark(head);
     if head.starts_with(b"glTF") {
@@ -93,6 +103,7 @@ fn by_name(head: &[u8], named: Option<Format>, is_utf16: bool) -> Result<Format,
         Some(Format::Glb) => {
             Err("data without 'glTF' at its start, which binary glTF needs".into())
         }
+        Some(Format::ThreeMf) => Err("data without 'PK' at its start, which 3MF needs".into()),
         Some(Format::Gltf) => Err("text without '{' at its start, which glTF needs".into()),
         Some(Format::Stl) => Ok(Format::Stl),
         Some(Format::Obj | Format::Off) | None if is_binary => Err("binary data".into()),
@@ -129,6 +140,10 @@ mod tests {
         assert_eq!(sniffed(b"  {\"asset\"", "a"), Ok(Format::Gltf));
         assert_eq!(sniffed(b"# comment\nCOFF 8 6 12\n", "a.obj"), Ok(Format::Off));
         assert_eq!(sniffed(b"OFF BINARY\n\0\0\0\x08", "a"), Ok(Format::Off));
+        let package = b"PK\x03\x04...3D/3dmodel.model...";
+        assert_eq!(sniffed(package, "a.zip"), Ok(Format::ThreeMf));
+        assert_eq!(sniffed(b"PK\x03\x04", "a.3mf"), Ok(Format::ThreeMf));
+        assert!(sniffed(b"PK\x03\x04", "a.zip").unwrap_err().contains("unpack it first"));
         assert_eq!(sniffed(b"8 6 12\n", "a.off"), Ok(Format::Off), "the keyword may be missing");
         assert_eq!(sniffed(b"\x1f\x8b\x08", "a.wrl.gz"), Ok(Format::Wrl));
         assert!(sniffed(b"Shape {}", "a.wrl").unwrap_err().contains("#VRML"));
