@@ -3,6 +3,8 @@
 //! `FOUND` is a folder for inputs that reach new code, `SEEDS` one with files of
 //! the format. An input that ends a run becomes a test of its reader.
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::{EdgeMesh, replicate, replicate_16};
 use edgemesh::format::read::{Format, ReadErrorKind, read_model_bytes};
@@ -50,4 +52,51 @@ pub fn stored_part(name: &str, content: &[u8]) -> Vec<u8> {
     let [start, length] = place.map(u32::to_le_bytes);
     let end = [b"PK\x05\x06", &[0, 0, 0, 0, 1, 0, 1, 0][..], &length, &start, &[0, 0]].concat();
     [local, record, end].concat()
+}
+
+/// A glTF file with a compressed buffer view of `count` elements: positions, or indices
+/// behind positions that are zeros. `kind` chooses its mode, filter and stride.
+#[must_use]
+pub fn compressed_gltf(kind: u8, count: u16, stream: &[u8]) -> String {
+    let (mode, filter, stride) = match kind % 10 {
+        0 => ("TRIANGLES", "NONE", 2),
+        1 => ("TRIANGLES", "NONE", 4),
+        2 => ("INDICES", "NONE", 2),
+        3 => ("INDICES", "NONE", 4),
+        4 => ("ATTRIBUTES", "OCTAHEDRAL", 8),
+        5 => ("ATTRIBUTES", "QUATERNION", 8),
+        6 => ("ATTRIBUTES", "EXPONENTIAL", 12),
+        7 => ("ATTRIBUTES", "COLOR", 8),
+        8 => ("ATTRIBUTES", "NONE", 12),
+        _ => ("ATTRIBUTES", "NONE", 64),
+    };
+    let count = u32::from(count) / 3 * 3;
+    let (bytes, stream_bytes) = (count * stride, stream.len());
+    let component = match stride {
+        2 | 8 => 5122 + u32::from(stride == 2),
+        _ => 5126 - u32::from(stride == 4),
+    };
+    let (attributes, indices) = match mode {
+        "ATTRIBUTES" => (0, ""),
+        _ => (1, r#", "indices": 0"#),
+    };
+    let kind = if indices.is_empty() { "VEC3" } else { "SCALAR" };
+    let data = STANDARD.encode(stream);
+    format!(
+        r#"{{"asset": {{"version": "2.0"}}, "nodes": [{{"mesh": 0}}],
+        "meshes": [{{"primitives": [{{"attributes": {{"POSITION": {attributes}}}{indices}}}]}}],
+        "accessors": [
+            {{"bufferView": 0, "componentType": {component}, "count": {count}, "type": "{kind}"}},
+            {{"componentType": 5126, "count": 9, "type": "VEC3"}}
+        ],
+        "bufferViews": [{{"buffer": 1, "byteLength": {bytes}, "byteStride": {stride},
+            "extensions": {{"KHR_meshopt_compression": {{
+                "buffer": 0, "byteLength": {stream_bytes}, "byteStride": {stride},
+                "count": {count}, "mode": "{mode}", "filter": "{filter}"
+            }}}}
+        }}],
+        "buffers": [
+            {{"byteLength": {stream_bytes}, "uri": "data:;base64,{data}"}}, {{"byteLength": {bytes}}}
+        ]}}"#
+    )
 }

@@ -16,7 +16,7 @@ use crate::child::{json, run, stderr};
 use crate::expectations::check_any;
 
 /// The extensions of model files.
-const ENDINGS: [&str; 7] = ["obj", "ply", "stl", "gltf", "glb", "wrl", "gz"];
+const ENDINGS: [&str; 9] = ["obj", "ply", "stl", "gltf", "glb", "wrl", "gz", "off", "3mf"];
 
 /// The least number of files in the corpus.
 const FILES: usize = 450;
@@ -25,11 +25,10 @@ const FILES: usize = 450;
 const LIMIT_KIB: usize = 1 << 20;
 
 /// Files in the folders of sound files that do not load, with the reasons.
-const REFUSED: [(&str, &str); 18] = [
+const REFUSED: [(&str, &str); 17] = [
     ("gltf/blender-io/00_empty_scene/00_empty_scene.gltf", "no mesh in it"),
     ("gltf/gltf-transform/cli/ACMEBox.gltf", "requires an unknown extension"),
     ("gltf/gltf-transform/functions/DenseSphere.glb", "requires Draco"),
-    ("gltf/meshoptimizer/pirate.glb", "requires meshopt compression"),
     ("obj/assimp/point_cloud.obj", "points without faces"),
     ("obj/assimp/testpoints.obj", "points without faces"),
     ("obj/tinyobjloader/issue-356-leading-spaces-newmtl.obj", "no geometry at all"),

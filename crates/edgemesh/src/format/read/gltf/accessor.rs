@@ -14,8 +14,6 @@
 //! floats, which hold all component types exactly except 32-bit integers; those occur
 //! only in indices.
 
-use std::ops::Range;
-
 use gltf_json as json;
 use json::accessor::Type;
 use json::validation::Checked;
@@ -23,12 +21,14 @@ use json::validation::Checked;
 use super::super::error::{ReadError, ReadErrorKind};
 use super::super::source::Source;
 use super::asset::Asset;
+use super::buffer::slice;
 use super::component::Component;
+use super::meshopt::decode;
 use crate::report::Place;
 
 /// An accessor without a view consists of zeros, which take no bytes of the file: at
 /// most this many elements beyond one for each byte.
-const MAX_FREE_ZEROS: u64 = 1 << 16;
+pub(super) const MAX_FREE_ZEROS: u64 = 1 << 16;
 
 /// An accessor with checked ranges.
 #[derive(Debug)]
@@ -165,6 +165,9 @@ impl Asset<'_> {
     /// of its buffer.
     pub(super) fn view(&self, index: usize, part: &dyn Fn() -> String) -> Result<&[u8], ReadError> {
         let view = self.get(&self.document.buffer_views, index, "bufferViews", part)?;
+        if let Some(decoded) = self.decoded_view(index, view)? {
+            return Ok(decoded);
+        }
         let view_part = || format!("bufferViews[{index}]");
         let buffer = self.buffer(view.buffer.value(), view_part)?;
         let start = view.byte_offset.unwrap_or_default().0;
@@ -174,6 +177,17 @@ impl Asset<'_> {
                 format!("needs {length} bytes from byte {start} of a buffer with {}", buffer.len());
             self.error(ReadErrorKind::Bounds, view_part(), what)
         })
+    }
+
+    /// The bytes of a compressed view; `None` if it is not compressed.
+    fn decoded_view(
+        &self,
+        index: usize,
+        view: &json::buffer::View,
+    ) -> Result<Option<&[u8]>, ReadError> {
+        let Some(cell) = self.decoded_views.get(index) else { return Ok(None) };
+        let decoded = cell.get_or_init(|| decode(self, index, view));
+        decoded.as_ref().map(Option::as_deref).map_err(Clone::clone)
     }
 
     /// The bytes of elements; `part` is their accessor.
@@ -207,12 +221,6 @@ impl Asset<'_> {
         // The stride of existing elements is at most the length of a view.
         Ok(Elements { bytes, stride: usize::try_from(stride).unwrap_or(usize::MAX) })
     }
-}
-
-/// A range of `bytes`; `None` if it leaves them.
-fn slice(bytes: &[u8], start: u64, length: u64) -> Option<&[u8]> {
-    let end = start.checked_add(length)?;
-    bytes.get(Range { start: usize::try_from(start).ok()?, end: usize::try_from(end).ok()? })
 }
 
 impl Accessor<'_> {

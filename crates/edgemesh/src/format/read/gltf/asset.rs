@@ -22,6 +22,9 @@ pub(super) struct Asset<'a> {
     pub(super) binary: Option<&'a [u8]>,
     /// The bytes of each buffer with a URI, read at the first use.
     pub(super) loaded_buffers: Vec<OnceCell<Result<Vec<u8>, ReadError>>>,
+    /// The bytes of each compressed view, decoded at the first use; `None` if it is not
+    /// compressed.
+    pub(super) decoded_views: Vec<OnceCell<Result<Option<Vec<u8>>, ReadError>>>,
     pub(super) budget: Budget,
 }
 
@@ -34,7 +37,8 @@ impl<'a> Asset<'a> {
     ) -> Self {
         let loaded_buffers = document.buffers.iter().map(|_| OnceCell::new()).collect();
         let budget = Budget::new(source.bytes.len());
-        Self { source, document, binary, loaded_buffers, budget }
+        let decoded_views = document.buffer_views.iter().map(|_| OnceCell::new()).collect();
+        Self { source, document, binary, loaded_buffers, decoded_views, budget }
     }
 
     /// An error at a part of the JSON, such as `nodes[3]`.

@@ -6,6 +6,8 @@
 //! A buffer is read once, when an accessor first needs it. So a missing file of
 //! normals costs only the normals.
 
+use std::ops::Range;
+
 use super::super::error::{ReadError, ReadErrorKind};
 use super::asset::Asset;
 use super::uri::{UriTarget, resolve};
@@ -52,6 +54,12 @@ impl Asset<'_> {
             .inspect(|bytes| self.budget.add_bytes(bytes.len()))
             .map_err(|what| self.error(ReadErrorKind::Uri, format!("buffers[{index}].uri"), what))
     }
+}
+
+/// A range of `bytes`; `None` if it leaves them.
+pub(super) fn slice(bytes: &[u8], start: u64, length: u64) -> Option<&[u8]> {
+    let end = start.checked_add(length)?;
+    bytes.get(Range { start: usize::try_from(start).ok()?, end: usize::try_from(end).ok()? })
 }
 
 #[cfg(test)]

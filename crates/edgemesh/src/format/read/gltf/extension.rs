@@ -11,8 +11,10 @@ use crate::report::Place;
 
 /// Extensions that are supported, or do not affect geometry; a name that ends with
 /// `_` stands for all names with this prefix.
-const SUPPORTED_OR_HARMLESS: [&str; 17] = [
+const SUPPORTED_OR_HARMLESS: [&str; 19] = [
     "KHR_mesh_quantization",
+    "EXT_meshopt_compression",
+    "KHR_meshopt_compression",
     "KHR_node_visibility",
     "EXT_mesh_primitive_edge_visibility",
     "CESIUM_primitive_outline",
@@ -33,10 +35,8 @@ const SUPPORTED_OR_HARMLESS: [&str; 17] = [
 ];
 
 /// What to do about unsupported extensions that affect geometry.
-const ADVICE: [(&str, &str); 4] = [
+const ADVICE: [(&str, &str); 2] = [
     ("KHR_draco_mesh_compression", "decompress it with `gltf-transform copy IN OUT`"),
-    ("EXT_meshopt_compression", "decompress it with `gltf-transform copy IN OUT`"),
-    ("KHR_meshopt_compression", "decompress it with `gltf-transform copy IN OUT`"),
     ("EXT_mesh_gpu_instancing", "export each instance as a node"),
 ];
 

@@ -2,12 +2,13 @@
 //!
 //! Based on: the glTF 2.0 specification, sections 3 (JSON) and 4 (GLB), with
 //! the extensions `KHR_mesh_quantization`, `KHR_node_visibility`,
+//! `EXT_meshopt_compression`, `KHR_meshopt_compression`,
 //! `EXT_mesh_primitive_edge_visibility` and `CESIUM_primitive_outline`.
 //!
 //! ```text
 //! bytes --glb--> JSON --document, extension--> Document --scene--> nodes in order
 //!         |                                                            |
-//!         '--> BIN --buffer--> accessor --vertices, topology, deform--builder--> Model
+//!         '--> BIN --buffer, meshopt--> accessor --vertices, topology, deform--builder--> Model
 //! ```
 //!
 //! The JSON is parsed into the structures of `gltf-json`; container, buffers and
@@ -31,6 +32,7 @@ mod glb;
 #[cfg(test)]
 mod khronos_validator;
 mod material;
+mod meshopt;
 mod primitive;
 #[cfg(test)]
 mod sample;
