@@ -25,7 +25,7 @@ use crate::index::NONE;
 /// Methods panic if an index is out of range; rigs from a reader have none.
 #[derive(Debug, Clone, Default)]
 pub struct Rig {
-    /// All nodes, in the order of the file.
+    /// All nodes, in the order of the file, then instances of nodes, as their children.
     pub nodes: Vec<RigNode>,
     /// Indices into `nodes`, each node after its parent.
     pub node_order: Vec<u32>,

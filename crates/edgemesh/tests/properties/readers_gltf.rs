@@ -113,13 +113,8 @@ fn sound_files_load_without_a_word() {
 /// The defect of the model of a sound file, if any.
 fn judge_sound(name: &str, model: &Model, report: &Report) -> Option<String> {
     let warnings: Vec<WarningCode> = report.warnings().iter().map(|told| told.code).collect();
-    let expected: &[WarningCode] = if name.contains("gpu_instancing") {
-        &[WarningCode::Unsupported]
-    } else if WITHOUT_PICTURES.contains(&name) {
-        &[WarningCode::Material]
-    } else {
-        &[]
-    };
+    let expected: &[WarningCode] =
+        if WITHOUT_PICTURES.contains(&name) { &[WarningCode::Material] } else { &[] };
     if warnings != expected {
         return Some(format!("{name}: {:?}", report.warnings()));
     }

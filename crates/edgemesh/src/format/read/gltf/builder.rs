@@ -24,6 +24,7 @@ use super::asset::Asset;
 use super::deform::{add_influences, morph_targets, new_rig};
 use super::edge_extensions::edge_marks;
 use super::extension::check_uncompressed;
+use super::instances::instances;
 use super::material::material;
 use super::primitive::Primitive;
 use super::scene::NodeHierarchy;
@@ -31,8 +32,10 @@ use super::texture::PictureCache;
 use super::topology::{Shapes, shapes};
 use super::vertices::{VertexAttributes, positions};
 use crate::index::{NONE, to_u32};
-use crate::model::{Attributes, Corner, Model, Pose, Rig, RigPart, Segment, Smoothing};
-use crate::report::{Place, Report, WarningCode};
+use crate::model::{
+    Attributes, Corner, Model, NodeTransform, Pose, Rig, RigNode, RigPart, Segment, Smoothing,
+};
+use crate::report::{Report, WarningCode};
 
 /// A model and its rig, to which nodes are added.
 #[derive(Debug)]
@@ -69,6 +72,15 @@ struct VertexRange {
     is_mirrored: bool,
 }
 
+/// Where a mesh is drawn.
+#[derive(Debug, Clone, Copy)]
+struct Spot {
+    /// The node that has the mesh.
+    node: usize,
+    /// The node of the rig that places it: the same, or an instance.
+    rig_node: usize,
+}
+
 impl<'a> ModelBuilder<'a> {
     /// An empty model with the rig of the file.
     ///
@@ -96,16 +108,44 @@ impl<'a> ModelBuilder<'a> {
         let Some(mesh_index) = node.mesh.map(|mesh| mesh.value()) else { return Ok(()) };
         let part = || format!("nodes[{index}]");
         let mesh = self.asset.get(&document.meshes, mesh_index, "meshes", part)?;
-        let extensions = node.extensions.as_ref();
-        if extensions.is_some_and(|all| all.others.contains_key("EXT_mesh_gpu_instancing")) {
-            self.report.warn(WarningCode::Unsupported, Some(Place::Part(part())), || {
-                "EXT_mesh_gpu_instancing is not supported: the mesh is drawn once".into()
-            });
+        let found = instances(self.asset, index, node).unwrap_or_else(|error| {
+            error.warn_left_out(self.report);
+            None
+        });
+        let Some(found) = found else {
+            return self.add_mesh(Spot { node: index, rig_node: index }, mesh_index, mesh);
+        };
+        for transform in found {
+            let spot = Spot { node: index, rig_node: self.add_instance(index, transform) };
+            self.add_mesh(spot, mesh_index, mesh)?;
         }
-        let mut names = [&node.name, &mesh.name].into_iter().flatten();
+        Ok(())
+    }
+
+    /// Adds an instance to the rig, as a child of its node; returns its index there.
+    fn add_instance(&mut self, node: usize, transform: NodeTransform) -> usize {
+        let index = self.rig.nodes.len();
+        self.rig.nodes.push(RigNode { parent: to_u32(node), transform });
+        self.rig.node_order.push(to_u32(index));
+        let world_from_node = self.rest.world_from_node.get(node).copied().unwrap_or_default();
+        self.rest.world_from_node.push(world_from_node * transform.parent_from_node());
+        index
+    }
+
+    /// Adds a mesh at a node or at an instance of it.
+    fn add_mesh(
+        &mut self,
+        spot: Spot,
+        mesh_index: usize,
+        mesh: &'a json::Mesh,
+    ) -> Result<(), ReadError> {
+        let node = self.asset.document.nodes.get(spot.node);
+        let node_name = node.and_then(|node| node.name.as_ref());
+        let mut names = [node_name, mesh.name.as_ref()].into_iter().flatten();
         let name = names.find(|name| !name.is_empty());
         let group = to_u32(self.model.groups.len());
-        self.model.groups.push(name.cloned().unwrap_or_else(part));
+        let unnamed = || format!("nodes[{}]", spot.node);
+        self.model.groups.push(name.cloned().unwrap_or_else(unnamed));
         let mut ranges = HashMap::new();
         for (at, json) in mesh.primitives.iter().enumerate() {
             let primitive = Primitive { asset: self.asset, json, mesh: mesh_index, index: at };
@@ -113,7 +153,7 @@ impl<'a> ModelBuilder<'a> {
             self.asset.spend(cost, || primitive.part())?;
             let range = match ranges.entry(vertex_key(json)) {
                 Entry::Occupied(shared) => *shared.get(),
-                Entry::Vacant(new) => *new.insert(self.add_vertices(index, mesh, primitive)?),
+                Entry::Vacant(new) => *new.insert(self.add_vertices(spot, mesh, primitive)?),
             };
             let Some(range) = range else { continue };
             let material = self.material(json);
@@ -148,7 +188,7 @@ impl<'a> ModelBuilder<'a> {
     /// positions.
     fn add_vertices(
         &mut self,
-        node: usize,
+        Spot { node, rig_node }: Spot,
         mesh: &json::Mesh,
         primitive: Primitive,
     ) -> Result<Option<VertexRange>, ReadError> {
@@ -174,13 +214,13 @@ impl<'a> ModelBuilder<'a> {
             count: to_u32(count),
             has_normals: !attributes.normals.is_empty(),
             has_texcoords: !attributes.texcoords.is_empty(),
-            is_mirrored: self.is_mirrored(node, skin),
+            is_mirrored: self.is_mirrored(rig_node, skin),
         };
         extend_from(&mut self.model.normals, start, attributes.normals, [0.0; 3]);
         extend_from(&mut self.model.texcoords, start, attributes.texcoords, [0.0; 2]);
         extend_from(&mut self.model.colors, start, attributes.colors, WHITE);
         self.rig.positions.extend(positions.into_iter().map(|position| position.map(f64::from)));
-        self.rig.parts.push(RigPart { vertices, node: to_u32(node), skin, weights, targets });
+        self.rig.parts.push(RigPart { vertices, node: to_u32(rig_node), skin, weights, targets });
         Ok(Some(range))
     }
 
@@ -354,6 +394,7 @@ mod tests {
 
     use super::super::sample::{SQUARE, Sample, TWO_TRIANGLES, one_mesh};
     use super::*;
+    use crate::report::Place;
 
     /// A square with normals, on a node with these members.
     fn square_on(node: &json::Value) -> Model {
@@ -476,10 +517,9 @@ mod tests {
         let mut rest = one_mesh(&triangle);
         rest["meshes"][0]["primitives"] =
             json!([{"attributes": {"NORMAL": positions}, "indices": 0}, triangle]);
-        rest["nodes"][0]["extensions"] = json!({"EXT_mesh_gpu_instancing": {}});
         let (model, report) = sample.read(&rest).unwrap();
         assert_eq!(model.polygon_count(), 1);
-        assert_eq!(report.count(WarningCode::Unsupported), 2);
+        assert_eq!(report.count(WarningCode::Unsupported), 1);
         let refusal = |rest: json::Value| sample.read(&rest).unwrap_err();
         let error = refusal(one_mesh(&json!({"attributes": {"POSITION": positions}, "mode": 9})));
         assert_eq!(error.kind, ReadErrorKind::Syntax);

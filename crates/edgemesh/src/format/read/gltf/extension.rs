@@ -11,8 +11,9 @@ use crate::report::Place;
 
 /// Extensions that are supported, or do not affect geometry; a name that ends with
 /// `_` stands for all names with this prefix.
-const SUPPORTED_OR_HARMLESS: [&str; 19] = [
+const SUPPORTED_OR_HARMLESS: [&str; 20] = [
     "KHR_mesh_quantization",
+    "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "KHR_meshopt_compression",
     "KHR_node_visibility",
@@ -34,11 +35,9 @@ const SUPPORTED_OR_HARMLESS: [&str; 19] = [
     "EXT_structural_metadata",
 ];
 
-/// What to do about unsupported extensions that affect geometry.
-const ADVICE: [(&str, &str); 2] = [
-    ("KHR_draco_mesh_compression", "decompress it with `gltf-transform copy IN OUT`"),
-    ("EXT_mesh_gpu_instancing", "export each instance as a node"),
-];
+/// An unsupported extension that replaces geometry, and what to do about it.
+const DRACO: (&str, &str) =
+    ("KHR_draco_mesh_compression", "decompress it with `gltf-transform copy IN OUT`");
 
 /// Checks that all required extensions are supported or harmless.
 ///
@@ -50,8 +49,7 @@ pub(super) fn check_required(source: &Source, document: &Document) -> Result<(),
         None => Ok(()),
         Some(at) => {
             let name = &required[at];
-            let advice = ADVICE.iter().find(|(known, _)| known == name);
-            let advice = advice.map_or("export the model without it", |(_, advice)| advice);
+            let advice = if name == DRACO.0 { DRACO.1 } else { "export the model without it" };
             let what =
                 format!("the file requires the extension {name}, which is not supported: {advice}");
             let place = Place::Part(format!("extensionsRequired[{at}]"));
@@ -65,7 +63,7 @@ pub(super) fn check_required(source: &Source, document: &Document) -> Result<(),
 /// # Errors
 /// `Extension` if it has not, even if the file does not require the extension.
 pub(super) fn check_uncompressed(primitive: Primitive) -> Result<(), ReadError> {
-    let (name, advice) = ADVICE[0];
+    let (name, advice) = DRACO;
     let index = primitive.json.attributes.get(&Checked::Valid(Semantic::Positions));
     let accessors = &primitive.asset.document.accessors;
     let accessor = index.and_then(|index| accessors.get(index.value()));

@@ -2,7 +2,7 @@
 //!
 //! Based on: the glTF 2.0 specification, sections 3 (JSON) and 4 (GLB), with
 //! the extensions `KHR_mesh_quantization`, `KHR_node_visibility`,
-//! `EXT_meshopt_compression`, `KHR_meshopt_compression`,
+//! `EXT_mesh_gpu_instancing`, `EXT_meshopt_compression`, `KHR_meshopt_compression`,
 //! `EXT_mesh_primitive_edge_visibility` and `CESIUM_primitive_outline`.
 //!
 //! ```text
@@ -29,6 +29,7 @@ mod document;
 mod edge_extensions;
 mod extension;
 mod glb;
+mod instances;
 #[cfg(test)]
 mod khronos_validator;
 mod material;
@@ -37,6 +38,7 @@ mod primitive;
 #[cfg(test)]
 mod sample;
 mod scene;
+mod scene_size;
 mod texture;
 mod topology;
 mod uri;
@@ -46,6 +48,7 @@ use asset::Asset;
 use builder::ModelBuilder;
 use document::RuleCheck;
 use scene::{NodeHierarchy, is_visible};
+use scene_size::check_scene_size;
 
 use super::error::ReadError;
 use super::source::Source;
@@ -67,8 +70,10 @@ pub(super) fn read_gltf(
     extension::check_required(source, &document)?;
     let asset = Asset::new(source, &document, container.binary);
     let hierarchy = NodeHierarchy::new(&asset)?;
+    let nodes = hierarchy.drawn_nodes(&asset)?;
+    check_scene_size(&asset, &nodes)?;
     let mut builder = ModelBuilder::new(&asset, &hierarchy, report)?;
-    for node in hierarchy.drawn_nodes(&asset)? {
+    for node in nodes {
         builder.add_node(node)?;
     }
     let mut model = builder.finish();
