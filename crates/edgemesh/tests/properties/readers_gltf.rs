@@ -16,10 +16,12 @@ const REFUSED: [(&str, ReadErrorKind, &str); 3] = [
 ];
 
 /// Vertices and faces of some files: skinned, morphed, sparse, with many nodes.
-const COUNTS: [(&str, usize, usize); 5] = [
+const COUNTS: [(&str, usize, usize); 6] = [
     ("bevy/Fox.glb", 1728, 576),
     ("raylib/robot.glb", 7218, 3238),
     ("meshoptimizer/pirate.glb", 2887, 5010),
+    // A plane, and 958 and 941 teapots of 4032 triangles.
+    ("blender-io/24_gpu_instancing/24_gpu_instancing.gltf", 4_185_400, 7_656_770),
     ("blender-io/23_multi_prim_vertex_attribute/23_multi_prim_vertex_attribute.gltf", 8, 6),
     ("gltf-transform/functions/many-cubes.gltf", 12_024, 6012),
 ];
