@@ -160,15 +160,17 @@ pub enum RepairKind {
     SplitEdges,
     /// Vertices added because fans of faces met in a single point.
     SplitVertices,
-    /// Vertices moved onto others by welding with a tolerance.
+    /// Vertices moved onto others, by welding with a tolerance or to close a seam.
     SnappedVertices,
+    /// Corners added to polygons along whose sides vertices of others lie.
+    ClosedJunctions,
     /// Models moved and scaled, because 32 bits would lose their detail; at most 1.
     Recentered,
 }
 
 impl RepairKind {
     /// All kinds, in order.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::FlippedFaces,
         Self::InsideOutFaces,
         Self::TwoSidedFaces,
@@ -177,6 +179,7 @@ impl RepairKind {
         Self::SplitEdges,
         Self::SplitVertices,
         Self::SnappedVertices,
+        Self::ClosedJunctions,
         Self::Recentered,
     ];
 
@@ -198,6 +201,7 @@ impl RepairKind {
             Self::SplitEdges => "split_edges",
             Self::SplitVertices => "split_vertices",
             Self::SnappedVertices => "snapped_vertices",
+            Self::ClosedJunctions => "closed_junctions",
             Self::Recentered => "recentred",
         }
     }
@@ -232,12 +236,10 @@ impl Report {
         repairs: impl IntoIterator<Item = Repair>,
     ) -> Self {
         let mut report = Self::default();
-        for Warning { code, count, place, message } in warnings {
-            report.warn_many(code, count, place, || message);
-        }
-        for Repair { kind, count, place } in repairs {
-            report.repair(kind, count, place);
-        }
+        report.absorb(Self {
+            warnings: warnings.into_iter().collect(),
+            repairs: repairs.into_iter().collect(),
+        });
         report
     }
 
@@ -284,6 +286,16 @@ impl Report {
                 *sum = sum.saturating_add(count);
             }
             Err(at) => self.repairs.insert(at, Repair { kind, count, place }),
+        }
+    }
+
+    /// Adds all warnings and repairs of another report.
+    pub(crate) fn absorb(&mut self, other: Self) {
+        for Warning { code, count, place, message } in other.warnings {
+            self.warn_many(code, count, place, || message);
+        }
+        for Repair { kind, count, place } in other.repairs {
+            self.repair(kind, count, place);
         }
     }
 

@@ -83,7 +83,7 @@ mod tests {
             model.set_attributes(Attributes { material, smoothing, ..Attributes::default() });
             model.push_polygon(&corners, 0);
         }
-        let sources = FaceSources::of(&model, &mut Report::default());
+        let sources = FaceSources::of(&model, &[], &mut Report::default());
         let attributes = FaceAttributes::of(&model, &sources);
         assert_eq!(attributes.borders(0, 1), EdgeFlags::empty(), "unstated is no group");
         assert_eq!(attributes.borders(1, 2), EdgeFlags::MATERIAL);

@@ -21,9 +21,9 @@ pub(crate) struct FaceSources {
 }
 
 impl FaceSources {
-    /// Cuts the polygons of `model`.
-    pub(crate) fn of(model: &Model, report: &mut Report) -> Self {
-        let cut = (!model.is_triangles()).then(|| triangulate(model, report));
+    /// Cuts the polygons of `model`; those of `jointed`, ascending, have corners on their sides.
+    pub(crate) fn of(model: &Model, jointed: &[u32], report: &mut Report) -> Self {
+        let cut = (!model.is_triangles()).then(|| triangulate(model, jointed, report));
         let face_count = cut.as_ref().map_or(model.polygon_count(), Vec::len);
         Self { cut, kept: None, is_turned: Vec::new(), face_count }
     }
@@ -116,7 +116,7 @@ mod tests {
     #[test]
     fn triangles_stand_for_themselves_until_some_are_dropped() {
         let model = Model::from_polygons(&[[0.0; 3]; 4], &[&[0, 1, 2], &[1, 2, 3], &[2, 3, 0]]);
-        let mut sources = FaceSources::of(&model, &mut Report::default());
+        let mut sources = FaceSources::of(&model, &[], &mut Report::default());
         assert_eq!((sources.corners(1), sources.polygon(1)), ([3, 4, 5], 1));
         sources.keep(&[true, false, true]);
         assert_eq!((sources.len(), sources.corners(1), sources.polygon(1)), (2, [6, 7, 8], 2));
@@ -129,7 +129,7 @@ mod tests {
     fn the_diagonal_of_a_quad_moves_when_its_triangle_turns() {
         let square = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
         let model = Model::from_polygons(&square, &[&[0, 1, 2, 3]]);
-        let mut sources = FaceSources::of(&model, &mut Report::default());
+        let mut sources = FaceSources::of(&model, &[], &mut Report::default());
         let diagonals = |sources: &FaceSources| {
             (0..6).filter(|&side| sources.is_diagonal(side)).collect::<Vec<_>>()
         };

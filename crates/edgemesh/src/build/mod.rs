@@ -29,9 +29,11 @@ mod records;
 mod repair;
 mod rounding;
 mod runs;
+mod seams;
 mod triangulate;
 mod two_sided;
 mod weld;
+mod welded;
 
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -44,7 +46,7 @@ pub use self::chains::DEFAULT_CHAIN_TURN_RAD;
 use self::components::{Components, Measures};
 use self::corners::{CornerInput, build_fill};
 use self::creases::CreaseNormals;
-use self::faces::{FaceSources, keep_items};
+use self::faces::FaceSources;
 use self::fans::{FanInput, Split, apply_splits, walk_fans};
 use self::marks::Marks;
 use self::outside::{Outsides, Surfaces};
@@ -54,13 +56,14 @@ use self::repair::Faces;
 use self::rounding::Rounding;
 pub use self::weld::Welding;
 use self::weld::{Weld, weld};
+use self::welded::WeldedModel;
 use crate::edge_mesh::{
     Bounds, EdgeCounts, EdgeFlags, EdgeMesh, EdgePart, EdgeTable, MeshCounts, MeshFrame,
     SourceCounts, threshold_steps, triangle_side,
 };
 use crate::index::{NONE, to_u32};
 use crate::model::Model;
-use crate::report::{Place, RepairKind, Report, WarningCode};
+use crate::report::{RepairKind, Report, WarningCode};
 
 /// The default for the angle between face normals above which an edge is a crease: 30 degrees, an
 /// internal angle of 150 degrees in the paper. The facets of a cylinder with 12 or more sides are
@@ -137,34 +140,39 @@ pub(crate) fn build_with_file_vertices(
 ) -> (EdgeMesh, Vec<u32>) {
     let is_used = used_vertices(model);
     let used_box = used_box(model, &is_used);
-    let (frame, welded) = weld_model(model, &is_used, used_box, options, report);
-    let mut sources = FaceSources::of(model, report);
+    let (frame, weld) = weld_model(model, &is_used, used_box, options);
+    report.repair(RepairKind::Recentered, usize::from(!frame.is_identity()), None);
+    let rounding = Rounding::of(model, &frame, used_box);
+    let source = model;
+    let welded = WeldedModel::closed(model, weld, options, &frame, &rounding, report);
+    let is_closed = welded.is_closed();
+    let WeldedModel {
+        model, weld: mut welded, sources, triangles, degenerate_count, table, ..
+    } = welded;
+    let model = &*model;
     let mut counts = MeshCounts {
         vertices: model.positions.len(),
         welded_vertices: count_face_vertices(model, &welded),
-        degenerate_triangles: sources.len(),
+        degenerate_triangles: degenerate_count,
+        triangles: triangles.len(),
         ..MeshCounts::default()
     };
-    let triangles = weld_triangles(model, &welded.welded_from_input, &mut sources, report);
-    counts.triangles = triangles.len();
-    counts.degenerate_triangles -= triangles.len();
-    let table = EdgeTable::from_triangles(welded.positions.len(), &triangles);
     count_edges(&mut counts, &triangles, &table, &sources);
-    counts.source = count_source(model, &welded, &counts);
+    counts.source = count_source(source, &welded, &counts, is_closed);
     warn_non_manifold(model, &sources, &table, &counts, report);
+    let positions = std::mem::take(&mut welded.positions);
     let mut faces = Faces {
         model,
         welded_from_input: &welded.welded_from_input,
-        vertex_count: welded.positions.len(),
+        vertex_count: positions.len(),
         triangles,
         sources,
         table,
         clashes: Vec::new(),
     };
     faces.repair(&mut counts, report);
-    let rounding = Rounding::of(model, &frame, used_box);
     let marks = Marks::find(model, options, &welded.welded_from_input, &faces.table, report);
-    let mesh = finish(welded.positions, faces, &marks, options, counts, rounding, report);
+    let mesh = finish(positions, faces, &marks, options, counts, rounding, report);
     let mesh = EdgeMesh { frame, ..mesh };
     let mut file_vertices = vec![NONE; mesh.positions.len() - mesh.split_from.len()];
     for (input, &welded) in welded.welded_from_input.iter().enumerate().rev() {
@@ -217,10 +225,8 @@ fn weld_model(
     is_used: &[bool],
     (low, high): (DVec3, DVec3),
     options: &BuildOptions,
-    report: &mut Report,
 ) -> (MeshFrame, Weld) {
     let frame = options.frame.unwrap_or_else(|| MeshFrame::of_box(low, high));
-    report.repair(RepairKind::Recentered, usize::from(!frame.is_identity()), None);
     let to_mesh = |&point: &[f64; 3]| frame.to_mesh(point.into()).as_vec3().to_array();
     let positions: Vec<[f32; 3]> = if frame.is_identity() {
         #[expect(clippy::cast_possible_truncation, reason = "a mesh is in 32 bits")]
@@ -233,10 +239,7 @@ fn weld_model(
         Welding::Within(tolerance) => Welding::Within(tolerance * frame.scale),
         other => other,
     };
-    let welded = weld(&positions, is_used, welding);
-    let first = welded.first_moved.map(|vertex| Place::Vertex(vertex as u64 + 1));
-    report.repair(RepairKind::SnappedVertices, welded.moved, first);
-    (frame, welded)
+    (frame, weld(&positions, is_used, welding))
 }
 
 /// Whether a face or line uses each vertex.
@@ -275,37 +278,6 @@ fn count_face_vertices(model: &Model, welded: &Weld) -> usize {
     is_used.iter().filter(|&&used| used).count()
 }
 
-/// Makes welded triangles and drops those with a repeated vertex.
-fn weld_triangles(
-    model: &Model,
-    welded_from_input: &[u32],
-    sources: &mut FaceSources,
-    report: &mut Report,
-) -> Vec<[u32; 3]> {
-    let welded = |corner: u32| welded_from_input[model.corner_positions[corner as usize] as usize];
-    let mut triangles: Vec<[u32; 3]> = (0..sources.len())
-        .into_par_iter()
-        .with_min_len(1 << 12)
-        .map(|face| sources.corners(face).map(welded))
-        .collect();
-    let is_proper = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
-    if triangles.par_iter().with_min_len(1 << 14).all(is_proper) {
-        return triangles;
-    }
-    let is_kept: Vec<bool> = triangles.iter().map(is_proper).collect();
-    let first = duplicates::left_out(&is_kept).next();
-    let place = first.map(|face| sources.place(model, face));
-    report.warn_many(
-        WarningCode::Degenerate,
-        duplicates::left_out(&is_kept).count(),
-        place,
-        || "a triangle with two corners in one place was dropped".into(),
-    );
-    keep_items(&mut triangles, &is_kept);
-    sources.keep(&is_kept);
-    triangles
-}
-
 fn count_edges(
     counts: &mut MeshCounts,
     triangles: &[[u32; 3]],
@@ -321,8 +293,13 @@ fn count_edges(
     }
 }
 
-/// Counts the polygons of the file, by the vertices of the file.
-fn count_source(model: &Model, welded: &Weld, counts: &MeshCounts) -> SourceCounts {
+/// Counts the polygons of the file, by the vertices of the file; `is_closed` if seams were closed.
+fn count_source(
+    model: &Model,
+    welded: &Weld,
+    counts: &MeshCounts,
+    is_closed: bool,
+) -> SourceCounts {
     let mut source = SourceCounts {
         vertices: model.positions.len(),
         polygons: model.polygon_count(),
@@ -332,7 +309,7 @@ fn count_source(model: &Model, welded: &Weld, counts: &MeshCounts) -> SourceCoun
     let used = welded.welded_from_input.iter().filter(|&&vertex| vertex != NONE).count();
     let is_welded = used != welded.positions.len();
     // If nothing was welded, cut or dropped, the edges of the mesh are those of the file.
-    if is_welded || !model.is_triangles() || counts.degenerate_triangles > 0 {
+    if is_closed || is_welded || !model.is_triangles() || counts.degenerate_triangles > 0 {
         let mut sides = Vec::with_capacity(model.corner_positions.len());
         for polygon in 0..model.polygon_count() {
             let corners = &model.corner_positions[model.corner_range(polygon)];

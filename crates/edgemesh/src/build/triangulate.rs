@@ -33,8 +33,13 @@ pub(crate) struct PolygonTriangle {
     pub(crate) diagonals: u8,
 }
 
-/// Cuts every polygon of `model`, in order.
-pub(crate) fn triangulate(model: &Model, report: &mut Report) -> Vec<PolygonTriangle> {
+/// Cuts every polygon of `model`, in order; those of `jointed`, ascending, have corners on their
+/// sides, from which a fan would have triangles without area.
+pub(crate) fn triangulate(
+    model: &Model,
+    jointed: &[u32],
+    report: &mut Report,
+) -> Vec<PolygonTriangle> {
     let total = model.corner_positions.len() - 2 * model.polygon_count();
     let mut triangles = Vec::with_capacity(total);
     let mut points = Vec::new();
@@ -47,6 +52,11 @@ pub(crate) fn triangulate(model: &Model, report: &mut Report) -> Vec<PolygonTria
         };
         points.clear();
         points.extend(range.map(|corner| position_of(model, corner)));
+        let is_jointed = jointed.binary_search(&to_u32(polygon)).is_ok();
+        if is_jointed && let Some(cut) = cut_concave(&points) {
+            cut.into_iter().for_each(|(local, diagonals)| push(local, diagonals));
+            continue;
+        }
         if count > 3 && fan_overlaps(&points) {
             let place = Some(model.polygon_place(polygon));
             if let Some(cut) = cut_concave(&points) {
@@ -89,7 +99,7 @@ mod tests {
         let corners: Vec<u32> = (0..to_u32(positions.len())).collect();
         let model = Model::from_polygons(positions, &[&corners]);
         let mut report = Report::default();
-        (triangulate(&model, &mut report), report)
+        (triangulate(&model, &[], &mut report), report)
     }
 
     #[test]

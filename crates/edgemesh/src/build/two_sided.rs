@@ -189,7 +189,7 @@ mod tests {
 
     fn found(positions: &[[f32; 3]], polygons: &[&[u32]]) -> (Vec<u32>, Vec<u32>) {
         let model = Model::from_polygons(positions, polygons);
-        let sources = FaceSources::of(&model, &mut Report::default());
+        let sources = FaceSources::of(&model, &[], &mut Report::default());
         let corner = |corner: u32| model.corner_positions[corner as usize];
         let triangles: Vec<[u32; 3]> =
             (0..sources.len()).map(|face| sources.corners(face).map(corner)).collect();

@@ -116,7 +116,10 @@ proptest! {
 
     #[test]
     fn counts_of_a_soup_are_those_of_a_plain_map(mesh in soup(3..=3)) {
-        let built = mesh.build();
+        let (built, report) = mesh.build_with(&BuildOptions::default());
+        if report.repair_count(RepairKind::ClosedJunctions) > 0 {
+            return Ok(()); // Triangles were cut at vertices on their sides.
+        }
         let naive = Naive::of(&mesh);
         let edges = users(&naive.proper);
         prop_assert_eq!(built.counts.edges, count(&edges));
@@ -144,6 +147,9 @@ proptest! {
     #[test]
     fn every_edge_of_a_soup_is_in_the_records_with_each_of_its_faces_once(mesh in soup(3..=3)) {
         let (built, report) = mesh.build_with(&BuildOptions::default());
+        if report.repair_count(RepairKind::ClosedJunctions) > 0 {
+            return Ok(()); // Triangles were cut at vertices on their sides.
+        }
         let naive = Naive::of(&mesh);
         let backs = report.repair_count(RepairKind::TwoSidedFaces);
         prop_assert_eq!(built.triangles.len() + backs, naive.unique.len());
@@ -198,7 +204,8 @@ proptest! {
     #[test]
     fn a_repair_flips_the_minority_and_keeps_every_face(mesh in soup(3..=3)) {
         let (built, report) = mesh.build_with(&BuildOptions::default());
-        let others = [RepairKind::InsideOutFaces, RepairKind::TwoSidedFaces];
+        let others =
+            [RepairKind::InsideOutFaces, RepairKind::TwoSidedFaces, RepairKind::ClosedJunctions];
         if others.into_iter().any(|kind| report.repair_count(kind) > 0) {
             return Ok(()); // Faces were dropped, or flipped for another reason.
         }

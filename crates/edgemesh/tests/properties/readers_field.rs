@@ -29,7 +29,7 @@ fn reported_files_give_what_they_must() {
     for (name, triangles, marked, warnings) in CASES {
         let loaded = load(&folder.join(name), &LoadOptions::default(), &NoProgress).unwrap();
         let mesh = &loaded.mesh;
-        let found = mesh.records.iter().filter(|record| record.flags.contains(EdgeFlags::MARKED));
+        let found = mesh.records.iter().filter(|record| record.flags().contains(EdgeFlags::MARKED));
         assert_eq!((mesh.triangles.len(), found.count()), (triangles, marked), "{name}");
         let found: Vec<(&str, usize)> = loaded
             .report

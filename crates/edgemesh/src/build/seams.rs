@@ -1,0 +1,349 @@
+//! Closes seams that rounding has left open, and T-junctions, where the side of one polygon runs
+//! along the shorter sides of others.
+//!
+//! Idea: only boundary edges are looked at. Two that run along each other, with ends within a
+//! tolerance, become one edge by welding their ends. A vertex within the tolerance of a longer
+//! boundary edge becomes a corner of its polygon, if a piece of the edge then has a partner. So
+//! nothing moves where nothing closes, and a sound mesh costs nothing. By default the tolerance is
+//! the rounding of the coordinates; with `--weld` it is the user's.
+//!
+//! Rejected: welding all vertices within the rounding, which moves vertices of sound surfaces;
+//! records of parts of an edge, which every later stage would have to know.
+
+use glam::{DVec3, Vec3};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::components::Sets;
+use super::faces::FaceSources;
+use super::weld::Weld;
+use crate::edge_mesh::{EdgeTable, triangle_side};
+use crate::index::{NONE, to_u32};
+use crate::model::Model;
+
+/// The boundary of welded triangles.
+#[derive(Debug)]
+pub(crate) struct Boundary<'a> {
+    positions: &'a [[f32; 3]],
+    /// The sides, as numbered by the edge table.
+    sides: Vec<u32>,
+    /// The ends of each of them.
+    ends: Vec<[u32; 2]>,
+    /// The largest distance that is closed, in units of the mesh.
+    tolerance: f64,
+}
+
+/// A vertex that becomes a corner of a polygon, between two successive corners.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Junction {
+    side: u32,
+    /// The place on the side, from 0 at its start to 1 at its end.
+    along: f64,
+    vertex: u32,
+}
+
+impl<'a> Boundary<'a> {
+    pub(crate) fn of(
+        positions: &'a [[f32; 3]],
+        triangles: &[[u32; 3]],
+        table: &EdgeTable,
+        tolerance: f64,
+    ) -> Self {
+        let alone = table.iter().filter_map(|(_, sides)| match *sides {
+            [side] => Some(side),
+            _ => None,
+        });
+        let sides: Vec<u32> = alone.collect();
+        let ends = sides.iter().map(|&side| triangle_side(triangles, side)).collect();
+        Self { positions, sides, ends, tolerance }
+    }
+
+    fn position(&self, vertex: u32) -> DVec3 {
+        Vec3::from(self.positions[vertex as usize]).as_dvec3()
+    }
+
+    fn vertices(&self) -> Vec<u32> {
+        let mut vertices: Vec<u32> = self.ends.iter().flatten().copied().collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        vertices
+    }
+
+    /// The vertex that each vertex becomes, if any seam is closed.
+    pub(crate) fn close_seams(&self) -> Option<Vec<u32>> {
+        let vertices = self.vertices();
+        let grid = Grid::of(self, &vertices, 2.0 * self.tolerance);
+        let near: FxHashMap<u32, Vec<u32>> = vertices
+            .iter()
+            .filter_map(|&vertex| {
+                let others = grid.around(self.position(vertex), self.tolerance);
+                let is_near = |&other: &u32| {
+                    let distance = self.position(other).distance(self.position(vertex));
+                    other != vertex && distance <= self.tolerance
+                };
+                let others: Vec<u32> = others.filter(is_near).collect();
+                (!others.is_empty()).then_some((vertex, others))
+            })
+            .collect();
+        if near.is_empty() {
+            return None;
+        }
+        let edges: FxHashSet<[u32; 2]> = self.ends.iter().map(|&ends| sorted(ends)).collect();
+        let sets = Sets::new(self.positions.len());
+        let mut is_closed = false;
+        for &[a, b] in self.ends.iter().filter(|ends| ends.iter().any(|end| near.contains_key(end)))
+        {
+            for &x in near.get(&a).into_iter().flatten().chain([&a]) {
+                for &y in near.get(&b).into_iter().flatten().chain([&b]) {
+                    let is_other = sorted([x, y]) != sorted([a, b]) && x != y && x != b && y != a;
+                    if is_other && edges.contains(&sorted([x, y])) {
+                        sets.join(a, x);
+                        sets.join(b, y);
+                        is_closed = true;
+                    }
+                }
+            }
+        }
+        is_closed
+            .then(|| (0..to_u32(self.positions.len())).map(|vertex| sets.root(vertex)).collect())
+    }
+
+    /// The vertices that lie on boundary edges of others, by side and place.
+    pub(crate) fn junctions(&self) -> Vec<Junction> {
+        let vertices = self.vertices();
+        let total: f64 = self.ends.iter().map(|&ends| self.length(ends)).sum();
+        let mean = total / to_f64(self.ends.len().max(1));
+        let grid = Grid::of(self, &vertices, mean.max(4.0 * self.tolerance));
+        let mut junctions = Vec::new();
+        for (&side, &ends) in self.sides.iter().zip(&self.ends) {
+            self.junctions_of(side, ends, &grid, &mut junctions);
+        }
+        if junctions.is_empty() {
+            return junctions;
+        }
+        junctions.sort_by(|a, b| a.side.cmp(&b.side).then(a.along.total_cmp(&b.along)));
+        self.retain_closing(&mut junctions);
+        junctions
+    }
+
+    fn length(&self, [a, b]: [u32; 2]) -> f64 {
+        self.position(a).distance(self.position(b))
+    }
+
+    fn junctions_of(
+        &self,
+        side: u32,
+        [a, b]: [u32; 2],
+        grid: &Grid,
+        junctions: &mut Vec<Junction>,
+    ) {
+        let (start, end) = (self.position(a), self.position(b));
+        let direction = end - start;
+        let length = direction.length();
+        // Steps of half a cell, and a reach of a quarter around each.
+        let reach = 0.25 * grid.cell + self.tolerance;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few cells")]
+        let steps = (length / (0.5 * grid.cell)).ceil().min(MOST_STEPS) as u32;
+        let first = junctions.len();
+        for step in 0..=steps {
+            let at = start + direction * (f64::from(step) / f64::from(steps.max(1)));
+            for vertex in grid.around(at, reach) {
+                let offset = self.position(vertex) - start;
+                let along = offset.dot(direction) / (length * length);
+                let is_on = (offset - direction * along).length() <= self.tolerance;
+                let from_ends = length * along.min(1.0 - along);
+                if is_on && from_ends > self.tolerance && vertex != a && vertex != b {
+                    junctions.push(Junction { side, along, vertex });
+                }
+            }
+        }
+        junctions[first..]
+            .sort_by(|a, b| a.along.total_cmp(&b.along).then(a.vertex.cmp(&b.vertex)));
+        let mut last = None;
+        let mut kept = first;
+        for at in first..junctions.len() {
+            if last != Some(junctions[at].vertex) {
+                last = Some(junctions[at].vertex);
+                junctions[kept] = junctions[at];
+                kept += 1;
+            }
+        }
+        junctions.truncate(kept);
+    }
+
+    /// Keeps the junctions beside a piece of an edge that is also a piece of another.
+    fn retain_closing(&self, junctions: &mut Vec<Junction>) {
+        let mut pieces: FxHashMap<[u32; 2], u32> = FxHashMap::default();
+        for (&side, &[a, b]) in self.sides.iter().zip(&self.ends) {
+            let from = junctions.partition_point(|junction| junction.side < side);
+            let on_side = junctions[from..].iter().take_while(|junction| junction.side == side);
+            let mut before = a;
+            for vertex in on_side.map(|junction| junction.vertex).chain([b]) {
+                *pieces.entry(sorted([before, vertex])).or_default() += 1;
+                before = vertex;
+            }
+        }
+        let ends: FxHashMap<u32, [u32; 2]> =
+            self.sides.iter().copied().zip(self.ends.iter().copied()).collect();
+        let closes: Vec<bool> = (0..junctions.len())
+            .map(|at| {
+                let Junction { side, vertex, .. } = junctions[at];
+                let neighbor = |index: Option<usize>| {
+                    index.and_then(|index| junctions.get(index)).filter(|other| other.side == side)
+                };
+                let [a, b] = ends[&side];
+                let before = neighbor(at.checked_sub(1)).map_or(a, |other| other.vertex);
+                let behind = neighbor(Some(at + 1)).map_or(b, |other| other.vertex);
+                [before, behind].into_iter().any(|other| pieces[&sorted([vertex, other])] > 1)
+            })
+            .collect();
+        super::faces::keep_items(junctions, &closes);
+    }
+}
+
+/// Steps along an edge across the grid, at most.
+const MOST_STEPS: f64 = 1e5;
+
+fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+#[expect(clippy::cast_precision_loss, reason = "an average")]
+const fn to_f64(count: usize) -> f64 {
+    count as f64
+}
+
+/// Vertices by cell.
+struct Grid {
+    cell: f64,
+    vertices: FxHashMap<[i64; 3], Vec<u32>>,
+}
+
+impl Grid {
+    fn of(boundary: &Boundary, vertices: &[u32], cell: f64) -> Self {
+        let mut grid = Self { cell, vertices: FxHashMap::default() };
+        for &vertex in vertices {
+            let key = grid.key(boundary.position(vertex));
+            grid.vertices.entry(key).or_default().push(vertex);
+        }
+        grid
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "saturates, which only joins cells")]
+    fn key(&self, point: DVec3) -> [i64; 3] {
+        (point / self.cell).floor().to_array().map(|cell| cell as i64)
+    }
+
+    /// The vertices of all cells within `reach` of a point along each axis.
+    fn around(&self, point: DVec3, reach: f64) -> impl Iterator<Item = u32> {
+        let (low, high) = (self.key(point - reach), self.key(point + reach));
+        let cells = (low[0]..=high[0]).flat_map(move |x| {
+            (low[1]..=high[1]).flat_map(move |y| (low[2]..=high[2]).map(move |z| [x, y, z]))
+        });
+        cells.filter_map(|cell| self.vertices.get(&cell)).flatten().copied()
+    }
+}
+
+/// Applies `becomes`, the vertex that each welded vertex becomes, to a weld.
+pub(crate) fn weld_again(weld: &mut Weld, becomes: &[u32]) {
+    let mut numbers = vec![NONE; weld.positions.len()];
+    let mut positions = Vec::with_capacity(weld.positions.len());
+    for (vertex, &target) in becomes.iter().enumerate() {
+        if target as usize == vertex {
+            numbers[vertex] = to_u32(positions.len());
+            positions.push(weld.positions[vertex]);
+        }
+    }
+    for (input, vertex) in weld.welded_from_input.iter_mut().enumerate() {
+        if *vertex != NONE {
+            let target = becomes[*vertex as usize];
+            if target != *vertex {
+                weld.moved += 1;
+                weld.first_moved = weld.first_moved.or(Some(input));
+            }
+            *vertex = numbers[target as usize];
+        }
+    }
+    weld.positions = positions;
+}
+
+/// The model with a corner for each of `junctions`, which are sorted by side and place, and the
+/// polygons that have them, ascending.
+pub(crate) fn with_junctions(
+    model: &Model,
+    sources: &FaceSources,
+    weld: &Weld,
+    junctions: &[Junction],
+) -> (Model, Vec<u32>) {
+    let mut input_of: FxHashMap<u32, u32> = FxHashMap::default();
+    for (input, &vertex) in weld.welded_from_input.iter().enumerate().rev() {
+        input_of.insert(vertex, to_u32(input));
+    }
+    // The corner behind which each new corner comes.
+    let mut added: Vec<(u32, Junction)> = junctions
+        .iter()
+        .map(|&junction| {
+            let corners = sources.corners(junction.side as usize / 3);
+            (corners[junction.side as usize % 3], junction)
+        })
+        .collect();
+    added.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.along.total_cmp(&b.1.along)));
+    let mut cut = Model {
+        corner_positions: Vec::new(),
+        corner_texcoords: Vec::new(),
+        corner_normals: Vec::new(),
+        polygon_ends: Vec::new(),
+        ..model.clone()
+    };
+    let mut polygons = Vec::new();
+    let mut next = 0;
+    for polygon in 0..model.polygon_count() {
+        let range = model.corner_range(polygon);
+        let before = next;
+        for corner in range.clone() {
+            push_corner(&mut cut, model, corner);
+            let behind = if corner + 1 == range.end { range.start } else { corner + 1 };
+            while let Some((_, junction)) = added.get(next).filter(|add| add.0 as usize == corner) {
+                cut.corner_positions.push(input_of[&junction.vertex]);
+                push_between(&mut cut, model, [corner, behind], junction.along);
+                next += 1;
+            }
+        }
+        if next > before {
+            polygons.push(to_u32(polygon));
+        }
+        cut.polygon_ends.push(to_u32(cut.corner_positions.len()));
+    }
+    (cut, polygons)
+}
+
+fn push_corner(cut: &mut Model, model: &Model, corner: usize) {
+    cut.corner_positions.push(model.corner_positions[corner]);
+    cut.corner_texcoords.extend(model.corner_texcoords.get(corner));
+    cut.corner_normals.extend(model.corner_normals.get(corner));
+}
+
+/// Adds the attributes of a corner between two others, which it has if both of them have them.
+#[expect(clippy::cast_possible_truncation, reason = "attributes are in 32 bits")]
+fn push_between(cut: &mut Model, model: &Model, corners: [usize; 2], along: f64) {
+    let along = along as f32;
+    if !model.corner_texcoords.is_empty() {
+        let [a, b] = corners.map(|corner| model.corner_texcoords[corner]);
+        cut.corner_texcoords.push(if a == NONE || b == NONE {
+            NONE
+        } else {
+            let [a, b] = [a, b].map(|index| glam::Vec2::from(model.texcoords[index as usize]));
+            cut.texcoords.push(a.lerp(b, along).to_array());
+            to_u32(cut.texcoords.len() - 1)
+        });
+    }
+    if !model.corner_normals.is_empty() {
+        let [a, b] = corners.map(|corner| model.corner_normals[corner]);
+        cut.corner_normals.push(if a == NONE || b == NONE {
+            NONE
+        } else {
+            let [a, b] = [a, b].map(|index| Vec3::from(model.normals[index as usize]));
+            cut.normals.push(a.lerp(b, along).to_array());
+            to_u32(cut.normals.len() - 1)
+        });
+    }
+}
