@@ -43,8 +43,6 @@ pub(crate) struct Rounding {
     offset: f64,
     /// The scale of the mesh frame.
     scale: f64,
-    /// Whether the file itself has numbers of 32 bits.
-    is_file_in_32_bits: bool,
 }
 
 impl Rounding {
@@ -67,31 +65,21 @@ impl Rounding {
             digits: digits.unwrap_or(0),
             offset: frame.origin.abs().max_element() * frame.scale,
             scale: frame.scale,
-            // Round numbers lose nothing in 32 bits.
-            is_file_in_32_bits: half_decimal <= reach * HALF_STEP_32
-                && sample.iter().all(is_in_32_bits),
         }
     }
 
     /// How far a coordinate may have been moved, at points whose coordinates are at most `reach`.
     pub(crate) fn at(&self, reach: f64) -> f64 {
-        let reach_in_file = reach + self.offset;
-        let of_bits = if self.is_file_in_32_bits { reach_in_file } else { reach } * HALF_STEP_32;
         let of_digits = match self.digits {
             0 => 0.0,
-            digits => half_unit_at(reach_in_file / self.scale, digits) * self.scale,
+            digits => half_unit_at((reach + self.offset) / self.scale, digits) * self.scale,
         };
-        of_bits.max(self.decimal).max(of_digits)
+        (reach * HALF_STEP_32).max(self.decimal).max(of_digits)
     }
 }
 
 fn is_number(coordinate: &f64) -> bool {
     coordinate.is_finite()
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "tests whether that loses anything")]
-fn is_in_32_bits(coordinate: &f64) -> bool {
-    f64::from(*coordinate as f32) == *coordinate
 }
 
 /// Half of the last of `decimals` decimals.
@@ -192,17 +180,5 @@ mod tests {
         let rounding =
             Rounding::of(&model, &MeshFrame::default(), (DVec3::ZERO, DVec3::splat(9973.0)));
         assert!(is_near(rounding.at(1.0), 0.5));
-    }
-
-    #[test]
-    fn a_file_of_32_bits_far_from_the_origin_is_as_coarse_as_it_is_there() {
-        let far = |k: u32| f64::from((5e5 + f64::from(k) * 0.377_123) as f32);
-        let positions: Vec<[f64; 3]> = (0..99).map(|k| [far(k); 3]).collect();
-        let model = Model { positions, ..Model::default() };
-        let box_of = (DVec3::splat(5e5), DVec3::splat(5e5 + 38.0));
-        let frame = MeshFrame::of_box(box_of.0, box_of.1);
-        assert!(!frame.is_identity());
-        let found = Rounding::of(&model, &frame, box_of).at(19.0);
-        assert!((0.01..0.04).contains(&found), "{found}");
     }
 }

@@ -28,6 +28,7 @@ pub(crate) struct Boundary<'a> {
     sides: Vec<u32>,
     /// The ends of each of them.
     ends: Vec<[u32; 2]>,
+    ends_of: FxHashMap<u32, [u32; 2]>,
     /// The largest distance that is closed, in units of the mesh.
     tolerance: f64,
 }
@@ -53,8 +54,10 @@ impl<'a> Boundary<'a> {
             _ => None,
         });
         let sides: Vec<u32> = alone.collect();
-        let ends = sides.iter().map(|&side| triangle_side(triangles, side)).collect();
-        Self { positions, sides, ends, tolerance }
+        let ends: Vec<[u32; 2]> =
+            sides.iter().map(|&side| triangle_side(triangles, side)).collect();
+        let ends_of = sides.iter().copied().zip(ends.iter().copied()).collect();
+        Self { positions, sides, ends, ends_of, tolerance }
     }
 
     fn position(&self, vertex: u32) -> DVec3 {
@@ -80,8 +83,8 @@ impl<'a> Boundary<'a> {
                     let distance = self.position(other).distance(self.position(vertex));
                     other != vertex && distance <= self.tolerance
                 };
-                let others: Vec<u32> = others.filter(is_near).collect();
-                (!others.is_empty()).then_some((vertex, others))
+                let others: Vec<u32> = others.filter(is_near).take(MOST_NEAR + 1).collect();
+                (1..=MOST_NEAR).contains(&others.len()).then_some((vertex, others))
             })
             .collect();
         if near.is_empty() {
@@ -108,66 +111,59 @@ impl<'a> Boundary<'a> {
     }
 
     /// The vertices that lie on boundary edges of others, by side and place.
+    ///
+    /// Two rows of boundary edges that begin in one vertex and run the same way are walked along
+    /// together, the nearer next vertex first; it lies on the edge of the other row.
     pub(crate) fn junctions(&self) -> Vec<Junction> {
-        let vertices = self.vertices();
-        let total: f64 = self.ends.iter().map(|&ends| self.length(ends)).sum();
-        let mean = total / to_f64(self.ends.len().max(1));
-        let grid = Grid::of(self, &vertices, mean.max(4.0 * self.tolerance));
-        let mut junctions = Vec::new();
-        for (&side, &ends) in self.sides.iter().zip(&self.ends) {
-            self.junctions_of(side, ends, &grid, &mut junctions);
+        let mut arms: Vec<Arm> = self
+            .sides
+            .iter()
+            .zip(&self.ends)
+            .flat_map(|(&side, &[a, b])| {
+                [Arm { from: a, to: b, side }, Arm { from: b, to: a, side }]
+            })
+            .collect();
+        arms.sort_unstable();
+        let mut walks =
+            Walks { boundary: self, arms: &arms, steps_left: 64 * arms.len(), found: Vec::new() };
+        for here in arms.chunk_by(|a, b| a.from == b.from) {
+            if here.len() > MOST_ARMS {
+                continue;
+            }
+            for (at, &long) in here.iter().enumerate() {
+                for (other, &short) in here.iter().enumerate() {
+                    if at != other {
+                        walks.walk(long, short);
+                    }
+                }
+            }
         }
-        if junctions.is_empty() {
-            return junctions;
-        }
-        junctions.sort_by(|a, b| a.side.cmp(&b.side).then(a.along.total_cmp(&b.along)));
+        let mut junctions = walks.found;
+        junctions.sort_by(|a, b| {
+            a.side.cmp(&b.side).then(a.along.total_cmp(&b.along)).then(a.vertex.cmp(&b.vertex))
+        });
+        junctions.dedup_by_key(|junction| (junction.side, junction.vertex));
         self.retain_closing(&mut junctions);
         junctions
     }
 
-    fn length(&self, [a, b]: [u32; 2]) -> f64 {
-        self.position(a).distance(self.position(b))
+    /// Whether a vertex lies on the inside of an edge.
+    fn is_on(&self, vertex: u32, arm: Arm) -> bool {
+        let (start, end) = (self.position(arm.from), self.position(arm.to));
+        let length = start.distance(end);
+        let offset = self.position(vertex) - start;
+        let along = offset.dot(end - start) / length;
+        let across = (offset - (end - start) * (along / length)).length();
+        across <= self.tolerance && along > self.tolerance && along < length - self.tolerance
     }
 
-    fn junctions_of(
-        &self,
-        side: u32,
-        [a, b]: [u32; 2],
-        grid: &Grid,
-        junctions: &mut Vec<Junction>,
-    ) {
+    fn junction(&self, vertex: u32, arm: Arm) -> Junction {
+        // Along the side, which may run the other way.
+        let [a, b] = self.ends_of[&arm.side];
         let (start, end) = (self.position(a), self.position(b));
-        let direction = end - start;
-        let length = direction.length();
-        // Steps of half a cell, and a reach of a quarter around each.
-        let reach = 0.25 * grid.cell + self.tolerance;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few cells")]
-        let steps = (length / (0.5 * grid.cell)).ceil().min(MOST_STEPS) as u32;
-        let first = junctions.len();
-        for step in 0..=steps {
-            let at = start + direction * (f64::from(step) / f64::from(steps.max(1)));
-            for vertex in grid.around(at, reach) {
-                let offset = self.position(vertex) - start;
-                let along = offset.dot(direction) / (length * length);
-                let is_on = (offset - direction * along).length() <= self.tolerance;
-                let from_ends = length * along.min(1.0 - along);
-                if is_on && from_ends > self.tolerance && vertex != a && vertex != b {
-                    junctions.push(Junction { side, along, vertex });
-                }
-            }
-        }
-        junctions[first..]
-            .sort_by(|a, b| a.along.total_cmp(&b.along).then(a.vertex.cmp(&b.vertex)));
-        let mut last = None;
-        let mut kept = first;
-        for at in first..junctions.len() {
-            if last != Some(junctions[at].vertex) {
-                last = Some(junctions[at].vertex);
-                junctions[kept] = junctions[at];
-                kept += 1;
-            }
-        }
-        junctions.truncate(kept);
+        let along =
+            (self.position(vertex) - start).dot(end - start) / (end - start).length_squared();
+        Junction { side: arm.side, along, vertex }
     }
 
     /// Keeps the junctions beside a piece of an edge that is also a piece of another.
@@ -182,15 +178,13 @@ impl<'a> Boundary<'a> {
                 before = vertex;
             }
         }
-        let ends: FxHashMap<u32, [u32; 2]> =
-            self.sides.iter().copied().zip(self.ends.iter().copied()).collect();
         let closes: Vec<bool> = (0..junctions.len())
             .map(|at| {
                 let Junction { side, vertex, .. } = junctions[at];
                 let neighbor = |index: Option<usize>| {
                     index.and_then(|index| junctions.get(index)).filter(|other| other.side == side)
                 };
-                let [a, b] = ends[&side];
+                let [a, b] = self.ends_of[&side];
                 let before = neighbor(at.checked_sub(1)).map_or(a, |other| other.vertex);
                 let behind = neighbor(Some(at + 1)).map_or(b, |other| other.vertex);
                 [before, behind].into_iter().any(|other| pieces[&sorted([vertex, other])] > 1)
@@ -200,16 +194,58 @@ impl<'a> Boundary<'a> {
     }
 }
 
-/// Steps along an edge across the grid, at most.
-const MOST_STEPS: f64 = 1e5;
+/// Vertices with more boundary edges are not looked at.
+const MOST_ARMS: usize = 64;
+
+/// Vertices with more others within the tolerance are no seam.
+const MOST_NEAR: usize = 16;
+
+/// A boundary edge at one of its ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Arm {
+    from: u32,
+    to: u32,
+    side: u32,
+}
+
+/// Walks along rows of boundary edges.
+struct Walks<'a> {
+    boundary: &'a Boundary<'a>,
+    /// Sorted by the vertex that they start from.
+    arms: &'a [Arm],
+    /// A bound for the work on files made to take long.
+    steps_left: usize,
+    found: Vec<Junction>,
+}
+
+impl Walks<'_> {
+    /// Walks along a long edge and the row that begins with a shorter one, from one vertex.
+    fn walk(&mut self, mut long: Arm, mut short: Arm) {
+        while short.to != long.to && self.boundary.is_on(short.to, long) && self.steps_left > 0 {
+            self.steps_left -= 1;
+            self.found.push(self.boundary.junction(short.to, long));
+            let first = self.arms.partition_point(|arm| arm.from < short.to);
+            let onward = self.arms[first..].iter().take_while(|arm| arm.from == short.to);
+            let candidates = onward.take(MOST_ARMS).filter(|arm| arm.side != short.side);
+            let rest = Arm { from: short.to, ..long };
+            let next =
+                candidates.copied().find(|&arm| arm.to == long.to || self.goes_along(rest, arm));
+            match next {
+                Some(arm) if self.boundary.is_on(long.to, arm) => (long, short) = (arm, long),
+                Some(arm) => short = arm,
+                None => return,
+            }
+        }
+    }
+
+    /// Whether an edge goes on along the rest of another, to a place on it or beyond its end.
+    fn goes_along(&self, rest: Arm, arm: Arm) -> bool {
+        self.boundary.is_on(arm.to, rest) || self.boundary.is_on(rest.to, arm)
+    }
+}
 
 fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
     [a.min(b), a.max(b)]
-}
-
-#[expect(clippy::cast_precision_loss, reason = "an average")]
-const fn to_f64(count: usize) -> f64 {
-    count as f64
 }
 
 /// Vertices by cell.
@@ -239,7 +275,10 @@ impl Grid {
         let cells = (low[0]..=high[0]).flat_map(move |x| {
             (low[1]..=high[1]).flat_map(move |y| (low[2]..=high[2]).map(move |z| [x, y, z]))
         });
-        cells.filter_map(|cell| self.vertices.get(&cell)).flatten().copied()
+        cells
+            .filter_map(|cell| self.vertices.get(&cell))
+            .flat_map(|all| all.iter().take(4 * MOST_NEAR))
+            .copied()
     }
 }
 

@@ -52,7 +52,16 @@ impl<'a> WeldedModel<'a> {
             Welding::Exact => by_rounding,
         };
         if tolerance > 0.0 && welded.table.iter().any(|(_, sides)| sides.len() == 1) {
-            if let Some(becomes) = welded.boundary(tolerance).close_seams() {
+            let seams = welded.boundary(tolerance).close_seams();
+            // What collapses a triangle was no seam.
+            let keeps = |becomes: &Vec<u32>| {
+                let is_proper = |triangle: &[u32; 3]| {
+                    let [a, b, c] = triangle.map(|vertex| becomes[vertex as usize]);
+                    a != b && b != c && c != a
+                };
+                welded.triangles.par_iter().all(is_proper)
+            };
+            if let Some(becomes) = seams.filter(keeps) {
                 weld_again(&mut welded.weld, &becomes);
                 first = Report::default();
                 welded = Self::of(welded.model, welded.weld, &[], &mut first);
