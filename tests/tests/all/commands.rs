@@ -73,6 +73,38 @@ fn wrong_command_lines_end_with_2_and_say_why() {
     }
 }
 
+/// A value that begins with a hyphen is a wrong value, not an unknown option.
+#[test]
+fn negative_values_are_out_of_range() {
+    let (_folder, cube) = file("cube.obj", CUBE.as_bytes());
+    let cases = [("--weld", "0 or more"), ("--fov", "0.001 to 179"), ("--ridge", "0 to 180")];
+    for (option, range) in cases {
+        let output = info_with(&cube, &[option, "-10"]);
+        assert_status(&output, 2);
+        let message = stderr(&output);
+        assert!(message.contains("'-10'") && message.contains(range), "{message}");
+        assert!(!message.contains("tip:"), "{message}");
+    }
+}
+
+#[test]
+fn good_models_are_printed_beside_bad_ones() {
+    let (folder, cube) = file("cube.obj", CUBE.as_bytes());
+    let bad = folder.path().join("bad.obj");
+    fs::write(&bad, "v 0 0 0\nv 1 x 0\n").unwrap();
+    let names = [bad.to_str().unwrap(), cube.to_str().unwrap()];
+    let output = info_with(&cube, &names);
+    assert_status(&output, 1);
+    assert_eq!(one_error(&output, &["bad.obj:2"]), Ok(()), "{output:?}");
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(text.matches("cube.obj\nvertices").count(), 2, "{text}");
+    let output = info_with(&cube, &[names[0], "--json"]);
+    assert_status(&output, 1);
+    let list = json(&output);
+    assert_eq!(list.as_array().map(Vec::len), Some(1), "a list, because several were named");
+    assert_eq!(list[0]["triangles"], 12);
+}
+
 #[test]
 fn a_command_line_without_a_command_is_wrong() {
     let cases: [&[&str]; 4] = [&[], &["info"], &["frobnicate"], &["--frobnicate"]];

@@ -60,3 +60,4 @@ mod render_command;
 mod shaders;
 mod technique_commands;
 mod window_panels;
+mod writing;

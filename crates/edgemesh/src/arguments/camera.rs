@@ -22,7 +22,7 @@ pub struct CameraArguments {
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
     pub up: Option<DVec3>,
     /// Vertical field of view in degrees [default: 40]
-    #[arg(long, value_name = "DEG", value_parser = parse_fov)]
+    #[arg(long, value_name = "DEG", value_parser = parse_fov, allow_hyphen_values = true)]
     pub fov: Option<f64>,
     /// Use an orthographic projection; the field of view then sets the height of the picture
     #[arg(long)]

@@ -21,7 +21,7 @@ pub struct InputArguments {
     pub format: Option<InputFormat>,
     /// Weld vertices at most this far apart, in units of the model [default: 0, only
     /// vertices at the same position]
-    #[arg(long, value_name = "TOLERANCE", value_parser = parse_tolerance)]
+    #[arg(long, value_name = "TOLERANCE", value_parser = parse_tolerance, allow_hyphen_values = true)]
     pub weld: Option<f64>,
     /// Do not weld vertices
     #[arg(long, conflicts_with = "weld")]
@@ -43,13 +43,13 @@ pub struct InputArguments {
 #[command(next_help_heading = "Creases")]
 pub struct CreaseArguments {
     /// Angle between faces above which an edge is a crease, in degrees [default: 30]
-    #[arg(long, value_name = "DEG", value_parser = parse_crease, conflicts_with_all = ["ridge", "valley"])]
+    #[arg(long, value_name = "DEG", value_parser = parse_crease, allow_hyphen_values = true, conflicts_with_all = ["ridge", "valley"])]
     pub crease: Option<f64>,
     /// As --crease, for convex edges only
-    #[arg(long, value_name = "DEG", value_parser = parse_crease)]
+    #[arg(long, value_name = "DEG", value_parser = parse_crease, allow_hyphen_values = true)]
     pub ridge: Option<f64>,
     /// As --crease, for concave edges only
-    #[arg(long, value_name = "DEG", value_parser = parse_crease)]
+    #[arg(long, value_name = "DEG", value_parser = parse_crease, allow_hyphen_values = true)]
     pub valley: Option<f64>,
 }
 

@@ -143,6 +143,11 @@ mod tests {
         (found / expected - 1.0).abs() < 1e-6
     }
 
+    #[expect(clippy::cast_possible_truncation, reason = "rounds")]
+    fn in_32_bits(x: f64) -> f64 {
+        f64::from(x as f32)
+    }
+
     #[test]
     fn the_decimals_of_a_file_are_found() {
         for decimals in 3..=6 {
@@ -154,9 +159,9 @@ mod tests {
 
     #[test]
     fn numbers_of_32_bits_show_the_decimals_that_they_were_rounded_from() {
-        let found = rounding(|x| f64::from(((x * 1e3).round() / 1e3) as f32)).at(1.0);
+        let found = rounding(|x| in_32_bits((x * 1e3).round() / 1e3)).at(1.0);
         assert!(is_near(found, 5e-4), "{found}");
-        let found = rounding(|x| f64::from(x as f32)).at(16.0);
+        let found = rounding(in_32_bits).at(16.0);
         assert!(is_near(found, 16.0 / 16_777_216.0), "{found}");
     }
 

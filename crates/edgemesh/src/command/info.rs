@@ -1,15 +1,15 @@
 //! `edgemesh info`: counts of a model and of its feature edges in a view.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use glam::Vec3;
 use serde::Serialize;
 
-use super::failure::Failure;
+use super::failure::{ExitStatus, Failure};
 use super::loading::load_input;
-use super::messages::print_warnings;
+use super::messages::{print_error, print_warnings};
 use super::output::{print_to_stdout, to_json};
 use crate::arguments::{CameraArguments, InputArguments};
 use crate::edge_mesh::{EdgeMesh, EdgeVertex, EdgeVertex16};
@@ -41,36 +41,48 @@ pub struct InfoCommand {
 }
 
 impl InfoCommand {
-    /// Reads, builds, counts and prints.
+    /// Reads, builds, counts and prints. A model that cannot be read is reported, and the others
+    /// are printed.
     ///
     /// # Errors
-    /// Fails without output if a model cannot be read, the camera is wrong, or standard output
-    /// cannot be written.
+    /// Fails without a message if a model could not be read, and at once if the command line is
+    /// wrong or standard output cannot be written.
     pub fn run(&self, is_quiet: bool) -> Result<(), Failure> {
-        let infos: Vec<Info> = self
-            .models
-            .iter()
-            .map(|model| {
-                let loaded = load_input(&self.input, model, false, is_quiet)?;
-                if !is_quiet {
-                    print_warnings(&loaded.name, &loaded.report);
+        let mut infos = Vec::new();
+        let mut status = None;
+        for model in &self.models {
+            match self.info_of(model, is_quiet) {
+                Ok(info) => infos.push(info),
+                Err(failure) if failure.status == ExitStatus::USAGE => return Err(failure),
+                Err(failure) => {
+                    print_error(&failure);
+                    status = status.or(Some(failure.status));
                 }
-                self.info_of(&loaded)
-            })
-            .collect::<Result<_, Failure>>()?;
-        let text = match &infos[..] {
-            [only] if self.json => to_json(only)?,
-            all if self.json => to_json(&all)?,
-            all => all.iter().map(Info::to_text).collect::<Vec<_>>().join("\n"),
-        };
-        print_to_stdout(text.as_bytes())
+            }
+        }
+        if !infos.is_empty() {
+            let text = match &infos[..] {
+                [only] if self.json && self.models.len() == 1 => to_json(only)?,
+                all if self.json => to_json(&all)?,
+                all => all.iter().map(Info::to_text).collect::<Vec<_>>().join("\n"),
+            };
+            print_to_stdout(text.as_bytes())?;
+        }
+        match status {
+            Some(status) => Err(Failure { message: String::new(), status }),
+            None => Ok(()),
+        }
     }
 
-    fn info_of(&self, loaded: &LoadedMesh) -> Result<Info, Failure> {
-        let LoadedMesh { name, mesh, report, .. } = loaded;
+    fn info_of(&self, model: &Path, is_quiet: bool) -> Result<Info, Failure> {
+        let LoadedMesh { name, mesh, report, .. } =
+            load_input(&self.input, model, false, is_quiet)?;
+        if !is_quiet {
+            print_warnings(&name, &report);
+        }
         // The eye does not depend on the aspect ratio.
         let eye = self.camera.camera(&mesh.bounds, &mesh.frame)?.view(&mesh.bounds, 1.0).eye;
-        Ok(Info::of(name, mesh, report, count_features(mesh, eye)))
+        Ok(Info::of(&name, &mesh, &report, count_features(&mesh, eye)))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use clap::Args;
 
+use super::failure::Failure;
 use crate::report::Report;
 
 /// Options for messages on standard error.
@@ -28,6 +29,14 @@ impl MessageOptions {
         let environment = env_logger::Env::default().default_filter_or(level);
         // Fails only if a logger is already set, which then serves as well.
         let _ = env_logger::Builder::from_env(environment).try_init();
+    }
+}
+
+/// Prints the message of a failure, if it has one.
+#[expect(clippy::print_stderr, reason = "messages go to standard error")]
+pub(super) fn print_error(failure: &Failure) {
+    if !failure.message.is_empty() {
+        eprintln!("error: {}", failure.message);
     }
 }
 

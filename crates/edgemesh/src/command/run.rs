@@ -9,28 +9,60 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag::register_conditional_shutdown;
 
 use super::failure::{ExitStatus, Failure};
+use super::messages::print_error;
+use crate::format::whole_file::remove_unfinished;
 
-/// Runs the body of a command and returns its exit status; errors are printed here only.
+/// Runs the body of a command and returns its exit status; errors that end it are
+/// printed here only.
 ///
-/// SIGINT ends the process with 130, SIGTERM with 143. A panic is printed as an internal error and
-/// gives 70.
+/// SIGINT ends the process with 130, SIGTERM with 143; neither leaves a temporary file. A panic is
+/// printed as an internal error and gives 70.
 #[expect(clippy::print_stderr, reason = "the one handler of errors")]
 pub fn run(body: impl FnOnce() -> Result<(), Failure> + UnwindSafe) -> ExitCode {
-    for (signal, status) in [(SIGINT, 130), (SIGTERM, 143)] {
-        // If the handler cannot be set, the signal ends the process by default.
-        let _ = register_conditional_shutdown(signal, status, Arc::new(AtomicBool::new(true)));
-    }
+    exit_on_signals();
     std::panic::set_hook(Box::new(|panic| {
         eprintln!("error: internal error; please report it with the command and the file: {panic}");
     }));
-    match std::panic::catch_unwind(body) {
+    let result = std::panic::catch_unwind(body);
+    // Other threads may still write, if the window was closed meanwhile.
+    std::mem::forget(remove_unfinished());
+    match result {
         Ok(Ok(())) => ExitCode::SUCCESS,
         Ok(Err(failure)) => {
-            if !failure.message.is_empty() {
-                eprintln!("error: {}", failure.message);
-            }
+            print_error(&failure);
             failure.status.into()
         }
         Err(_) => ExitStatus::INTERNAL.into(),
     }
+}
+
+/// Removes temporary files and ends the process at a signal.
+fn exit_on_signals() {
+    #[cfg(unix)]
+    if wait_for_signals().is_ok() {
+        return;
+    }
+    // Without a thread that waits, the process ends at once.
+    for signal in [SIGINT, SIGTERM] {
+        // If the handler cannot be set, the signal ends the process by default.
+        let always = Arc::new(AtomicBool::new(true));
+        let _ = register_conditional_shutdown(signal, 128 + signal, always);
+    }
+}
+
+/// Starts a thread that waits for signals: a handler may not remove files itself.
+#[cfg(unix)]
+fn wait_for_signals() -> std::io::Result<()> {
+    use signal_hook::iterator::Signals;
+    use signal_hook::low_level::exit;
+
+    let mut signals = Signals::new([SIGINT, SIGTERM])?;
+    let wait = move || {
+        if let Some(signal) = signals.forever().next() {
+            let _no_files_begin = remove_unfinished();
+            exit(128 + signal);
+        }
+    };
+    std::thread::Builder::new().name("signals".into()).spawn(wait)?;
+    Ok(())
 }

@@ -23,7 +23,7 @@
 //! ```
 //!
 //! At 16 bits, a diagonal is an edge that is both ridge and valley, which none is, GROOVE has the
-//! bit of DIAGONAL, and PAIRED is both BOUNDARY and NON_MANIFOLD.
+//! bit of DIAGONAL, and PAIRED is both BOUNDARY and `NON_MANIFOLD`.
 
 use bytemuck::{Pod, Zeroable};
 

@@ -289,12 +289,12 @@ fn faces_over(
 /// Asserts that records are equal, but for the rounding of crease angles, which depends on the
 /// decimals of the positions.
 pub(crate) fn assert_near(found: &[EdgeRecord], expected: &[EdgeRecord]) {
-    assert_eq!(found.len(), expected.len());
+    assert_eq!(found.len(), expected.len(), "as many records");
     for (found, expected) in found.iter().zip(expected) {
         let steps = found.word.crease_steps().abs_diff(expected.word.crease_steps());
         assert!(steps <= 20, "more than rounding: {found:?}, {expected:?}");
         let same = EdgeRecord { word: expected.word, ..*found };
-        assert_eq!(same, *expected);
+        assert_eq!(same, *expected, "but for the word");
         if found.word.crease_steps().abs_diff(30 * 720) > 20 {
             assert_eq!(found.flags(), expected.flags(), "not at the threshold: {found:?}");
         }

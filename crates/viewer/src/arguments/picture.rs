@@ -40,7 +40,7 @@ pub(crate) struct PictureArguments {
     #[arg(long, value_name = "PATH", default_value = "compute")]
     detection: PathName,
     /// Samples per pixel
-    #[arg(long, value_name = "N", default_value = "4", value_parser = ["1", "4"])]
+    #[arg(long, value_name = "N", default_value = "4", value_parser = ["1", "4"], allow_hyphen_values = true)]
     samples: String,
     /// Use the adapter whose name contains this text [default: the best]
     #[arg(long, value_name = "NAME")]

@@ -52,13 +52,13 @@ pub(super) struct CompareStrokesCommand {
     #[arg(long, value_name = "BRUSH", value_parser = BRUSH_NAMES)]
     brush: Vec<String>,
     /// Frames of each camera path
-    #[arg(long, value_name = "N", default_value = "12", value_parser = clap::value_parser!(u32).range(2..=3600))]
+    #[arg(long, value_name = "N", default_value = "12", value_parser = clap::value_parser!(u32).range(2..=3600), allow_hyphen_values = true)]
     frames: u32,
     /// Width and height in pixels
-    #[arg(long, value_name = "WxH", default_value = "640x640", value_parser = parse_size)]
+    #[arg(long, value_name = "WxH", default_value = "640x640", value_parser = parse_size, allow_hyphen_values = true)]
     size: [u32; 2],
     /// Width of the strokes in pixels
-    #[arg(long, value_name = "PX", default_value = "6", value_parser = parse_width)]
+    #[arg(long, value_name = "PX", default_value = "6", value_parser = parse_width, allow_hyphen_values = true)]
     width: f32,
     /// Use the adapter whose name contains this text [default: the best]
     #[arg(long, value_name = "NAME")]

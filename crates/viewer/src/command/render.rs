@@ -42,13 +42,13 @@ pub(super) struct RenderCommand {
     #[arg(short, long, value_name = "OUT.png")]
     output: PathBuf,
     /// Width and height in pixels
-    #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = parse_size)]
+    #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = parse_size, allow_hyphen_values = true)]
     size: [u32; 2],
     #[command(flatten)]
     picture: PictureArguments,
     /// Turn the camera around the target in N steps and write numbered pictures, or one
     /// animation if OUT ends in .gif or .apng
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000), allow_hyphen_values = true)]
     turntable: Option<u32>,
     /// Keep running and draw again when the technique, a shader or an image changes; mistakes
     /// are reported and the last good picture stays
@@ -61,7 +61,7 @@ pub(super) struct RenderCommand {
     #[arg(long, value_name = "PNG", conflicts_with = "turntable")]
     reference: Option<PathBuf>,
     /// Share of pixels that may differ
-    #[arg(long, value_name = "T", default_value_t = DEFAULT_REFERENCE_THRESHOLD, value_parser = parse_share)]
+    #[arg(long, value_name = "T", default_value_t = DEFAULT_REFERENCE_THRESHOLD, value_parser = parse_share, allow_hyphen_values = true)]
     reference_threshold: f64,
 }
 
