@@ -57,6 +57,7 @@ mod preprocess_commands;
 #[cfg(feature = "gpu")]
 mod random;
 mod render_command;
+mod round_trips;
 mod shaders;
 mod technique_commands;
 mod window_panels;

@@ -292,8 +292,9 @@ fn exports_come_back_with_their_edges() {
         let target = format!("out.{ending}");
         assert_status(&in_folder(folder, &["export", "cube.obj", "-o", &target]), 0);
         let info = info(folder, &[&target]);
-        let marked = info["features"]["marked"].as_u64();
-        assert_eq!((info["triangles"].as_u64(), marked), (Some(12), Some(12)), "{ending}");
+        let classes = ["marked", "ridge"].map(|class| info["features"][class].as_u64());
+        assert_eq!(info["triangles"].as_u64(), Some(12), "{ending}");
+        assert_eq!(classes, [Some(1), Some(12)], "its line and its edges, {ending}");
     }
     assert_status(&in_folder(folder, &["export", "cube.obj", "-o", "out.json"]), 0);
     let text = fs::read_to_string(folder.join("out.json")).unwrap();

@@ -1,13 +1,19 @@
 //! Marked edges: lines of the model, and pairs of vertices from a side file. A line that is not an
-//! edge of the mesh becomes a record without faces.
+//! edge of the mesh becomes a record without faces. Classes that the model states come with them.
 
 use std::collections::BTreeSet;
 
 use super::BuildOptions;
 use crate::edge_mesh::{EdgeFlags, EdgeRecord, EdgeTable};
 use crate::index::{NONE, to_u32};
-use crate::model::Model;
+use crate::model::{Model, StatedClasses};
 use crate::report::{Place, Report, WarningCode};
+
+/// The classes that a model can state for edges of two faces.
+pub(crate) const STATED_CLASSES: EdgeFlags = EdgeFlags::RIDGE
+    .union(EdgeFlags::VALLEY)
+    .union(EdgeFlags::MATERIAL)
+    .union(EdgeFlags::SMOOTHING);
 
 /// The marked and suppressed edges of a mesh.
 #[derive(Debug, Default)]
@@ -16,6 +22,8 @@ pub(crate) struct Marks {
     marked: Vec<u32>,
     /// Edges that are never creases, ascending.
     suppressed: Vec<u32>,
+    /// The stated classes of edges, ascending by edge; `None` if the model states none.
+    stated: Option<Vec<(u32, EdgeFlags)>>,
     /// Lines that are not edges of the mesh, as welded vertices; ascending.
     loose: Vec<[u32; 2]>,
 }
@@ -53,6 +61,13 @@ impl Marks {
         }
         let suppressed = model.suppressed_edges.iter().filter_map(|pair| welded(*pair));
         marks.suppressed.extend(suppressed.filter_map(|[a, b]| table.find(a, b)).map(to_u32));
+        marks.stated = model.stated_edges.as_ref().map(|stated| {
+            let numbered = stated.iter().filter_map(|edge| {
+                let [a, b] = welded(edge.ends)?;
+                Some((to_u32(table.find(a, b)?), flags_of(edge.classes)))
+            });
+            numbered.collect()
+        });
         marks.sort();
         let unmarked = options.unmarked.iter().filter_map(|pair| welded(*pair));
         let unmarked: BTreeSet<[u32; 2]> = unmarked.map(|[a, b]| [a.min(b), a.max(b)]).collect();
@@ -72,6 +87,11 @@ impl Marks {
         }
         self.loose.sort_unstable();
         self.loose.dedup();
+        if let Some(stated) = &mut self.stated {
+            stated.sort_unstable_by_key(|(edge, flags)| (*edge, flags.bits()));
+            let is_stated = |edge: &u32| stated.binary_search_by_key(edge, |(own, _)| *own).is_ok();
+            self.suppressed.retain(|edge| !is_stated(edge));
+        }
     }
 
     /// Whether edge number `edge` is marked.
@@ -84,6 +104,16 @@ impl Marks {
         !self.suppressed.is_empty() && self.suppressed.binary_search(&to_u32(edge)).is_ok()
     }
 
+    /// The classes that the model states for edge number `edge`; `None` if it leaves all edges to
+    /// angles, materials and smoothing groups.
+    pub(crate) fn stated_classes(&self, edge: usize) -> Option<EdgeFlags> {
+        let stated = self.stated.as_ref()?;
+        let edge = to_u32(edge);
+        let first = stated.partition_point(|(other, _)| *other < edge);
+        let own = stated[first..].iter().take_while(|(other, _)| *other == edge);
+        Some(own.fold(EdgeFlags::empty(), |all, (_, flags)| all | *flags))
+    }
+
     /// Records of the lines that are not edges of the mesh.
     pub(crate) fn loose_records(&self) -> impl Iterator<Item = EdgeRecord> {
         self.loose.iter().map(|&[v0, v1]| EdgeRecord {
@@ -94,4 +124,15 @@ impl Marks {
             word: EdgeFlags::MARKED.into(),
         })
     }
+}
+
+/// The flags of stated classes.
+fn flags_of(classes: StatedClasses) -> EdgeFlags {
+    let mut flags = EdgeFlags::empty();
+    flags.set(EdgeFlags::RIDGE, classes.ridge);
+    flags.set(EdgeFlags::VALLEY, classes.valley);
+    flags.set(EdgeFlags::MATERIAL, classes.material);
+    flags.set(EdgeFlags::SMOOTHING, classes.smoothing);
+    flags.set(EdgeFlags::NON_MANIFOLD, classes.non_manifold);
+    flags
 }

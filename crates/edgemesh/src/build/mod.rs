@@ -127,17 +127,26 @@ impl BuildOptions {
 /// Panics if an index of `model` is out of range. Models from a reader have none.
 #[must_use]
 pub fn build_edge_mesh(model: &Model, options: &BuildOptions, report: &mut Report) -> EdgeMesh {
-    build_with_file_vertices(model, options, report).0
+    build_with_file_vertices(model, options, report).mesh
 }
 
-/// As [`build_edge_mesh`], with the first vertex of the file, counted from 0, at the position of
-/// each vertex of the mesh.
+/// An edge mesh, and the vertices of the model at its vertices.
+#[derive(Debug)]
+pub(crate) struct BuiltMesh {
+    pub(crate) mesh: EdgeMesh,
+    /// The first vertex of the file, counted from 0, at the position of each vertex of the mesh.
+    pub(crate) file_vertices: Vec<u32>,
+    /// The vertices of the model at the corners of each triangle; empty without a rig.
+    pub(crate) corner_vertices: Vec<[u32; 3]>,
+}
+
+/// As [`build_edge_mesh`], with the vertices of the model.
 #[must_use]
 pub(crate) fn build_with_file_vertices(
     model: &Model,
     options: &BuildOptions,
     report: &mut Report,
-) -> (EdgeMesh, Vec<u32>) {
+) -> BuiltMesh {
     let is_used = used_vertices(model);
     let used_box = used_box(model, &is_used);
     let (frame, weld) = weld_model(model, &is_used, used_box, options);
@@ -172,7 +181,8 @@ pub(crate) fn build_with_file_vertices(
     };
     faces.repair(&mut counts, report);
     let marks = Marks::find(model, options, &welded.welded_from_input, &faces.table, report);
-    let mesh = finish(positions, faces, &marks, options, counts, rounding, report);
+    let (mesh, corner_vertices) =
+        finish(positions, faces, &marks, options, counts, rounding, report);
     let mesh = EdgeMesh { frame, ..mesh };
     let mut file_vertices = vec![NONE; mesh.positions.len() - mesh.split_from.len()];
     for (input, &welded) in welded.welded_from_input.iter().enumerate().rev() {
@@ -183,7 +193,7 @@ pub(crate) fn build_with_file_vertices(
     let of_split = |&vertex: &u32| file_vertices[vertex as usize];
     let split: Vec<u32> = mesh.split_from.iter().map(of_split).collect();
     file_vertices.extend(split);
-    (mesh, file_vertices)
+    BuiltMesh { mesh, file_vertices, corner_vertices }
 }
 
 /// Marks or unmarks the edges between pairs of vertices of `mesh`, and chains its edges again with
@@ -421,7 +431,7 @@ fn finish(
     mut counts: MeshCounts,
     rounding: Rounding,
     report: &mut Report,
-) -> EdgeMesh {
+) -> (EdgeMesh, Vec<[u32; 3]>) {
     let attributes = FaceAttributes::of(faces.model, &faces.sources);
     let input = SurfaceInput {
         positions: &positions,
@@ -462,7 +472,7 @@ fn finish(
     let vertices = (&mut positions, &mut vertex_normals);
     let split_from = apply_splits(&fans.splits, vertices, &mut triangles, &mut records);
     records.extend(marks.loose_records());
-    EdgeMesh {
+    let mesh = EdgeMesh {
         chains: chains::chain(&positions, &records, options.chain_turn_rad),
         bounds: Bounds::of(&positions),
         frame: MeshFrame::default(),
@@ -474,7 +484,15 @@ fn finish(
         records,
         fill,
         counts,
-    }
+    };
+    (mesh, corner_vertices(model, &sources))
+}
+
+/// The vertices of the model at the corners of each triangle; empty without a rig.
+fn corner_vertices(model: &Model, sources: &FaceSources) -> Vec<[u32; 3]> {
+    let count = if model.rig.is_some() { sources.len() } else { 0 };
+    let vertex = |corner: u32| model.corner_positions[corner as usize];
+    (0..count).map(|face| sources.corners(face).map(vertex)).collect()
 }
 
 fn report_split_edges(

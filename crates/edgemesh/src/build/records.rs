@@ -27,7 +27,7 @@ use rayon::prelude::*;
 use super::FaceAttributes;
 use super::creases::CreaseNormals;
 use super::faces::FaceSources;
-use super::marks::Marks;
+use super::marks::{Marks, STATED_CLASSES};
 use crate::edge_mesh::{EdgeFlags, EdgePart, EdgeRecord, EdgeTable, triangle_side};
 use crate::index::{NONE, to_u32};
 
@@ -116,7 +116,8 @@ impl RecordInput<'_> {
                 .map(|(at, (ends, sides))| {
                     let edge = first + at;
                     let mut records = Vec::new();
-                    self.split(ends, sides, twins, &mut records);
+                    let stated = self.marks.stated_classes(edge);
+                    self.split(ends, sides, stated, twins, &mut records);
                     let marked = self.marks.is_marked(edge);
                     for record in &mut records {
                         record.word.set(EdgeFlags::MARKED, marked);
@@ -174,6 +175,11 @@ impl RecordInput<'_> {
         }
         if self.sources.is_diagonal_edge(&[a, b]) || self.marks.is_suppressed(edge) {
             record.word = (record.flags() & EdgeFlags::CLASH | EdgeFlags::DIAGONAL).into();
+            return record;
+        }
+        if let Some(classes) = self.marks.stated_classes(edge) {
+            record.word.set(STATED_CLASSES, false);
+            record.word.insert(classes & STATED_CLASSES);
         }
         record
     }
@@ -196,11 +202,12 @@ impl RecordInput<'_> {
     }
 
     /// Splits the faces of an edge into pairs around solid matter; a face without a partner gets a
-    /// separate record.
+    /// separate record. Classes that the model states concern all pairs alike.
     fn split(
         &self,
         [low, high]: [u32; 2],
         sides: &[u32],
+        stated: Option<EdgeFlags>,
         twins: &[AtomicU32],
         records: &mut Vec<EdgeRecord>,
     ) {
@@ -217,10 +224,11 @@ impl RecordInput<'_> {
                 is_paired[next] = true;
                 join(twins, around[at], around[next]);
                 let mut record = self.joined(around[at], around[next], false);
-                if record.flags().intersects(EdgeFlags::ALWAYS_DRAWN) {
+                if stated.unwrap_or(record.flags()).intersects(EdgeFlags::ALWAYS_DRAWN) {
                     // A feature, whose class belongs to one pair only.
                     record.word = EdgeFlags::NON_MANIFOLD.into();
                 } else {
+                    record.word.set(EdgeFlags::ALWAYS_DRAWN, false);
                     record.word.insert(EdgeFlags::PAIRED);
                 }
                 records.push(record);

@@ -6,7 +6,8 @@ use super::progress::TerminalProgress;
 use crate::arguments::InputArguments;
 use crate::load::{LoadError, LoadOptions, LoadedMesh, load};
 
-/// Loads one input of a verb; `with_fill` builds the fill, for verbs that write it.
+/// Loads one input of a verb; `with_fill` builds the fill, for verbs that write it, and keeps the
+/// rig.
 ///
 /// # Errors
 /// As [`load`].
@@ -16,6 +17,6 @@ pub(super) fn load_input(
     with_fill: bool,
     is_quiet: bool,
 ) -> Result<LoadedMesh, LoadError> {
-    let options = LoadOptions { with_fill, ..input.load_options() };
+    let options = LoadOptions { with_fill, with_rig: with_fill, ..input.load_options() };
     load(path, &options, &TerminalProgress::new(is_quiet))
 }

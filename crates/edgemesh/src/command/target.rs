@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use super::output::print_to_stdout;
-use crate::format::whole_file::write_file;
+use crate::format::whole_file::{is_stream, write_file};
 
 /// Each input with its output file.
 #[derive(Debug)]
@@ -88,6 +88,17 @@ pub(crate) fn write_target(target: &Path, bytes: &[u8]) -> Result<(), Failure> {
     if target == Path::new("-") { print_to_stdout(bytes) } else { Ok(write_file(target, bytes)?) }
 }
 
+/// The material library beside the OBJ file `target`: its path and its name. `None` for a stream,
+/// and for a name that a statement cannot have.
+pub(crate) fn library_beside(target: &Path) -> Option<(PathBuf, String)> {
+    if target == Path::new("-") || is_stream(target) {
+        return None;
+    }
+    let name = format!("{}.mtl", target.file_stem()?.to_str()?);
+    let is_plain = name.trim() == name && !name.contains(char::is_control);
+    is_plain.then(|| (target.with_file_name(&name), name))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -114,5 +125,14 @@ mod tests {
         assert!(Targets::new(&inputs, &folder.path().join(".").join("a.obj"), "obj").is_err());
         assert!(Targets::new(&inputs, folder.path(), "obj").is_err());
         assert!(Targets::new(&inputs, folder.path(), "glb").is_ok());
+    }
+
+    #[test]
+    fn a_library_stands_beside_a_file() {
+        let library = library_beside(Path::new("a b/part.obj"));
+        assert_eq!(library, Some(("a b/part.mtl".into(), "part.mtl".into())));
+        for stream in ["-", "/dev/stdout", "a/ part.obj"] {
+            assert_eq!(library_beside(Path::new(stream)), None, "{stream}");
+        }
     }
 }

@@ -76,6 +76,11 @@ pub fn class_names(flags: EdgeFlags) -> impl Iterator<Item = &'static str> {
     CLASS_NAMES.iter().filter(is_set).map(|(_, name)| *name)
 }
 
+/// The class with this name.
+pub(crate) fn class_of_name(name: &str) -> Option<EdgeFlags> {
+    CLASS_NAMES.iter().find(|(_, other)| *other == name).map(|(flag, _)| *flag)
+}
+
 /// The classes that are chained, the strongest first.
 pub const CHAIN_CLASSES: [EdgeFlags; 7] = [
     EdgeFlags::MARKED,
@@ -105,5 +110,9 @@ mod tests {
         let some = EdgeFlags::SMOOTHING | EdgeFlags::RIDGE;
         assert!(class_names(some).eq(["ridge", "smoothing"]));
         assert_eq!(class_names(EdgeFlags::empty()).count(), 0);
+        for flag in EdgeFlags::all() {
+            assert_eq!(class_names(flag).next().and_then(class_of_name), Some(flag));
+        }
+        assert_eq!(class_of_name("Ridge"), None);
     }
 }

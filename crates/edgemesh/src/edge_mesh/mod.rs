@@ -21,6 +21,7 @@ mod replicate;
 mod static_links;
 mod topology;
 
+pub(crate) use self::edge_flags::class_of_name;
 pub use self::edge_flags::{CHAIN_CLASSES, EdgeFlags, chain_class_of, class_names};
 pub use self::edge_word::{
     CONCAVE, CONCAVE_16, CREASE_SHIFT, CREASE_SHIFT_16, CREASE_STEPS, EdgeWord, STEPS_PER_STEP_16,

@@ -7,6 +7,7 @@
 //! - `regular_file`: opens regular files, no pipes and devices.
 //! - [`whole_file`]: writes a file whole or not at all.
 
+mod edge_classes;
 pub mod edge_mesh_file;
 pub mod export;
 mod little_endian;

@@ -11,12 +11,12 @@ use super::loaded_mesh::{LoadedMesh, ModelSource};
 use super::marks::{SideMarks, marks_beside, read_marks};
 use super::options::{InputFormat, LoadOptions};
 use super::progress::{Progress, Stage, StageGuard};
-use crate::build::{BuildOptions, box_of, build_with_file_vertices, reclassify};
+use crate::build::{BuildOptions, BuiltMesh, box_of, build_with_file_vertices, reclassify};
 use crate::edge_mesh::{EdgeMesh, MeshFrame};
 use crate::format::edge_mesh_file::{HEADER_BYTES, is_edge_mesh, parse, stated_length};
 use crate::format::read::{Format, read_model_as, read_model_stream};
 use crate::format::regular_file::open_regular;
-use crate::model::Model;
+use crate::model::{MeshRig, Model};
 use crate::report::{Report, WarningCode};
 
 /// The path of the embedded model, a torus knot.
@@ -135,9 +135,15 @@ fn finish(
                 let SideMarks { marked, unmarked } = marks_of(path, &mut report)?;
                 (build.marks, build.unmarked) = (marked, unmarked);
             }
-            let (mesh, file_vertices) = build_with_file_vertices(&model, &build, &mut report);
+            let built = build_with_file_vertices(&model, &build, &mut report);
+            let BuiltMesh { mut mesh, file_vertices, corner_vertices } = built;
+            if options.has_crease_angles() && model.stated_edges.is_some() {
+                reclassify(&mut mesh, &build);
+            }
             let source = path.map(|path| ModelSource { path, file_vertices });
-            LoadedMesh { source, ..LoadedMesh::new(model.name, mesh, report) }
+            let rig = model.rig.filter(|_| options.with_rig);
+            let rig = rig.map(|rig| MeshRig { rig, corners: corner_vertices });
+            LoadedMesh { source, rig, ..LoadedMesh::new(model.name, mesh, report) }
         }
         Input::Stored(mut mesh, name, report) => {
             if let Some(frame) = build.frame {

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::edge_mesh::EdgeMesh;
+use crate::model::MeshRig;
 use crate::report::Report;
 
 /// An edge mesh with its name and its report.
@@ -17,6 +18,9 @@ pub struct LoadedMesh {
     pub report: Report,
     /// The model file; `None` for standard input, [`DEMO`](super::DEMO) and edge mesh files.
     pub source: Option<ModelSource>,
+    /// Skins and morph targets, if [`LoadOptions::with_rig`](super::LoadOptions::with_rig) asks for
+    /// them and the model has any.
+    pub rig: Option<MeshRig>,
 }
 
 /// The model file that an edge mesh was built from.
@@ -33,6 +37,6 @@ impl LoadedMesh {
     /// An edge mesh without a model file.
     #[must_use]
     pub const fn new(name: String, mesh: EdgeMesh, report: Report) -> Self {
-        Self { name, mesh, report, source: None }
+        Self { name, mesh, report, source: None, rig: None }
     }
 }

@@ -21,12 +21,15 @@ pub struct LoadOptions {
     /// Whether warnings are errors. Default: false.
     pub is_strict: bool,
     /// The angle between the faces of a convex edge above which it is a ridge, in radians.
-    /// Default: that of [`BuildOptions`]; an edge mesh keeps the creases of its file.
+    /// Default: that of [`BuildOptions`]; an edge mesh, or an export that states them, keeps the
+    /// creases of its file.
     pub ridge_angle_rad: Option<f64>,
     /// As `ridge_angle_rad`, for concave edges and valleys.
     pub valley_angle_rad: Option<f64>,
     /// Whether the fill is built, which only shading needs. Default: true.
     pub with_fill: bool,
+    /// Whether skins and morph targets are kept, which only exports need. Default: false.
+    pub with_rig: bool,
 }
 
 impl Default for LoadOptions {
@@ -39,6 +42,7 @@ impl Default for LoadOptions {
             ridge_angle_rad: None,
             valley_angle_rad: None,
             with_fill: true,
+            with_rig: false,
         }
     }
 }

@@ -7,5 +7,9 @@ mod rig;
 
 pub(crate) use self::material::MAX_PICTURE_BYTES;
 pub use self::material::{Material, Texture, TextureSource};
-pub use self::polygon_model::{Attributes, Corner, Model, PolygonRun, Segment, Smoothing};
-pub use self::rig::{Displacement, Influence, NodeTransform, Pose, Rig, RigNode, RigPart, Skin};
+pub use self::polygon_model::{
+    Attributes, Corner, Model, PolygonRun, Segment, Smoothing, StatedClasses, StatedEdge,
+};
+pub use self::rig::{
+    Displacement, Influence, MeshRig, NodeTransform, Pose, Rig, RigNode, RigPart, Skin,
+};

@@ -43,6 +43,9 @@ pub struct Model {
     /// Edges that are never drawn as creases: indices into `positions`, the smaller first, each
     /// edge once. A segment on the same edge takes precedence.
     pub suppressed_edges: Vec<[u32; 2]>,
+    /// The classes of edges, if the file states them; an edge that is not in the list has none
+    /// then. `None` leaves them to angles, materials and smoothing groups.
+    pub stated_edges: Option<Vec<StatedEdge>>,
     /// Whether the file declares parts invisible. A file with nothing else is an empty model and
     /// not an error.
     pub has_invisible_parts: bool,
@@ -120,6 +123,30 @@ pub struct Segment {
     pub ends: [u32; 2],
     /// The line in the file, counted from 1; 0 if the format has no lines.
     pub line: u32,
+}
+
+/// An edge of two faces or more with the classes that the file states.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StatedEdge {
+    /// The ends, as indices into [`Model::positions`].
+    pub ends: [u32; 2],
+    /// The classes.
+    pub classes: StatedClasses,
+}
+
+/// The classes of an edge that a file can state.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct StatedClasses {
+    /// A convex crease.
+    pub ridge: bool,
+    /// A concave crease.
+    pub valley: bool,
+    /// Between two materials.
+    pub material: bool,
+    /// Between two smoothing groups.
+    pub smoothing: bool,
+    /// Of more than two faces, and a feature.
+    pub non_manifold: bool,
 }
 
 impl Model {

@@ -42,6 +42,15 @@ pub struct Rig {
     pub influences: Vec<Influence>,
 }
 
+/// The rig of a mesh that was built from a model.
+#[derive(Debug, Clone)]
+pub struct MeshRig {
+    /// The rig.
+    pub rig: Box<Rig>,
+    /// The vertices of the model at the corners of each triangle of the mesh.
+    pub corners: Vec<[u32; 3]>,
+}
+
 /// A node of the hierarchy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigNode {
@@ -188,6 +197,24 @@ impl Rig {
         positions
     }
 
+    /// The index of the part of a vertex.
+    #[must_use]
+    pub(crate) fn part_of(&self, vertex: u32) -> usize {
+        self.parts.partition_point(|part| part.vertices.end <= vertex)
+    }
+
+    /// Whether `pose` mirrors the vertices of `part`; their faces are reversed then. Skinned
+    /// vertices are placed by their joints, not by their node.
+    #[must_use]
+    pub(crate) fn is_mirrored(&self, pose: &Pose, node: usize, skin: u32) -> bool {
+        let joints = pose.world_from_mesh.get(skin as usize);
+        let transform = match joints {
+            Some(joints) => joints.first(),
+            None => pose.world_from_node.get(node),
+        };
+        transform.is_some_and(|transform| transform.matrix3.determinant() < 0.0)
+    }
+
     /// The transform of a vertex of `part` to the world.
     #[must_use]
     pub(crate) fn vertex_transform(&self, pose: &Pose, part: &RigPart, vertex: u32) -> DAffine3 {
@@ -208,7 +235,7 @@ impl Rig {
 
     /// The influences of a vertex.
     #[must_use]
-    fn influences_of(&self, vertex: u32) -> &[Influence] {
+    pub(crate) fn influences_of(&self, vertex: u32) -> &[Influence] {
         let vertex = vertex as usize;
         let Some(&end) = self.influence_ends.get(vertex) else { return &[] };
         let start = vertex.checked_sub(1).map_or(0, |before| self.influence_ends[before]);

@@ -25,8 +25,10 @@ use crate::meshes::{
 
 const NAME: &str = "Gr\u{fc}\u{df}e \"\u{4e16}\u{754c}\"\\\n#1";
 
+/// The edge mesh of a model without its fill, so that files have its own vertices.
 fn build(model: &Model) -> EdgeMesh {
-    build_edge_mesh(model, &BuildOptions::default(), &mut Report::default())
+    let options = BuildOptions { with_fill: false, ..BuildOptions::default() };
+    build_edge_mesh(model, &options, &mut Report::default())
 }
 
 fn export(mesh: &EdgeMesh, format: ExportFormat) -> Vec<u8> {
@@ -138,7 +140,7 @@ fn check_gltf(mesh: &EdgeMesh, decoded: &DecodedFile) {
 
 /// Edges of two faces that are not hard are silhouettes, unless flat.
 fn check_silhouettes(mesh: &EdgeMesh, decoded: &DecodedFile) {
-    let mut seen = 0;
+    let (mut seen, mut checked) = (0, BTreeSet::new());
     for record in &mesh.records {
         if record.flags().intersects(EdgeFlags::ALWAYS_DRAWN) {
             continue;
@@ -146,6 +148,9 @@ fn check_silhouettes(mesh: &EdgeMesh, decoded: &DecodedFile) {
         let ends = [record.v0, record.v1].map(|vertex| mesh.positions[vertex as usize]);
         if decoded.hard.contains_key(&edge(ends)) {
             continue; // Another pair of its faces is hard.
+        }
+        if !checked.insert(edge(ends)) {
+            continue; // The silhouette is that of the first pair of faces.
         }
         let found = decoded.silhouettes.get(&edge(ends));
         seen += usize::from(found.is_some());
@@ -210,15 +215,11 @@ fn line_strings_take_what_follows_on() {
     assert_eq!(materials.hard.values().filter(|words| words[..] == ["material"]).count(), 2);
 }
 
-/// The edges that come back marked from a file of `format`, and the mesh that is
-/// built of it.
-fn read_back(bytes: &[u8], format: Format) -> (BTreeSet<Edge>, EdgeMesh) {
+/// The mesh that is built of a file of `format`.
+fn read_back(bytes: &[u8], format: Format) -> EdgeMesh {
     let (model, report) = read_model_bytes("back", bytes, format).unwrap();
     assert!(report.warnings().is_empty(), "{report:?}");
-    let mesh = build(&model);
-    let marked = mesh.records.iter().filter(|record| record.flags().contains(EdgeFlags::MARKED));
-    let ends = marked.map(|record| [record.v0, record.v1].map(|end| mesh.positions[end as usize]));
-    (ends.map(edge).collect(), mesh)
+    build(&model)
 }
 
 fn triangles(mesh: &EdgeMesh) -> Vec<[[u32; 3]; 3]> {
@@ -226,34 +227,104 @@ fn triangles(mesh: &EdgeMesh) -> Vec<[[u32; 3]; 3]> {
     mesh.triangles.iter().map(|triangle| triangle.map(place)).collect()
 }
 
-/// Asserts that exactly the hard edges of a mesh come back marked.
-fn check_marks(mesh: &EdgeMesh) {
-    let [hard, lines] = hard_edges(mesh);
-    let expected: BTreeSet<Edge> = hard.into_keys().chain(lines.into_keys()).collect();
-    let formats = [
-        (ExportFormat::Obj, Format::Obj),
-        (ExportFormat::Ply, Format::Ply),
-        (ExportFormat::Glb, Format::Glb),
-        (ExportFormat::Gltf, Format::Gltf),
-    ];
-    for (written, read) in formats {
-        let (marked, back) = read_back(&export(mesh, written), read);
-        assert_eq!(marked, expected, "{written:?}");
+const WITH_A_READER: [(ExportFormat, Format); 4] = [
+    (ExportFormat::Obj, Format::Obj),
+    (ExportFormat::Ply, Format::Ply),
+    (ExportFormat::Glb, Format::Glb),
+    (ExportFormat::Gltf, Format::Gltf),
+];
+
+/// Asserts that the triangles and all classes of the edges of a mesh come back.
+fn check_classes(mesh: &EdgeMesh) {
+    for (written, read) in WITH_A_READER {
+        let back = read_back(&export(mesh, written), read);
         // Triangles that were cut from different polygons can be the two sides of one.
         if back.triangles.len() == back.counts.triangles {
+            assert_eq!(hard_edges(&back), hard_edges(mesh), "{written:?}");
             assert_eq!(triangles(&back), triangles(mesh), "{written:?}");
         }
     }
 }
 
 #[test]
-fn hard_edges_come_back_marked() {
+fn classes_come_back() {
     for (name, model) in samples() {
         if model.positions.is_empty() {
             continue; // Files without a vertex are refused.
         }
         println!("{name}");
-        check_marks(&build(&model));
+        check_classes(&build(&model));
+        let with_fill = build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default());
+        check_classes(&with_fill);
+    }
+}
+
+/// A fold of 20 degrees and one of 60, as an export with a threshold of 10 states them.
+#[test]
+fn stated_creases_do_not_depend_on_their_angle() {
+    let turned = |degrees: f32| degrees.to_radians().sin_cos();
+    let ((s20, c20), (s60, c60)) = (turned(20.0), turned(60.0));
+    let positions = [
+        [0.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [-c60, 0.0, s60],
+        [-c60, 1.0, s60],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [1.0 + c20, 0.0, -s20],
+        [1.0 + c20, 1.0, -s20],
+    ];
+    let quads: [&[u32]; 3] = [&[2, 0, 1, 3], &[0, 4, 5, 1], &[4, 6, 7, 5]];
+    let model = Model::from_polygons(&positions, &quads);
+    let angle = 10.0_f64.to_radians();
+    let options =
+        BuildOptions { ridge_angle_rad: angle, valley_angle_rad: angle, ..BuildOptions::default() };
+    let mesh = build_edge_mesh(&model, &options, &mut Report::default());
+    let count = |mesh: &EdgeMesh, class: EdgeFlags| {
+        mesh.records.iter().filter(|record| record.flags().contains(class)).count()
+    };
+    let creases = |mesh: &EdgeMesh| [EdgeFlags::RIDGE, EdgeFlags::VALLEY].map(|c| count(mesh, c));
+    assert_eq!((creases(&mesh), creases(&build(&model))), ([1, 1], [0, 1]));
+    for (written, read) in WITH_A_READER {
+        let back = read_back(&export(&mesh, written), read);
+        assert_eq!((creases(&back), count(&back, EdgeFlags::MARKED)), ([1, 1], 0), "{written:?}");
+    }
+    // Without the words that say whose export it is, hard edges are marked edges.
+    let text = String::from_utf8(export(&mesh, ExportFormat::Gltf)).unwrap();
+    let foreign = text.replace("Edgemesh edge classes", "other");
+    let back = read_back(foreign.as_bytes(), Format::Gltf);
+    assert_eq!(count(&back, EdgeFlags::MARKED), 10, "two folds and eight at the boundary");
+}
+
+/// Two sheets that touch along a fold, which is a feature or not by the threshold.
+#[test]
+fn stated_features_of_more_than_two_faces_do_not_depend_on_their_angle() {
+    for (fold, threshold, expected) in [(20.0_f32, 10.0_f64, [2, 0]), (40.0, 50.0, [0, 2])] {
+        let mut positions = vec![[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+        for degrees in [0.0, 180.0 - fold, 180.0, 360.0 - fold] {
+            let (sine, cosine) = degrees.to_radians().sin_cos();
+            positions.extend([[cosine, sine, 0.0], [cosine, sine, 1.0]]);
+        }
+        let quads: [&[u32]; 4] = [&[1, 0, 2, 3], &[0, 1, 5, 4], &[1, 0, 6, 7], &[0, 1, 9, 8]];
+        let model = Model::from_polygons(&positions, &quads);
+        let angle = threshold.to_radians();
+        let options = BuildOptions {
+            ridge_angle_rad: angle,
+            valley_angle_rad: angle,
+            ..BuildOptions::default()
+        };
+        let mesh = build_edge_mesh(&model, &options, &mut Report::default());
+        let pairs = |mesh: &EdgeMesh| {
+            [EdgeFlags::NON_MANIFOLD, EdgeFlags::PAIRED].map(|class| {
+                mesh.records.iter().filter(|record| record.flags().contains(class)).count()
+            })
+        };
+        let others = [expected[1], expected[0]];
+        assert_eq!((pairs(&mesh), pairs(&build(&model))), (expected, others), "{fold}");
+        for (written, read) in WITH_A_READER {
+            let (model, _) = read_model_bytes("back", &export(&mesh, written), read).unwrap();
+            assert_eq!(pairs(&build(&model)), expected, "{fold}, {written:?}");
+        }
     }
 }
 
@@ -390,7 +461,7 @@ proptest! {
     fn gltf_of_any_mesh_reads_back_equal(
         mesh in prop_oneof![closed_mesh(), oriented_mesh(), one_sided_mesh(), soup(3..=5)],
     ) {
-        let mesh = mesh.build();
+        let mesh = build(&mesh.model());
         check_gltf(&mesh, &decode(&export(&mesh, ExportFormat::Glb)));
     }
 
@@ -399,17 +470,17 @@ proptest! {
         mesh in prop_oneof![closed_mesh(), one_sided_mesh()],
         eye in [-9.0..9.0_f32, -9.0..9.0_f32, 3.0..9.0_f32],
     ) {
-        let mesh = mesh.build();
+        let mesh = build(&mesh.model());
         let decoded = decode(&export(&mesh, ExportFormat::Glb));
         prop_assert_eq!(drawn(&decoded, eye.into()), contours(&mesh, eye.into()));
     }
 
     #[test]
-    fn hard_edges_of_any_mesh_come_back_marked(
+    fn classes_of_any_mesh_come_back(
         mesh in prop_oneof![oriented_mesh(), one_sided_mesh(), soup(3..=5)],
     ) {
         let mesh = mesh.build();
         prop_assume!(!mesh.triangles.is_empty());
-        check_marks(&mesh);
+        check_classes(&mesh);
     }
 }

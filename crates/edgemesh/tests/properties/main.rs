@@ -27,6 +27,7 @@ mod readers;
 mod readers_field;
 mod readers_gltf;
 mod readers_ply_stl;
+mod rigs;
 mod views;
 
 use proptest::test_runner::{Config, RngSeed};

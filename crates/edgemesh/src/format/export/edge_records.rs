@@ -35,3 +35,10 @@ pub(super) fn link_ends(mesh: &EdgeMesh, link: &ChainLink) -> [u32; 2] {
     let EdgeRecord { v0, v1, .. } = mesh.records[link.record as usize];
     if link.is_reversed == 1 { [v1, v0] } else { [v0, v1] }
 }
+
+/// The classes of the edge of each record: those that are drawn in every view.
+pub(super) fn classes_of_records(mesh: &EdgeMesh) -> Vec<EdgeFlags> {
+    let of_edge =
+        |records: &[EdgeRecord]| std::iter::repeat_n(hard_classes(records), records.len());
+    edges(mesh).flat_map(of_edge).collect()
+}

@@ -8,6 +8,10 @@
 //!             JSON        the whole edge mesh, with words for the classes
 //! ```
 //!
+//! The readers of this project give the edges of all but JSON, which they do not read, their
+//! classes back ([`edge_classes`](super::edge_classes)). Texture coordinates are in all but JSON,
+//! materials in glTF and, with a library beside it, in OBJ, skins and morph targets in glTF.
+//!
 //! In the words of the glTF extension, a *hard* edge is drawn in every view, and a
 //! *silhouette* edge is another one that some view draws. An edge of more than two
 //! faces has several records, and perhaps copies of its vertices, but is one edge
@@ -20,16 +24,20 @@
 //! Equal meshes give equal bytes.
 
 mod edge_records;
-mod edge_visibility;
+mod face_runs;
 mod file_number;
 mod format;
 mod gltf;
 mod json;
 mod lines;
+mod mtl;
+mod names;
 mod obj;
 mod one_line;
 mod ply;
+mod vertices;
 mod write;
 
 pub use format::ExportFormat;
-pub use write::to_bytes;
+pub use mtl::LIBRARY_HEAD;
+pub use write::{material_library, obj_with_library, to_bytes, to_bytes_with_rig};

@@ -1,66 +1,152 @@
-//! OBJ: triangles, and hard edges as polylines.
+//! OBJ: triangles with texture coordinates and materials, and hard edges as polylines.
 //!
-//! Source: Alias|Wavefront, *Advanced Visualizer Manual*, appendix B1: `v`, `f`, `l`, `g`,
-//! `o`.
+//! Source: Alias|Wavefront, *Advanced Visualizer Manual*, appendix B1: `v`, `vt`, `f`, `l`, `g`,
+//! `o`, `mtllib`, `usemtl`.
 //!
 //! ```text
-//! v 0 0 0       positions: the shortest text that is read back unchanged
-//! f 1 2 3       triangles
-//! g ridge       for each class with chains:
-//! l 1 2 3 1       a polyline for each chain; a loop ends with its first vertex
+//! v 0 0 0           positions: the shortest text that is read back unchanged
+//! vt 0.5 1          the different texture coordinates
+//! usemtl bark       before the triangles of each material
+//! f 1/1 2/4 3/2     triangles
+//! g marked ridge    for each set of classes:
+//! l 1 2 3 1           a polyline for each part of a chain with them; a loop ends with its
+//!                     first vertex
 //! ```
 //!
-//! A reader that reads `l` as marked edges, as that of this project does, gets all hard
-//! edges back as marked edges. An edge of several classes is in the group of the class of
-//! its chain.
+//! The first line says whose groups these are, and the reader of this project gives the edges
+//! their classes back. To other readers, and to it without that line, they are lines.
 //!
 //! Normals are not written, because those of a welded mesh are not for shading.
 
 use std::io::{self, Write};
 
-use super::edge_records::chain_vertices;
-use super::file_number::in_file;
-use super::one_line::one_line;
-use crate::edge_mesh::{CHAIN_CLASSES, EdgeMesh, class_names};
+use indexmap::{IndexMap, IndexSet};
+use rustc_hash::FxBuildHasher;
 
-/// Writes a mesh with its chains.
+use super::edge_records::{classes_of_records, link_ends};
+use super::face_runs::face_runs;
+use super::file_number::in_file;
+use super::names::{MaterialNames, statement_name};
+use crate::edge_mesh::{CHAIN_CLASSES, Chain, ChainLink, EdgeFlags, EdgeMesh, class_names};
+use crate::format::edge_classes::STATES_CLASSES;
+use crate::index::{NONE, to_u32};
+
+/// Writes a mesh with its chains; `library` is the name of its material library.
 ///
 /// # Errors
 /// Those of `out`.
-pub(super) fn write_obj(mesh: &EdgeMesh, name: &str, out: &mut impl Write) -> io::Result<()> {
-    writeln!(out, "# Edgemesh {}: a mesh, and its hard edges", env!("CARGO_PKG_VERSION"))?;
+pub(super) fn write_obj(
+    mesh: &EdgeMesh,
+    name: &str,
+    library: Option<&str>,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    writeln!(out, "# {STATES_CLASSES}")?;
+    writeln!(out, "# A mesh of Edgemesh {}, and its hard edges", env!("CARGO_PKG_VERSION"))?;
     writeln!(out, "# as polylines (l), in groups by class (g)")?;
-    // A backslash would continue the line, a hash would begin a comment.
-    let name = one_line(name).replace(['\\', '#'], "_");
-    if !name.trim().is_empty() {
-        writeln!(out, "o {}", name.trim())?;
+    if let Some(library) = library {
+        writeln!(out, "mtllib {library}")?;
+    }
+    let name = statement_name(name);
+    if !name.is_empty() {
+        writeln!(out, "o {name}")?;
     }
     for &position in &mesh.positions {
         let [x, y, z] = in_file(mesh, position);
         writeln!(out, "v {x} {y} {z}")?;
     }
-    for triangle in &mesh.triangles {
-        let [a, b, c] = triangle.map(|vertex| vertex + 1);
-        writeln!(out, "f {a} {b} {c}")?;
-    }
+    write_faces(mesh, out)?;
     write_chains(mesh, out)
 }
 
-fn write_chains(mesh: &EdgeMesh, out: &mut impl Write) -> io::Result<()> {
-    for class in CHAIN_CLASSES {
-        let mut chains = mesh.chains.chains.iter().filter(|chain| chain.class == class).peekable();
-        if chains.peek().is_some() {
-            writeln!(out, "g {}", class_names(class).next().unwrap_or_default())?;
+/// Writes triangles with their texture coordinates and materials.
+fn write_faces(mesh: &EdgeMesh, out: &mut impl Write) -> io::Result<()> {
+    let texcoords = Texcoords::of(mesh);
+    for texcoord in &texcoords.list {
+        let [u, v] = texcoord.map(f32::from_bits);
+        writeln!(out, "vt {u} {v}")?;
+    }
+    let names = MaterialNames::of(&mesh.fill.materials);
+    let mut material = NONE;
+    for (faces, run) in face_runs(mesh) {
+        if run.material != material {
+            material = run.material;
+            writeln!(out, "usemtl {}", names.name(material))?;
         }
-        for chain in chains {
-            write!(out, "l")?;
-            for vertex in chain_vertices(mesh, chain) {
+        for face in faces {
+            write!(out, "f")?;
+            for (corner, vertex) in mesh.triangles[face].iter().enumerate() {
                 write!(out, " {}", vertex + 1)?;
+                if run.has_texcoords == 1 {
+                    write!(out, "/{}", texcoords.of_corner(mesh, 3 * face + corner) + 1)?;
+                }
             }
             writeln!(out)?;
         }
     }
     Ok(())
+}
+
+/// The different texture coordinates of a mesh.
+struct Texcoords {
+    /// As bits.
+    list: IndexSet<[u32; 2], FxBuildHasher>,
+}
+
+impl Texcoords {
+    fn of(mesh: &EdgeMesh) -> Self {
+        let textured = face_runs(mesh).filter(|(_, run)| run.has_texcoords == 1);
+        let corners = textured.flat_map(|(faces, _)| 3 * faces.start..3 * faces.end);
+        Self { list: corners.map(|corner| texcoord_bits(mesh, corner)).collect() }
+    }
+
+    /// The index of the texture coordinate of a corner.
+    fn of_corner(&self, mesh: &EdgeMesh, corner: usize) -> u32 {
+        to_u32(self.list.get_index_of(&texcoord_bits(mesh, corner)).unwrap_or_default())
+    }
+}
+
+fn texcoord_bits(mesh: &EdgeMesh, corner: usize) -> [u32; 2] {
+    mesh.fill.vertices[mesh.fill.indices[corner] as usize].texcoord.map(f32::to_bits)
+}
+
+fn write_chains(mesh: &EdgeMesh, out: &mut impl Write) -> io::Result<()> {
+    let of_record = classes_of_records(mesh);
+    for class in CHAIN_CLASSES {
+        let mut groups = IndexMap::<u32, Vec<Vec<u32>>>::new();
+        for chain in mesh.chains.chains.iter().filter(|chain| chain.class == class) {
+            for (classes, line) in lines_of(mesh, chain, &of_record) {
+                groups.entry(classes.bits()).or_default().push(line);
+            }
+        }
+        for (classes, lines) in groups {
+            let words: Vec<&str> = class_names(EdgeFlags::from_bits_truncate(classes)).collect();
+            writeln!(out, "g {}", words.join(" "))?;
+            for line in lines {
+                write!(out, "l")?;
+                for vertex in line {
+                    write!(out, " {}", vertex + 1)?;
+                }
+                writeln!(out)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The parts of a chain whose edges have the same classes, with their vertices.
+fn lines_of<'a>(
+    mesh: &'a EdgeMesh,
+    chain: &Chain,
+    of_record: &'a [EdgeFlags],
+) -> impl Iterator<Item = (EdgeFlags, Vec<u32>)> + 'a {
+    let links = &mesh.chains.links[chain.link_range()];
+    let classes = |link: &ChainLink| of_record[link.record as usize];
+    links.chunk_by(move |a, b| classes(a) == classes(b)).map(move |part| {
+        let first = part.first().map(|link| link_ends(mesh, link)[0]);
+        let vertices = first.into_iter().chain(part.iter().map(|link| link_ends(mesh, link)[1]));
+        (part.first().map_or(EdgeFlags::empty(), classes), vertices.collect())
+    })
 }
 
 #[cfg(test)]
@@ -73,7 +159,7 @@ mod tests {
     fn write(model: &Model, name: &str) -> String {
         let mesh = build_edge_mesh(model, &BuildOptions::default(), &mut Report::default());
         let mut bytes = Vec::new();
-        write_obj(&mesh, name, &mut bytes).unwrap();
+        write_obj(&mesh, name, None, &mut bytes).unwrap();
         let text = String::from_utf8(bytes).unwrap();
         let rows: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
         rows.join("\n")

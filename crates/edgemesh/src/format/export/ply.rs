@@ -5,6 +5,10 @@
 //! distinguishes the classes in programs that draw them, and all their class bits.
 //! Comments in the header explain colors and bits.
 //!
+//! A mesh with texture coordinates has the vertices of its fill, with `s` and `t`; another one
+//! has its own. Triangles have the diffuse color of their material if any has one; a program that
+//! wants the materials themselves reads glTF.
+//!
 //! Positions are floats, or doubles if the mesh has a frame. The normal of a vertex
 //! without faces, or with faces that cancel out, is zero.
 //!
@@ -13,9 +17,12 @@
 use std::io::{self, Write};
 
 use super::edge_records::{edges, hard_classes};
+use super::face_runs::face_runs;
 use super::file_number::{FileNumber, in_file};
 use super::one_line::one_line;
-use crate::edge_mesh::{CHAIN_CLASSES, EdgeFlags, EdgeMesh, chain_class_of, class_names};
+use super::vertices::Vertices;
+use crate::edge_mesh::{CHAIN_CLASSES, EdgeFlags, EdgeMesh, FillRun, chain_class_of, class_names};
+use crate::format::edge_classes::STATES_CLASSES;
 
 /// The colors of [`CHAIN_CLASSES`].
 const COLORS: [[u8; 3]; 7] = [
@@ -33,51 +40,92 @@ const COLORS: [[u8; 3]; 7] = [
 /// # Errors
 /// Those of `out`.
 pub(super) fn write_ply(mesh: &EdgeMesh, name: &str, out: &mut impl Write) -> io::Result<()> {
-    write_header(mesh, name, out)?;
-    for (&position, normal) in mesh.positions.iter().zip(&mesh.vertex_normals) {
+    let vertices = Vertices::of(mesh);
+    let colors = face_colors(mesh);
+    write_header(mesh, &vertices, colors.is_some(), name, out)?;
+    for (at, &position) in vertices.positions.iter().enumerate() {
         for coordinate in in_file(mesh, position) {
             match coordinate {
                 FileNumber::Single(number) => out.write_all(&number.to_le_bytes())?,
                 FileNumber::Double(number) => out.write_all(&number.to_le_bytes())?,
             }
         }
-        out.write_all(normal.map(f32::to_le_bytes).as_flattened())?;
+        out.write_all(vertices.normals[at].map(f32::to_le_bytes).as_flattened())?;
+        if let Some(texcoord) = vertices.texcoords.get(at) {
+            out.write_all(texcoord.map(f32::to_le_bytes).as_flattened())?;
+        }
     }
-    for triangle in &mesh.triangles {
+    for (at, triangle) in vertices.triangles.iter().enumerate() {
         out.write_all(&[3])?;
         out.write_all(triangle.map(u32::to_le_bytes).as_flattened())?;
+        if let Some(colors) = &colors {
+            out.write_all(&colors[at])?;
+        }
     }
     for ([start, end], flags) in hard_edges(mesh) {
-        out.write_all([start, end].map(u32::to_le_bytes).as_flattened())?;
+        let ends = [start, end].map(|end| vertices.stored(end));
+        out.write_all(ends.map(u32::to_le_bytes).as_flattened())?;
         out.write_all(&chain_class_of(flags).map_or([0; 3], |class| COLORS[class]))?;
         out.write_all(&flags.bits().to_le_bytes())?;
     }
     Ok(())
 }
 
-fn write_header(mesh: &EdgeMesh, name: &str, out: &mut impl Write) -> io::Result<()> {
+fn write_header(
+    mesh: &EdgeMesh,
+    vertices: &Vertices,
+    has_colors: bool,
+    name: &str,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let colors = "property uchar red\nproperty uchar green\nproperty uchar blue";
     writeln!(out, "ply\nformat binary_little_endian 1.0")?;
     writeln!(out, "comment {}", one_line(name))?;
     writeln!(out, "comment Edgemesh {}: a mesh and its hard edges", env!("CARGO_PKG_VERSION"))?;
+    writeln!(out, "comment {STATES_CLASSES}")?;
     for (class, [red, green, blue]) in CHAIN_CLASSES.into_iter().zip(COLORS) {
         let bit = class.bits();
         let word = class_names(class).next().unwrap_or_default();
         writeln!(out, "comment edge flag {bit}, color {red} {green} {blue}: {word}")?;
     }
     let float = if mesh.frame.is_identity() { "float" } else { "double" };
-    writeln!(out, "element vertex {}", mesh.positions.len())?;
+    writeln!(out, "element vertex {}", vertices.positions.len())?;
     for axis in ["x", "y", "z"] {
         writeln!(out, "property {float} {axis}")?;
     }
     for axis in ["nx", "ny", "nz"] {
         writeln!(out, "property float {axis}")?;
     }
-    writeln!(out, "element face {}", mesh.triangles.len())?;
+    if !vertices.texcoords.is_empty() {
+        writeln!(out, "property float s\nproperty float t")?;
+    }
+    writeln!(out, "element face {}", vertices.triangles.len())?;
     writeln!(out, "property list uchar int vertex_indices")?;
+    if has_colors {
+        writeln!(out, "{colors}")?;
+    }
     writeln!(out, "element edge {}", hard_edges(mesh).count())?;
     writeln!(out, "property int vertex1\nproperty int vertex2")?;
-    writeln!(out, "property uchar red\nproperty uchar green\nproperty uchar blue")?;
-    writeln!(out, "property uint flags\nend_header")
+    writeln!(out, "{colors}\nproperty uint flags\nend_header")
+}
+
+/// The diffuse color of each triangle, white without one; `None` if no material has one.
+fn face_colors(mesh: &EdgeMesh) -> Option<Vec<[u8; 3]>> {
+    let diffuse = |run: &FillRun| mesh.fill.materials.get(run.material as usize)?.diffuse;
+    if !face_runs(mesh).any(|(_, run)| diffuse(&run).is_some()) {
+        return None;
+    }
+    let colors = face_runs(mesh).flat_map(|(faces, run)| {
+        let color = diffuse(&run).unwrap_or([1.0; 3]).map(byte);
+        faces.map(move |_| color)
+    });
+    Some(colors.collect())
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "clamped")]
+#[expect(clippy::cast_sign_loss, reason = "clamped")]
+fn byte(part: f32) -> u8 {
+    (part.clamp(0.0, 1.0) * 255.0).round() as u8
 }
 
 /// The ends and classes of each hard edge, including lines without a face.

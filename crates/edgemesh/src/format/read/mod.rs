@@ -28,6 +28,7 @@ mod picture_structure;
 mod ply;
 mod sniff;
 mod source;
+mod stated;
 mod stl;
 mod threemf;
 mod vrml;

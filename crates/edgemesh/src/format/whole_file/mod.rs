@@ -85,6 +85,12 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     temporary.write(bytes).and_then(|()| temporary.rename_to(&file)).map_err(failed)
 }
 
+/// Whether `path` is a device, a pipe or a standard stream, which other files cannot stand beside.
+#[must_use]
+pub fn is_stream(path: &Path) -> bool {
+    Destination::of(path).is_ok_and(|found| !matches!(found, Destination::File(_)))
+}
+
 fn destination_of(path: &Path) -> Result<Destination, WriteError> {
     Destination::of(path).map_err(|reason| WriteError::Io { path: path.to_owned(), reason })
 }

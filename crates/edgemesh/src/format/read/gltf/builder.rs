@@ -20,6 +20,7 @@ use json::validation::Checked;
 
 use super::super::error::{ReadError, ReadErrorKind};
 use super::super::normal_transform::normal_transform;
+use super::super::stated::add_stated_edge;
 use super::asset::Asset;
 use super::deform::{add_influences, morph_targets, new_rig};
 use super::edge_extensions::edge_marks;
@@ -214,7 +215,7 @@ impl<'a> ModelBuilder<'a> {
             count: to_u32(count),
             has_normals: !attributes.normals.is_empty(),
             has_texcoords: !attributes.texcoords.is_empty(),
-            is_mirrored: self.is_mirrored(rig_node, skin),
+            is_mirrored: self.rig.is_mirrored(&self.rest, rig_node, skin),
         };
         extend_from(&mut self.model.normals, start, attributes.normals, [0.0; 3]);
         extend_from(&mut self.model.texcoords, start, attributes.texcoords, [0.0; 2]);
@@ -243,17 +244,6 @@ impl<'a> ModelBuilder<'a> {
             format!("names no joints for the skin of nodes[{node}]; the node places it instead")
         });
         Ok(NONE)
-    }
-
-    /// Whether the rest pose mirrors vertices; their faces are reversed then. Skinned
-    /// vertices are placed by their joints, not by their node.
-    fn is_mirrored(&self, node: usize, skin: u32) -> bool {
-        let joints = self.rest.world_from_mesh.get(skin as usize);
-        let transform = match joints {
-            Some(joints) => joints.first(),
-            None => self.rest.world_from_node.get(node),
-        };
-        transform.is_some_and(|transform| transform.matrix3.determinant() < 0.0)
     }
 
     /// Adds the triangles or segments of a primitive with the vertices of `range`.
@@ -309,6 +299,13 @@ impl<'a> ModelBuilder<'a> {
         self.add_segments(&edges.marked, range);
         let suppressed = edges.suppressed.iter().map(|ends| ends.map(|end| range.first + end));
         self.model.suppressed_edges.extend(suppressed);
+        if edges.states_classes {
+            self.model.stated_edges.get_or_insert_default();
+        }
+        for (ends, classes) in edges.stated {
+            let ends = ends.map(|end| range.first + end);
+            add_stated_edge(&mut self.model, ends, classes, 0);
+        }
     }
 
     fn add_segments(&mut self, segments: &[[u32; 2]], range: VertexRange) {

@@ -19,7 +19,9 @@ use serde_json::Value;
 use super::super::error::{ReadError, ReadErrorKind};
 use super::accessor::Accessor;
 use super::primitive::Primitive;
+use super::stated_edges::{classes_in, states_classes};
 use super::topology::polyline;
+use crate::edge_mesh::EdgeFlags;
 use crate::report::{Place, Report, WarningCode};
 
 const VISIBILITY: &str = "EXT_mesh_primitive_edge_visibility";
@@ -33,6 +35,10 @@ pub(super) struct EdgeMarks {
     pub(super) marked: Vec<[u32; 2]>,
     /// Edges that are never drawn as creases.
     pub(super) suppressed: Vec<[u32; 2]>,
+    /// Whether the file is an export of this program that states the classes of all edges.
+    pub(super) states_classes: bool,
+    /// These edges with their classes; `marked` has none of them.
+    pub(super) stated: Vec<([u32; 2], EdgeFlags)>,
 }
 
 /// The members of `EXT_mesh_primitive_edge_visibility`.
@@ -42,12 +48,16 @@ struct EdgeVisibility {
     visibility: Option<usize>,
     #[serde(default)]
     line_strings: Vec<Indices>,
+    #[serde(default)]
+    extras: Value,
 }
 
 /// The accessor of a list of vertices.
 #[derive(Deserialize)]
 struct Indices {
     indices: usize,
+    #[serde(default)]
+    extras: Value,
 }
 
 /// The edges that the extensions of a primitive mark and suppress; a malformed
@@ -59,12 +69,13 @@ pub(super) fn edge_marks(
     report: &mut Report,
 ) -> EdgeMarks {
     let mut reader = Reader { primitive, triangles, report };
-    let mut edges = EdgeMarks::default();
+    let states_classes = states_classes(&primitive.asset.document.asset);
+    let mut edges = EdgeMarks { states_classes, ..EdgeMarks::default() };
     if let Some(json) = primitive.extension(VISIBILITY) {
-        match reader.visibility(json) {
-            Ok(visibility) => edges = visibility,
-            Err(error) => error.warn_left_out(reader.report),
-        }
+        edges = reader.visibility(json, states_classes).unwrap_or_else(|error| {
+            error.warn_left_out(reader.report);
+            EdgeMarks::default()
+        });
     }
     if let Some(json) = primitive.extension(OUTLINE) {
         match reader.outline(json) {
@@ -77,6 +88,9 @@ pub(super) fn edge_marks(
     report.warn_many(WarningCode::Index, marked - edges.marked.len(), primitive.place(), || {
         format!("an edge names a vertex past the last of {vertex_count}; it was left out")
     });
+    let is_known = |ends: &[u32; 2]| ends.iter().all(|&end| end < vertex_count);
+    edges.stated.retain(|(ends, _)| is_known(ends));
+    edges.suppressed.retain(is_known);
     for ends in edges.marked.iter_mut().chain(&mut edges.suppressed) {
         ends.sort_unstable();
     }
@@ -90,27 +104,62 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn visibility(&mut self, json: &Value) -> Result<EdgeMarks, ReadError> {
+    fn visibility(&mut self, json: &Value, states_classes: bool) -> Result<EdgeMarks, ReadError> {
         let json: EdgeVisibility = self.parse(VISIBILITY, json)?;
-        let mut edges = EdgeMarks::default();
+        let mut edges = EdgeMarks { states_classes, ..EdgeMarks::default() };
+        let (mut single, mut silhouettes) = (Vec::new(), Vec::new());
         if let Some(accessor) = json.visibility {
-            let values = self.values(accessor)?;
             let corners = self.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-            for (edge, value) in corners.zip(values) {
-                match value {
-                    0 => edges.suppressed.push(edge),
-                    2 | 3 => edges.marked.push(edge),
+            for (edge, value) in corners.zip(self.values(accessor)?) {
+                match (value, states_classes) {
+                    (1, true) => silhouettes.push(edge),
+                    (2, true) => single.push(edge),
+                    (0, false) => edges.suppressed.push(edge),
+                    (2 | 3, false) => edges.marked.push(edge),
                     _ => {}
                 }
             }
         }
+        let mut lines = Vec::new();
         for line in json.line_strings {
             let accessor = self.accessor(VISIBILITY, line.indices)?;
             let restart = largest(&accessor);
             let indices = self.indices(VISIBILITY, &accessor)?;
-            edges.marked.extend(indices.split(|&index| index == restart).flat_map(polyline));
+            let strings = indices.split(|&index| index == restart).flat_map(polyline);
+            lines.push((strings.collect::<Vec<_>>(), line.extras["edges"].clone()));
         }
+        if states_classes {
+            lines.push((single, json.extras["edges"].clone()));
+            // Without diagonals, silhouettes have no list.
+            if let Some(runs) = json.extras.get("silhouettes") {
+                lines.push((silhouettes, runs.clone()));
+            }
+            return self.stated(edges, lines);
+        }
+        edges.marked.extend(lines.into_iter().flat_map(|(edges, _)| edges));
         Ok(edges)
+    }
+
+    /// Adds edges with their classes to `marks`. Only diagonals are suppressed: an edge that is
+    /// hidden on one side may be listed on the other, by other vertices.
+    fn stated(
+        &self,
+        mut marks: EdgeMarks,
+        lists: Vec<(Vec<[u32; 2]>, Value)>,
+    ) -> Result<EdgeMarks, ReadError> {
+        for (edges, runs) in lists {
+            let classes = classes_in(&runs, edges.len()).ok_or_else(|| {
+                self.error(VISIBILITY, "has extras that do not fit its edges".into())
+            })?;
+            for (edge, classes) in edges.into_iter().zip(classes) {
+                if classes.contains(EdgeFlags::DIAGONAL) {
+                    marks.suppressed.push(edge);
+                } else if classes.intersects(EdgeFlags::ALWAYS_DRAWN) {
+                    marks.stated.push((edge, classes));
+                }
+            }
+        }
+        Ok(marks)
     }
 
     /// The value of each edge of each triangle.

@@ -39,6 +39,7 @@ mod primitive;
 mod sample;
 mod scene;
 mod scene_size;
+mod stated_edges;
 mod texture;
 mod topology;
 mod uri;

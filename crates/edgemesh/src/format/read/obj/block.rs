@@ -50,6 +50,8 @@ pub(super) struct BlockError {
 pub(super) struct StateChange {
     /// The first polygon of the block that has the new state.
     pub(super) polygon: u32,
+    /// The first segment of the block that has the new state.
+    pub(super) segment: usize,
     pub(super) state: NewState,
 }
 
@@ -322,7 +324,8 @@ impl Parser<'_> {
 
     fn change(&mut self, state: NewState) {
         let polygon = to_u32(self.block.model.polygon_count());
-        self.block.changes.push(StateChange { polygon, state });
+        let segment = self.block.model.segments.len();
+        self.block.changes.push(StateChange { polygon, segment, state });
     }
 
     fn warn(&mut self, code: WarningCode, line: u32, message: impl FnOnce() -> String) {

@@ -21,6 +21,7 @@ mod block;
 mod materials;
 mod merge;
 mod mtl;
+mod stated;
 mod statement;
 
 use std::borrow::Cow;
@@ -28,8 +29,9 @@ use std::borrow::Cow;
 use memchr::memchr;
 use rayon::prelude::*;
 
-use self::block::parse_block;
+use self::block::{ParsedBlock, parse_block};
 use self::merge::merge;
+use self::stated::{line_classes, state_classes, states_classes};
 use super::byte_order_mark::without_mark;
 use super::error::{ReadError, ReadErrorKind};
 use super::source::Source;
@@ -56,8 +58,14 @@ fn read_in_blocks(
     block_bytes: usize,
     report: &mut Report,
 ) -> Result<Model, ReadError> {
-    let blocks = split(text, block_bytes).into_par_iter().map(parse_block).collect();
-    merge(source, blocks, report)
+    let blocks: Vec<ParsedBlock> =
+        split(text, block_bytes).into_par_iter().map(parse_block).collect();
+    let classes = states_classes(text).then(|| line_classes(&blocks));
+    let mut model = merge(source, blocks, report)?;
+    if let Some(classes) = classes {
+        state_classes(&mut model, &classes);
+    }
+    Ok(model)
 }
 
 /// The text without its byte order mark, UTF-16 converted to UTF-8.

@@ -14,10 +14,12 @@ use std::ops::Range;
 
 use super::super::error::{ReadError, ReadErrorKind};
 use super::super::source::Source;
+use super::super::stated::add_stated_edge;
 use super::super::words::quoted;
 use super::header::{Element, Header};
 use super::rows::{Row, RowPlan, Rows, SLOTS};
 use super::scalar::Scalar;
+use crate::edge_mesh::EdgeFlags;
 use crate::index::{MAX_INDEX, NONE};
 use crate::model::{Corner, Model, Segment};
 use crate::report::{Place, Report, WarningCode};
@@ -43,8 +45,12 @@ const NORMAL: Range<usize> = 3..6;
 const COLOR: Range<usize> = 6..9;
 const TEXCOORD: Range<usize> = 9..11;
 
-/// The names of the ends of an edge, by slot.
-const EDGE_SLOTS: [&[&str]; 2] = [&["vertex1"], &["vertex2"]];
+/// The names of the properties of an edge, by slot.
+const EDGE_SLOTS: [&[&str]; 3] = [&["vertex1"], &["vertex2"], &["flags"]];
+
+// Slots of `EDGE_SLOTS`.
+const ENDS: Range<usize> = 0..2;
+const FLAGS: Range<usize> = 2..3;
 
 /// The names of the list of corners of a face or strip.
 const CORNER_LISTS: [&str; 2] = ["vertex_indices", "vertex_index"];
@@ -71,7 +77,11 @@ pub(super) fn read_elements(
         vertex_count: vertex.map_or(0, |vertex| vertex.count),
         has_normals: has(NORMAL),
         has_texcoords: has(TEXCOORD),
+        states_classes: header.states_classes,
     };
+    if header.states_classes {
+        reader.model.stated_edges = Some(Vec::new());
+    }
     for element in &header.elements {
         match element.name {
             b"vertex" => reader.vertices(&RowPlan::new(element, &VERTEX_SLOTS, &[]))?,
@@ -97,6 +107,8 @@ struct ElementReader<'s, 'a, R> {
     has_normals: bool,
     /// Whether each vertex has texture coordinates.
     has_texcoords: bool,
+    /// Whether edges have the classes of an export of this program.
+    states_classes: bool,
 }
 
 impl<R: Rows> ElementReader<'_, '_, R> {
@@ -181,15 +193,23 @@ impl<R: Rows> ElementReader<'_, '_, R> {
     }
 
     fn edges(&mut self, plan: &RowPlan) -> Result<(), ReadError> {
-        if !plan.has(0..EDGE_SLOTS.len()) {
+        if !plan.has(ENDS) {
             return self.skip(plan.element, "lacks vertex1 or vertex2");
         }
         self.rows.begin(plan)?;
+        let states_classes = self.states_classes && plan.has(FLAGS);
         for _ in 0..plan.element.count {
             self.rows.read(plan, &mut self.row, self.report)?;
-            let [a, b, ..] = self.row.values;
-            let ends = [self.index(a)?, self.index(b)?];
-            self.model.segments.push(Segment { ends, line: self.rows.line() });
+            let [a, b, flags, ..] = self.row.values;
+            let (ends, line) = ([self.index(a)?, self.index(b)?], self.rows.line());
+            if states_classes {
+                #[expect(clippy::cast_possible_truncation, reason = "saturates")]
+                #[expect(clippy::cast_sign_loss, reason = "saturates")]
+                let classes = EdgeFlags::from_bits_truncate(flags as u32);
+                add_stated_edge(&mut self.model, ends, classes, line);
+            } else {
+                self.model.segments.push(Segment { ends, line });
+            }
         }
         Ok(())
     }

@@ -6,7 +6,7 @@
 //! ```text
 //! ply
 //! format ascii 1.0                             encoding
-//! comment ..., obj_info ...                    ignored
+//! comment ..., obj_info ...                    ignored, except that of our exports
 //! element face 12                              12 rows
 //!   property uchar red                         one value
 //!   property list uchar int vertex_indices     a count, then as many values
@@ -21,6 +21,7 @@ use super::super::error::{ReadError, ReadErrorKind};
 use super::super::source::Source;
 use super::super::words::{Words, quoted};
 use super::scalar::Scalar;
+use crate::format::edge_classes::STATES_CLASSES;
 use crate::report::{Place, Report, WarningCode};
 
 /// The elements that are read; each may come only once.
@@ -48,6 +49,8 @@ pub(super) struct Header<'a> {
     pub(super) end: usize,
     /// The line of the first row, counted from 1.
     pub(super) end_line: u32,
+    /// Whether edges have the classes of an export of this program.
+    pub(super) states_classes: bool,
 }
 
 /// A kind of row, such as a vertex.
@@ -84,7 +87,8 @@ pub(super) fn read_header<'a>(
     report: &mut Report,
 ) -> Result<Header<'a>, ReadError> {
     let words = Words::new(source.bytes, 0, 1);
-    let mut reader = HeaderReader { source, words, encoding: None, elements: Vec::new() };
+    let mut reader =
+        HeaderReader { source, words, encoding: None, elements: Vec::new(), states_classes: false };
     if reader.words.take_rest_of_line() != b"ply" {
         let what = "does not begin with a line 'ply', so it is not a PLY file";
         return Err(source.error(ReadErrorKind::Format, Some(Place::Line(1)), what));
@@ -95,7 +99,8 @@ pub(super) fn read_header<'a>(
     };
     reader.words.take_rest_of_line();
     let (end, end_line) = (end_of_header(source.bytes, reader.words.at()), reader.words.line());
-    Ok(Header { encoding, elements: reader.elements, end, end_line })
+    let HeaderReader { elements, states_classes, .. } = reader;
+    Ok(Header { encoding, elements, end, end_line, states_classes })
 }
 
 /// The offset of the first row, given that of the line after the header.
@@ -115,6 +120,7 @@ struct HeaderReader<'s, 'a> {
     words: Words<'a>,
     encoding: Option<Encoding>,
     elements: Vec<Element<'a>>,
+    states_classes: bool,
 }
 
 impl<'a> HeaderReader<'_, 'a> {
@@ -126,7 +132,11 @@ impl<'a> HeaderReader<'_, 'a> {
                 let what = "the file ends within its header: 'end_header' is missing";
                 return Err(self.error(ReadErrorKind::Truncated, what));
             }
-            None | Some(b"comment" | b"obj_info") => {}
+            None | Some(b"obj_info") => {}
+            Some(b"comment") => {
+                self.states_classes |= self.words.take_rest_of_line() == STATES_CLASSES.as_bytes();
+                return Ok(true);
+            }
             Some(b"format") => self.encoding = Some(self.format()?),
             Some(b"element") => self.element()?,
             Some(b"property") => self.property()?,

@@ -13,21 +13,25 @@
 //! 2 hard: drawn in every view          3 hard, the same edge as a 2 before
 //! ```
 //!
-//! Consecutive hard edges of a chain become line strings, which preserve the chain;
-//! single hard edges become values. A line string ends where its chain continues with
-//! a line without a face. Of an edge of more than two faces only the first record may
-//! be in a line string, so that each edge is written once.
+//! Consecutive hard edges of a chain become line strings, which preserve the chain; single hard
+//! edges become values. A line string ends where its chain continues with a line without a face,
+//! and where the primitive changes. Of an edge of more than two faces only the first record may be
+//! in a line string, so that each edge is written once.
 //!
 //! Rejected: normals in bytes, which the extension recommends. They have errors of up to
 //! 0.4 degrees, and silhouettes would flicker.
 
 use glam::{Vec3, Vec4Swizzles as _};
 
-use super::edge_records::{edges, hard_classes, link_ends, welded_ends};
+use super::super::edge_records::{classes_of_records, edges, hard_classes, welded_ends};
+use super::faces::PrimitiveFaces;
 use crate::edge_mesh::{
     CHAIN_CLASSES, ChainLink, EdgeFlags, EdgeMesh, EdgeRecord, chain_class_of, side_on,
 };
 use crate::index::NONE;
+
+/// The name of the extension.
+pub(super) const EXTENSION: &str = "EXT_mesh_primitive_edge_visibility";
 
 const SILHOUETTE: u8 = 1;
 const HARD: u8 = 2;
@@ -40,13 +44,15 @@ const SAME_NORMAL: f32 = 1e-6;
 /// The index between two line strings.
 pub(super) const RESTART: u32 = NONE;
 
-/// The visibility of the edges of a mesh.
+/// The visibility of the edges of a primitive.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct EdgeVisibility {
     /// A value for each side of each triangle, three for a triangle.
     pub(super) values: Vec<u8>,
     /// For each value 1, in order, the normals of its face and of the face across.
     pub(super) silhouette_normals: Vec<[[f32; 3]; 2]>,
+    /// For each value 1, in order, whether the edge is the diagonal of a polygon.
+    pub(super) silhouette_classes: Vec<ClassRun>,
     /// For each value 2, in order, the classes of the edge.
     pub(super) hard_classes: Vec<ClassRun>,
     /// The hard edges that are not in `values`, for each class.
@@ -73,34 +79,38 @@ pub(super) struct ClassRun {
     pub(super) classes: EdgeFlags,
 }
 
+/// A silhouette edge: its side, its normals, its classes.
+type Silhouette = (usize, [[f32; 3]; 2], EdgeFlags);
+
+/// The edges of a primitive that are no line strings, before they are sorted by side.
+#[derive(Debug, Default)]
+struct SingleEdges {
+    values: Vec<u8>,
+    hard: Vec<(usize, EdgeFlags)>,
+    silhouettes: Vec<Silhouette>,
+}
+
 impl EdgeVisibility {
-    /// The visibility of the edges of `mesh`.
-    pub(super) fn of(mesh: &EdgeMesh) -> Self {
-        let (line_strings, is_in_line) = line_strings(mesh);
-        let mut values = vec![0; 3 * mesh.triangles.len()];
-        let mut hard = Vec::new();
-        let mut silhouettes = Vec::new();
-        let mut end = 0;
-        for records in edges(mesh) {
-            let first = end;
-            end += records.len();
-            let sides = || sides_of(mesh, records);
-            let Some(side) = sides().min().filter(|_| !is_in_line[first]) else { continue };
-            let classes = hard_classes(records);
-            if !classes.is_empty() {
-                sides().for_each(|side| values[side] = HARD_AGAIN);
-                values[side] = HARD;
-                hard.push((side, classes));
-            } else if let Some(normals) = contour_normals(mesh, &records[0], side) {
-                values[side] = SILHOUETTE;
-                silhouettes.push((side, normals));
-            }
-        }
+    /// The visibility of the edges of `mesh` in each primitive. `corners` are the vertices of its
+    /// triangles in the file.
+    pub(super) fn of(mesh: &EdgeMesh, faces: &PrimitiveFaces, corners: &[[u32; 3]]) -> Vec<Self> {
+        let (line_strings, is_in_line) = line_strings(mesh, faces, corners);
+        let singles = single_edges(mesh, faces, &is_in_line);
+        singles
+            .into_iter()
+            .zip(line_strings)
+            .map(|(edges, lines)| Self::new(edges, lines))
+            .collect()
+    }
+
+    fn new(edges: SingleEdges, line_strings: Vec<LineStrings>) -> Self {
+        let SingleEdges { values, mut hard, mut silhouettes } = edges;
         hard.sort_unstable_by_key(|(side, _)| *side);
-        silhouettes.sort_unstable_by_key(|(side, _)| *side);
+        silhouettes.sort_unstable_by_key(|(side, ..)| *side);
         Self {
             values,
-            silhouette_normals: silhouettes.into_iter().map(|(_, normals)| normals).collect(),
+            silhouette_normals: silhouettes.iter().map(|(_, normals, _)| *normals).collect(),
+            silhouette_classes: runs(silhouettes.into_iter().map(|(.., classes)| classes)),
             hard_classes: runs(hard.into_iter().map(|(_, classes)| classes)),
             line_strings,
         }
@@ -123,19 +133,58 @@ impl EdgeVisibility {
     }
 }
 
-/// The sides of triangles on an edge, as indices of `values`.
-fn sides_of(mesh: &EdgeMesh, records: &[EdgeRecord]) -> impl Iterator<Item = usize> {
-    records.iter().flat_map(|record| {
-        let faces = [record.face_a, record.face_b].into_iter().filter(|&face| face != NONE);
-        faces.filter_map(|face| Some((3 * face + side_on(mesh, face, record)?) as usize))
+/// The edges of each primitive that are in no line string. An edge between primitives belongs to
+/// the first of them.
+fn single_edges(mesh: &EdgeMesh, faces: &PrimitiveFaces, is_in_line: &[bool]) -> Vec<SingleEdges> {
+    let empty = |primitive: usize| SingleEdges {
+        values: vec![0; 3 * faces.of(primitive).len()],
+        ..SingleEdges::default()
+    };
+    let mut singles: Vec<SingleEdges> = (0..faces.len()).map(empty).collect();
+    let mut end = 0;
+    for records in edges(mesh) {
+        let first = end;
+        end += records.len();
+        let sides = || sides_of(mesh, faces, records);
+        let Some((primitive, side)) = sides().min().filter(|_| !is_in_line[first]) else {
+            continue;
+        };
+        let classes = hard_classes(records);
+        if !classes.is_empty() {
+            sides().for_each(|(primitive, side)| singles[primitive].values[side] = HARD_AGAIN);
+            singles[primitive].values[side] = HARD;
+            singles[primitive].hard.push((side, classes));
+        } else {
+            let face = faces.of(primitive)[side / 3];
+            if let Some(normals) = contour_normals(mesh, &records[0], face) {
+                singles[primitive].values[side] = SILHOUETTE;
+                let classes = records[0].flags() & EdgeFlags::DIAGONAL;
+                singles[primitive].silhouettes.push((side, normals, classes));
+            }
+        }
+    }
+    singles
+}
+
+/// The sides of triangles on an edge: a primitive and an index of its `values`.
+fn sides_of(
+    mesh: &EdgeMesh,
+    faces: &PrimitiveFaces,
+    records: &[EdgeRecord],
+) -> impl Iterator<Item = (usize, usize)> {
+    records.iter().flat_map(move |record| {
+        let own = [record.face_a, record.face_b].into_iter().filter(|&face| face != NONE);
+        own.filter_map(move |face| {
+            Some((faces.primitive(face), faces.side(face, side_on(mesh, face, record)?)))
+        })
     })
 }
 
-/// The normals of the faces of an edge that may be a contour, first that of the face
-/// with `side`; `None` if the faces are coplanar, or one has no area and so no plane.
+/// The normals of the faces of an edge that may be a contour, first that of `own`; `None` if the
+/// faces are coplanar, or one has no area and so no plane.
 ///
 /// If the windings clash, the normal of face B is reversed.
-fn contour_normals(mesh: &EdgeMesh, record: &EdgeRecord, side: usize) -> Option<[[f32; 3]; 2]> {
+fn contour_normals(mesh: &EdgeMesh, record: &EdgeRecord, own: u32) -> Option<[[f32; 3]; 2]> {
     let normal = |face: u32| {
         let plane = mesh.face_planes.get(face as usize)?;
         let normal = glam::Vec4::from(plane.normal).xyz();
@@ -146,26 +195,35 @@ fn contour_normals(mesh: &EdgeMesh, record: &EdgeRecord, side: usize) -> Option<
     if (a - b).length() <= SAME_NORMAL {
         return None;
     }
-    let is_in_a = side / 3 == record.face_a as usize;
-    Some(if is_in_a { [a, b] } else { [b, a] }.map(Into::into))
+    Some(if own == record.face_a { [a, b] } else { [b, a] }.map(Into::into))
 }
 
-/// The line strings of a mesh for each class, and whether each record is in one.
-fn line_strings(mesh: &EdgeMesh) -> (Vec<LineStrings>, Vec<bool>) {
+/// The line strings of each primitive for each class, and whether each record is in one.
+fn line_strings(
+    mesh: &EdgeMesh,
+    faces: &PrimitiveFaces,
+    corners: &[[u32; 3]],
+) -> (Vec<Vec<LineStrings>>, Vec<bool>) {
+    let of_record = classes_of_records(mesh);
     let mut is_in_line = vec![false; mesh.records.len()];
-    let mut by_class = CHAIN_CLASSES.map(|class| LineStrings { class, ..LineStrings::default() });
+    let by_class = || CHAIN_CLASSES.map(|class| LineStrings { class, ..LineStrings::default() });
+    let mut strings: Vec<_> = (0..faces.len()).map(|_| by_class()).collect();
+    let primitive = |link: &ChainLink| faces.primitive(mesh.records[link.record as usize].face_a);
+    let is_joined = |a: &ChainLink, b: &ChainLink| {
+        may_be_in_line(mesh, a) && may_be_in_line(mesh, b) && primitive(a) == primitive(b)
+    };
     for chain in &mesh.chains.chains {
         let Some(class) = chain_class_of(chain.class) else { continue };
         let links = &mesh.chains.links[chain.link_range()];
-        let is_joined =
-            |a: &ChainLink, b: &ChainLink| may_be_in_line(mesh, a) && may_be_in_line(mesh, b);
         for line in links.chunk_by(is_joined).filter(|line| line.len() > 1) {
             line.iter().for_each(|link| is_in_line[link.record as usize] = true);
-            by_class[class].push(mesh, line);
+            strings[primitive(&line[0])][class].push(mesh, corners, &of_record, line);
         }
     }
-    let strings = by_class.into_iter().filter(|strings| !strings.indices.is_empty());
-    (strings.collect(), is_in_line)
+    let used = |by_class: [LineStrings; CHAIN_CLASSES.len()]| {
+        by_class.into_iter().filter(|strings| !strings.indices.is_empty()).collect()
+    };
+    (strings.into_iter().map(used).collect(), is_in_line)
 }
 
 /// Whether a link may be in a line string: it is the first record of an edge of a
@@ -178,27 +236,37 @@ fn may_be_in_line(mesh: &EdgeMesh, link: &ChainLink) -> bool {
 }
 
 impl LineStrings {
-    fn push(&mut self, mesh: &EdgeMesh, line: &[ChainLink]) {
+    fn push(
+        &mut self,
+        mesh: &EdgeMesh,
+        corners: &[[u32; 3]],
+        of_record: &[EdgeFlags],
+        line: &[ChainLink],
+    ) {
         if !self.indices.is_empty() {
             self.indices.push(RESTART);
         }
         for (at, link) in line.iter().enumerate() {
-            let [start, end] = link_ends(mesh, link);
+            let [start, end] = stored_ends(mesh, corners, link);
             if at == 0 {
                 self.indices.push(start);
             }
             self.indices.push(end);
-            push_run(&mut self.edge_classes, classes_from(mesh, link.record as usize));
+            push_run(&mut self.edge_classes, of_record[link.record as usize]);
         }
     }
 }
 
-/// The classes of the edge with this first record.
-fn classes_from(mesh: &EdgeMesh, first: usize) -> EdgeFlags {
-    let ends = welded_ends(mesh, &mesh.records[first]);
-    let same = |record: &&EdgeRecord| welded_ends(mesh, record) == ends;
-    let count = mesh.records[first..].iter().take_while(same).count();
-    hard_classes(&mesh.records[first..first + count])
+/// The ends of an edge in the order of its chain, as vertices of its first face in the file.
+fn stored_ends(mesh: &EdgeMesh, corners: &[[u32; 3]], link: &ChainLink) -> [u32; 2] {
+    let record = &mesh.records[link.record as usize];
+    let face = record.face_a as usize;
+    let stored = |vertex: u32| {
+        let corner = mesh.triangles[face].iter().position(|&other| other == vertex);
+        corner.map_or(NONE, |corner| corners[face][corner])
+    };
+    let [start, end] = [stored(record.v0), stored(record.v1)];
+    if link.is_reversed == 1 { [end, start] } else { [start, end] }
 }
 
 fn runs(classes: impl Iterator<Item = EdgeFlags>) -> Vec<ClassRun> {
@@ -227,7 +295,12 @@ mod tests {
     }
 
     fn visibility(positions: &[[f32; 3]], polygons: &[&[u32]]) -> EdgeVisibility {
-        EdgeVisibility::of(&build(positions, polygons))
+        of_mesh(&build(positions, polygons))
+    }
+
+    fn of_mesh(mesh: &EdgeMesh) -> EdgeVisibility {
+        let faces = PrimitiveFaces::new(mesh.triangles.iter().map(|_| 0), vec![false]);
+        EdgeVisibility::of(mesh, &faces, &mesh.triangles).remove(0)
     }
 
     const SQUARE: [[f32; 3]; 4] = [[0., 1., 0.], [0., 0., 0.], [1., 0., 0.], [1., 1., 0.]];
@@ -260,10 +333,10 @@ mod tests {
         let mut mesh = build(&SQUARE, &[&[0, 1, 2, 3]]);
         for (x, value) in [(0.0, 0), (5e-7, 0), (5e-6, 1), (-1.0, 1)] {
             mesh.face_planes[1].normal[0] = x;
-            assert_eq!(EdgeVisibility::of(&mesh).values, [2, 2, value, 0, 2, 2], "{x}");
+            assert_eq!(of_mesh(&mesh).values, [2, 2, value, 0, 2, 2], "{x}");
         }
         mesh.face_planes[1].normal = [0.0; 4];
-        assert_eq!(EdgeVisibility::of(&mesh).values, [2, 2, 0, 0, 2, 2], "no plane");
+        assert_eq!(of_mesh(&mesh).values, [2, 2, 0, 0, 2, 2], "no plane");
     }
 
     #[test]
