@@ -263,7 +263,8 @@ fn marks_beside_a_model_are_not_read_through_a_link_out_of_its_folder() {
 
 #[test]
 fn a_tolerance_closes_cracks_and_no_weld_opens_seams() {
-    let cracked = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0.0001234\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n";
+    let cracked =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0.0001234\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n";
     let folder = folder(&[("cracked.obj", cracked)]);
     let boundary = |arguments: &[&str]| {
         let info = info(folder.path(), &[&["cracked.obj"], arguments].concat());

@@ -233,7 +233,11 @@ mod tests {
     #[test]
     fn new_corners_have_the_attributes_between() {
         let mut model = plate(2, 0.0);
-        model.texcoords = model.positions.iter().map(|p| [p[0] as f32, p[1] as f32]).collect();
+        model.texcoords = model
+            .positions
+            .iter()
+            .map(|p| glam::DVec2::new(p[0], p[1]).as_vec2().to_array())
+            .collect();
         model.corner_texcoords = model.corner_positions.clone();
         let (mesh, _) = build(&model, Welding::Exact);
         for vertex in &mesh.fill.vertices {

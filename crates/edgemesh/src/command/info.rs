@@ -193,11 +193,14 @@ struct SourceInfo {
 #[derive(Debug, Clone, Serialize)]
 struct RepairsInfo {
     flipped_faces: usize,
+    inside_out_faces: usize,
+    two_sided_faces: usize,
     ear_clipped_polygons: usize,
     zero_area_triangles: usize,
     split_edges: usize,
     split_vertices: usize,
     snapped_vertices: usize,
+    closed_junctions: usize,
     recentred: usize,
 }
 
@@ -344,11 +347,14 @@ impl RepairsInfo {
         let count = |kind| report.repair_count(kind);
         Self {
             flipped_faces: count(RepairKind::FlippedFaces),
+            inside_out_faces: count(RepairKind::InsideOutFaces),
+            two_sided_faces: count(RepairKind::TwoSidedFaces),
             ear_clipped_polygons: count(RepairKind::EarClippedPolygons),
             zero_area_triangles: count(RepairKind::ZeroAreaTriangles),
             split_edges: count(RepairKind::SplitEdges),
             split_vertices: count(RepairKind::SplitVertices),
             snapped_vertices: count(RepairKind::SnappedVertices),
+            closed_junctions: count(RepairKind::ClosedJunctions),
             recentred: count(RepairKind::Recentered),
         }
     }

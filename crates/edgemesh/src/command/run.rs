@@ -3,14 +3,14 @@
 use std::panic::UnwindSafe;
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag::register_conditional_shutdown;
 
 use super::failure::{ExitStatus, Failure};
 use super::messages::print_error;
-use crate::format::whole_file::remove_unfinished;
+use crate::format::whole_file::{before_first_file, remove_unfinished};
 
 /// Runs the body of a command and returns its exit status; errors that end it are
 /// printed here only.
@@ -36,18 +36,19 @@ pub fn run(body: impl FnOnce() -> Result<(), Failure> + UnwindSafe) -> ExitCode 
     }
 }
 
-/// Removes temporary files and ends the process at a signal.
+/// Ends the process at a signal: at once as long as it has made no temporary file, later from a
+/// thread that removes these first.
 fn exit_on_signals() {
-    #[cfg(unix)]
-    if wait_for_signals().is_ok() {
-        return;
-    }
-    // Without a thread that waits, the process ends at once.
+    let at_once = Arc::new(AtomicBool::new(true));
     for signal in [SIGINT, SIGTERM] {
         // If the handler cannot be set, the signal ends the process by default.
-        let always = Arc::new(AtomicBool::new(true));
-        let _ = register_conditional_shutdown(signal, 128 + signal, always);
+        let _ = register_conditional_shutdown(signal, 128 + signal, Arc::clone(&at_once));
     }
+    #[cfg(unix)]
+    before_first_file(move || {
+        // Without a thread that waits, the process still ends at once.
+        at_once.store(wait_for_signals().is_err(), Ordering::Relaxed);
+    });
 }
 
 /// Starts a thread that waits for signals: a handler may not remove files itself.

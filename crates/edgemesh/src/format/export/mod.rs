@@ -9,7 +9,7 @@
 //! ```
 //!
 //! The readers of this project give the edges of all but JSON, which they do not read, their
-//! classes back ([`edge_classes`](super::edge_classes)). Texture coordinates are in all but JSON,
+//! classes back (`format/edge_classes.rs`). Texture coordinates are in all but JSON,
 //! materials in glTF and, with a library beside it, in OBJ, skins and morph targets in glTF.
 //!
 //! In the words of the glTF extension, a *hard* edge is drawn in every view, and a

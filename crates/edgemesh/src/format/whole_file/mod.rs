@@ -17,7 +17,7 @@ use thiserror::Error;
 use self::destination::Destination;
 pub(crate) use self::destination::folder_of;
 use self::temporary::Temporary;
-pub use self::temporary::{NoFilesBegin, remove_unfinished};
+pub use self::temporary::{NoFilesBegin, before_first_file, remove_unfinished};
 
 /// A file could not be written.
 #[derive(Debug, Error)]

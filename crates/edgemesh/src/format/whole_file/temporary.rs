@@ -24,6 +24,14 @@ const MAX_WRITERS: usize = 64;
 /// The temporary files of this process.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
+/// See [`before_first_file`].
+static BEFORE_FIRST_FILE: Mutex<Option<Box<dyn FnOnce() + Send>>> = Mutex::new(None);
+
+/// Runs `action` before this process makes its first temporary file, which most commands never do.
+pub fn before_first_file(action: impl FnOnce() + Send + 'static) {
+    *BEFORE_FIRST_FILE.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(action));
+}
+
 fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -59,6 +67,10 @@ impl Temporary {
     /// # Errors
     /// Fails if the folder cannot be written, or [`MAX_WRITERS`] write `target` now.
     pub(super) fn beside(target: &Path, old: Option<&Metadata>) -> io::Result<Self> {
+        let action = BEFORE_FIRST_FILE.lock().unwrap_or_else(PoisonError::into_inner).take();
+        if let Some(action) = action {
+            action();
+        }
         let names: Vec<PathBuf> = names(target).collect();
         names.iter().for_each(|path| remove_abandoned(path));
         let mut unfinished = unfinished();
