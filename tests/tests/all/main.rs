@@ -16,6 +16,7 @@ mod drop_file;
 mod easel;
 mod examples;
 mod expectations;
+mod field_cases;
 #[cfg(feature = "gpu")]
 mod gpu_detectors;
 #[cfg(feature = "gpu")]
