@@ -17,7 +17,7 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::faces::FaceSources;
-use super::planes::{Planes, tilt};
+use super::planes::{DOUBTFUL_TILT_RAD, Planes, tilt};
 use super::rounding::Rounding;
 use crate::edge_mesh::{EdgeFlags, EdgeWord};
 use crate::model::Model;
@@ -28,9 +28,6 @@ const MOST_IN_DOUBT_RAD: f64 = 1e-4;
 
 /// What the rounding of two unit normals in 32 bits may add to their angle, in radians.
 const NORMALS_IN_32_BITS_RAD: f64 = 4e-7;
-
-/// Above this tilt, in radians, a polygon is too narrow to judge by, and its triangles are used.
-const DOUBTFUL_TILT_RAD: f32 = 0.2;
 
 /// The cosines of the angles of a groove: from 1 to 150 degrees. Flatter edges could be concave by
 /// rounding alone, most of all at 16 bits; sharper ones are folds, which in many meshes are faces
@@ -83,6 +80,7 @@ impl<'a> CreaseNormals<'a> {
         let face = face as usize;
         if !self.polygons.is_empty() {
             let polygon = self.polygons[self.sources.polygon(face)];
+            // A polygon that is too narrow to judge by leaves it to its triangles.
             if polygon.normal != Vec3::ZERO && polygon.tilt_rad <= DOUBTFUL_TILT_RAD {
                 let turned = if self.sources.is_turned(face) { -1.0 } else { 1.0 };
                 return CreaseNormal { normal: polygon.normal * turned, ..polygon };

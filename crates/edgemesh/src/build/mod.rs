@@ -30,6 +30,7 @@ mod repair;
 mod rounding;
 mod runs;
 mod seams;
+mod surface;
 mod triangulate;
 mod two_sided;
 mod weld;
@@ -38,22 +39,19 @@ mod welded;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
 pub(crate) use self::attributes::FaceAttributes;
 pub use self::chains::DEFAULT_CHAIN_TURN_RAD;
-use self::components::{Components, Measures};
 use self::corners::{CornerInput, build_fill};
-use self::creases::CreaseNormals;
 use self::faces::FaceSources;
 use self::fans::{FanInput, Split, apply_splits, walk_fans};
 use self::marks::Marks;
-use self::outside::{Outsides, Surfaces};
 use self::planes::Planes;
-use self::records::{RecordInput, RecordTable, build_records};
 use self::repair::Faces;
 use self::rounding::Rounding;
+use self::surface::{Surface, SurfaceInput};
 pub use self::weld::Welding;
 use self::weld::{Weld, weld};
 use self::welded::WeldedModel;
@@ -61,7 +59,7 @@ use crate::edge_mesh::{
     Bounds, EdgeCounts, EdgeFlags, EdgeMesh, EdgePart, EdgeTable, MeshCounts, MeshFrame,
     SourceCounts, threshold_steps, triangle_side,
 };
-use crate::index::{NONE, to_u32};
+use crate::index::NONE;
 use crate::model::Model;
 use crate::report::{RepairKind, Report, WarningCode};
 
@@ -184,12 +182,7 @@ pub(crate) fn build_with_file_vertices(
     let (mesh, corner_vertices) =
         finish(positions, faces, &marks, options, counts, rounding, report);
     let mesh = EdgeMesh { frame, ..mesh };
-    let mut file_vertices = vec![NONE; mesh.positions.len() - mesh.split_from.len()];
-    for (input, &welded) in welded.welded_from_input.iter().enumerate().rev() {
-        if let Some(file_vertex) = file_vertices.get_mut(welded as usize) {
-            *file_vertex = to_u32(input);
-        }
-    }
+    let mut file_vertices = welded.first_inputs(mesh.positions.len() - mesh.split_from.len());
     let of_split = |&vertex: &u32| file_vertices[vertex as usize];
     let split: Vec<u32> = mesh.split_from.iter().map(of_split).collect();
     file_vertices.extend(split);
@@ -350,79 +343,6 @@ fn warn_non_manifold(
     });
 }
 
-/// What the stages of the surface have found.
-struct SurfaceStages {
-    planes: Planes,
-    built: RecordTable,
-    components: Components,
-    measures: Vec<Measures>,
-}
-
-/// The welded positions, their rounding, and what the file says of faces and edges.
-struct SurfaceInput<'a> {
-    positions: &'a [[f32; 3]],
-    rounding: Rounding,
-    attributes: &'a FaceAttributes,
-    marks: &'a Marks,
-    options: &'a BuildOptions,
-    has_split_edges: bool,
-}
-
-impl SurfaceInput<'_> {
-    fn stages(&self, faces: &Faces) -> SurfaceStages {
-        let Faces { model, triangles, sources, table, clashes, .. } = faces;
-        let planes = Planes::of(self.positions, triangles, table, &self.rounding);
-        let normals = CreaseNormals::of(model, &planes, sources, &self.rounding, |corner| {
-            let vertex = faces.welded_from_input[model.corner_positions[corner] as usize];
-            Vec3::from(self.positions[vertex as usize]).as_dvec3()
-        });
-        let input = RecordInput {
-            positions: self.positions,
-            triangles,
-            normals: &normals,
-            sources,
-            attributes: self.attributes,
-            marks: self.marks,
-            clashes,
-            has_split_edges: self.has_split_edges,
-            crease_steps: self.options.crease_steps(),
-        };
-        let built = build_records(&input, table);
-        let components = Components::of_records(triangles.len(), &built.records);
-        let measures = components.measures(self.positions, triangles);
-        SurfaceStages { planes, built, components, measures }
-    }
-
-    fn outsides(&self, faces: &Faces, stages: &SurfaceStages) -> Outsides {
-        let surfaces = Surfaces {
-            positions: self.positions,
-            triangles: &faces.triangles,
-            records: &stages.built.records,
-            components: &stages.components,
-            measures: &stages.measures,
-        };
-        surfaces.outsides()
-    }
-
-    /// The stages of `faces`, in which closed surfaces that are inside out are turned; with `SOLID`
-    /// and `GROOVE` on the records.
-    fn outward_stages(&self, faces: &mut Faces, report: &mut Report) -> SurfaceStages {
-        let mut stages = self.stages(faces);
-        let mut outsides = self.outsides(faces, &stages);
-        if !outsides.inside_out.is_empty() {
-            let component_of = &stages.components.of_face;
-            let is_wrong =
-                |face: usize| outsides.inside_out.binary_search(&component_of[face]).is_ok();
-            faces.turn(is_wrong, report);
-            stages = self.stages(faces);
-            outsides = self.outsides(faces, &stages);
-        }
-        let SurfaceStages { built, components, measures, .. } = &mut stages;
-        components.mark_solids(measures, &outsides.has_outside, &mut built.records);
-        stages
-    }
-}
-
 fn finish(
     mut positions: Vec<[f32; 3]>,
     mut faces: Faces,
@@ -441,8 +361,7 @@ fn finish(
         options,
         has_split_edges: counts.edges.non_manifold > 0,
     };
-    let stages = input.outward_stages(&mut faces, report);
-    let SurfaceStages { planes, built, components, .. } = stages;
+    let Surface { planes, built, components, .. } = input.outward_surface(&mut faces, report);
     let Faces { model, mut triangles, sources, table, clashes, .. } = faces;
     report_slivers(model, &sources, &planes, report);
     report_split_edges(model, &sources, &table, built.split_edges, report);

@@ -4,9 +4,8 @@
 //! the rounding over the height. The normal of a needle or a sliver can be tilted by any angle, so
 //! on a flat face it would be a false crease and a false contour.
 //!
-//! Idea: a face whose normal is in doubt by more than a tenth of a turn of a right angle takes the
-//! plane of the face across its longest edge, if the faces around it agree; then it lies in one
-//! surface with them. If they disagree, it is a narrow face of its own, such as the rim of a thin
+//! Idea: a thin face whose normal is in doubt by more than 11 degrees takes the plane of the face
+//! across its longest edge, if the faces around it agree; then it lies in one surface with them. If they disagree, it is a narrow face of its own, such as the rim of a thin
 //! plate, and keeps its plane. A face without area has none to keep, and always takes one.
 //!
 //! Rejected: taking the plane of a neighbor whenever a face is thin, which rounds off the rims of
@@ -17,11 +16,11 @@ use rayon::prelude::*;
 
 use super::components::Sets;
 use super::rounding::Rounding;
-use crate::edge_mesh::{EdgeTable, FacePlane, corners_of, face_normal, triangle_side};
-use crate::index::to_u32;
+use crate::edge_mesh::{EdgePart, EdgeTable, FacePlane, corners_of, face_normal, triangle_side};
+use crate::index::{NONE, to_u32};
 
 /// A normal that rounding may tilt by more than this angle, in radians, is in doubt.
-const DOUBTFUL_TILT_RAD: f32 = 0.2;
+pub(crate) const DOUBTFUL_TILT_RAD: f32 = 0.2;
 
 /// A thin face is at least this many times as long as it is high.
 const THIN: f64 = 8.0;
@@ -35,7 +34,7 @@ pub(crate) struct Planes {
     pub(crate) planes: Vec<FacePlane>,
     /// The largest angle by which rounding may have tilted each normal, in radians.
     pub(crate) tilts: Vec<f32>,
-    /// The faces that took the plane of a neighbor, and those that found none, ascending.
+    /// The faces that need the plane of a neighbor, ascending; most have found one.
     pub(crate) slivers: Vec<u32>,
 }
 
@@ -61,16 +60,16 @@ impl Planes {
         };
         let (planes, tilts) = triangles.par_iter().with_min_len(1 << 12).map(plane).unzip();
         let mut all = Self { planes, tilts, slivers: Vec::new() };
-        all.lend(&Slivers::find(&all, positions, triangles), table);
+        all.lend(&Slivers::find(&all, positions, triangles, table));
         all
     }
 
     /// Gives slivers the planes of their neighbors.
-    fn lend(&mut self, slivers: &Slivers, table: &EdgeTable) {
+    fn lend(&mut self, slivers: &Slivers) {
         if slivers.faces.is_empty() {
             return;
         }
-        self.slivers = slivers.takers(&self.planes, table);
+        self.slivers = slivers.takers(&self.planes);
         let mut needs = vec![false; self.planes.len()];
         for &face in &self.slivers {
             needs[face as usize] = true;
@@ -79,7 +78,7 @@ impl Planes {
         // edges alone, then across the others too.
         let mut pairs: Vec<(u32, u32)> = Vec::new();
         for rank in 0..3 {
-            slivers.pairs(rank, table, |taker, donor| pairs.push((donor, taker)));
+            pairs.extend(slivers.pairs(rank).map(|(index, donor)| (donor, slivers.faces[index])));
             pairs.sort_unstable();
             let mut donors: Vec<u32> = pairs.iter().map(|pair| pair.0).collect();
             donors.dedup();
@@ -117,18 +116,23 @@ pub(crate) fn tilt(corners: &[DVec3], rounding: &Rounding) -> f32 {
 }
 
 /// The thin faces whose normals are in doubt.
-struct Slivers<'a> {
-    triangles: &'a [[u32; 3]],
+struct Slivers {
     /// The faces, ascending.
     faces: Vec<u32>,
-    /// For each of them, its sides (0 to 2) from the longest to the shortest.
-    sides: Vec<[u8; 3]>,
+    /// The faces across the sides of each of them, from the longest side to the shortest, or
+    /// [`NONE`].
+    across: Vec<[u32; 3]>,
     /// Whether each of them has no area at all.
     is_flat: Vec<bool>,
 }
 
-impl<'a> Slivers<'a> {
-    fn find(planes: &Planes, positions: &[[f32; 3]], triangles: &'a [[u32; 3]]) -> Self {
+impl Slivers {
+    fn find(
+        planes: &Planes,
+        positions: &[[f32; 3]],
+        triangles: &[[u32; 3]],
+        table: &EdgeTable,
+    ) -> Self {
         let is_sliver = |face: &u32| {
             let face = *face as usize;
             let in_doubt = planes.tilts[face] > DOUBTFUL_TILT_RAD;
@@ -139,62 +143,75 @@ impl<'a> Slivers<'a> {
             .with_min_len(1 << 14)
             .filter(is_sliver)
             .collect();
-        let by_length = |&face: &u32| {
+        let is_flat =
+            faces.iter().map(|&face| !has_normal(&planes.planes[face as usize])).collect();
+        let mut slivers = Self { across: vec![[NONE; 3]; faces.len()], is_flat, faces };
+        slivers.find_across(positions, triangles, table);
+        slivers
+    }
+
+    /// Finds the face across each side: of several faces, the first that is wound the same way.
+    fn find_across(&mut self, positions: &[[f32; 3]], triangles: &[[u32; 3]], table: &EdgeTable) {
+        let runs_up = |side: u32| {
+            let [start, end] = triangle_side(triangles, side);
+            start < end
+        };
+        if self.faces.is_empty() {
+            return;
+        }
+        let of_part = |(_, part): (usize, &EdgePart)| {
+            let has_sliver = |(_, sides): &([u32; 2], &[u32])| {
+                sides.iter().any(|&side| self.index(side / 3).is_some())
+            };
+            let mut found = Vec::new();
+            for (_, sides) in part.iter().filter(has_sliver) {
+                let [first_up, first_down] =
+                    [true, false].map(|up| sides.iter().find(|&&side| runs_up(side) == up));
+                for &side in sides {
+                    let across = if runs_up(side) { first_down } else { first_up };
+                    if let (Some(index), Some(other)) = (self.index(side / 3), across) {
+                        found.push((index, side % 3, other / 3));
+                    }
+                }
+            }
+            found
+        };
+        let found: Vec<(usize, u32, u32)> = table.parts().flat_map_iter(of_part).collect();
+        let by_side = &mut self.across;
+        for (index, side, other) in found {
+            by_side[index][side as usize] = other;
+        }
+        for (across, &face) in by_side.iter_mut().zip(&self.faces) {
             let [a, b, c] = corners_of(positions, triangles[face as usize]);
             let lengths = [b - a, c - b, a - c].map(DVec3::length_squared);
             let mut sides = [0, 1, 2];
-            sides.sort_by(|&i, &j| lengths[usize::from(j)].total_cmp(&lengths[usize::from(i)]));
-            sides
-        };
-        let sides = faces.iter().map(by_length).collect();
-        let is_flat = |&face: &u32| !has_normal(&planes.planes[face as usize]);
-        Self { triangles, sides, is_flat: faces.iter().map(is_flat).collect(), faces }
+            sides.sort_by(|&i: &usize, &j| lengths[j].total_cmp(&lengths[i]));
+            *across = sides.map(|side| across[side]);
+        }
     }
 
     fn index(&self, face: u32) -> Option<usize> {
         self.faces.binary_search(&face).ok()
     }
 
-    /// Calls `visit` with each sliver and the face across its side of a rank, the longest first: of
-    /// several faces there, the first that is wound the same way.
-    fn pairs(&self, rank: usize, table: &EdgeTable, mut visit: impl FnMut(u32, u32)) {
-        let runs_up = |side: u32| {
-            let [start, end] = triangle_side(self.triangles, side);
-            start < end
-        };
-        for (_, sides) in table.iter() {
-            let mut slivers = sides
-                .iter()
-                .filter_map(|&side| Some((side, self.index(side / 3)?)))
-                .filter(|&(side, index)| u32::from(self.sides[index][rank]) == side % 3)
-                .peekable();
-            if slivers.peek().is_none() {
-                continue;
-            }
-            let [first_up, first_down] =
-                [true, false].map(|up| sides.iter().find(|&&side| runs_up(side) == up));
-            for (side, _) in slivers {
-                let across = if runs_up(side) { first_down } else { first_up };
-                across.into_iter().for_each(|other| visit(side / 3, other / 3));
-            }
-        }
+    /// The index of each sliver with the face across its side of a rank, the longest first.
+    fn pairs(&self, rank: usize) -> impl Iterator<Item = (usize, u32)> {
+        let across = self.across.iter().map(move |across| across[rank]);
+        across.enumerate().filter(|&(_, other)| other != NONE)
     }
 
     /// The slivers that need the plane of a neighbor, ascending.
     ///
     /// Slivers that lie along each other form a strip; a strip lies in one surface if the faces
     /// along it agree.
-    fn takers(&self, planes: &[FacePlane], table: &EdgeTable) -> Vec<u32> {
+    fn takers(&self, planes: &[FacePlane]) -> Vec<u32> {
         let strips = Sets::new(self.faces.len());
         let mut neighbors: Vec<(usize, u32)> = Vec::new();
-        for rank in 0..2 {
-            self.pairs(rank, table, |face, other| {
-                let Some(index) = self.index(face) else { return };
-                match self.index(other) {
-                    Some(beside) => strips.join(to_u32(index), to_u32(beside)),
-                    None => neighbors.push((index, other)),
-                }
-            });
+        for (index, other) in self.pairs(0).chain(self.pairs(1)) {
+            match self.index(other) {
+                Some(beside) => strips.join(to_u32(index), to_u32(beside)),
+                None => neighbors.push((index, other)),
+            }
         }
         // The first neighbor of each strip, and whether all others agree with it.
         let mut first = vec![None; self.faces.len()];

@@ -59,30 +59,27 @@ impl Faces<'_> {
             table: &self.table,
             welded_from_input: self.welded_from_input,
         });
-        let is_in = |polygons: &[u32], face: usize| {
-            let polygon = self.sources.polygon(face);
-            polygons.binary_search_by(|&other| (other as usize).cmp(&polygon)).is_ok()
-        };
-        let kept = |polygons: &[u32]| -> Vec<bool> {
-            (0..self.triangles.len()).map(|face| !is_in(polygons, face)).collect()
-        };
-        let (no_copies, no_backs) = (kept(&repeats.copies), kept(&repeats.backs));
-        let has_backs = !repeats.backs.is_empty();
-        if has_backs {
-            let first = duplicates::left_out(&no_backs).next();
+        if !repeats.copies.is_empty() {
+            self.drop_copies(&self.without(&repeats.copies), counts, report);
+        }
+        if !repeats.backs.is_empty() {
+            let is_kept = self.without(&repeats.backs);
+            let first = duplicates::left_out(&is_kept).next();
             let place = first.map(|face| self.sources.place(self.model, face));
-            let count = duplicates::left_out(&no_backs).count();
+            let count = duplicates::left_out(&is_kept).count();
             report.repair(RepairKind::TwoSidedFaces, count, place);
-            self.keep(&no_backs);
+            self.keep(&is_kept);
         }
-        if repeats.copies.is_empty() {
-            return has_backs;
-        }
-        let mut backs = no_backs.iter();
-        let copies: Vec<bool> =
-            no_copies.into_iter().filter(|_| backs.next() == Some(&true)).collect();
-        self.drop_copies(&copies, counts, report);
-        true
+        !repeats.copies.is_empty() || !repeats.backs.is_empty()
+    }
+
+    /// Whether each face belongs to none of `polygons`, ascending.
+    fn without(&self, polygons: &[u32]) -> Vec<bool> {
+        let is_kept = |face: usize| {
+            let polygon = self.sources.polygon(face);
+            polygons.binary_search_by(|&other| (other as usize).cmp(&polygon)).is_err()
+        };
+        (0..self.triangles.len()).map(is_kept).collect()
     }
 
     fn drop_copies(&mut self, is_kept: &[bool], counts: &mut MeshCounts, report: &mut Report) {

@@ -24,11 +24,9 @@ use crate::model::Model;
 #[derive(Debug)]
 pub(crate) struct Boundary<'a> {
     positions: &'a [[f32; 3]],
+    triangles: &'a [[u32; 3]],
     /// The sides, as numbered by the edge table.
     sides: Vec<u32>,
-    /// The ends of each of them.
-    ends: Vec<[u32; 2]>,
-    ends_of: FxHashMap<u32, [u32; 2]>,
     /// The largest distance that is closed, in units of the mesh.
     tolerance: f64,
 }
@@ -45,7 +43,7 @@ pub(crate) struct Junction {
 impl<'a> Boundary<'a> {
     pub(crate) fn of(
         positions: &'a [[f32; 3]],
-        triangles: &[[u32; 3]],
+        triangles: &'a [[u32; 3]],
         table: &EdgeTable,
         tolerance: f64,
     ) -> Self {
@@ -53,11 +51,15 @@ impl<'a> Boundary<'a> {
             [side] => Some(side),
             _ => None,
         });
-        let sides: Vec<u32> = alone.collect();
-        let ends: Vec<[u32; 2]> =
-            sides.iter().map(|&side| triangle_side(triangles, side)).collect();
-        let ends_of = sides.iter().copied().zip(ends.iter().copied()).collect();
-        Self { positions, sides, ends, ends_of, tolerance }
+        Self { positions, triangles, sides: alone.collect(), tolerance }
+    }
+
+    fn ends(&self) -> impl Iterator<Item = [u32; 2]> {
+        self.sides.iter().map(|&side| self.ends_of(side))
+    }
+
+    fn ends_of(&self, side: u32) -> [u32; 2] {
+        triangle_side(self.triangles, side)
     }
 
     fn position(&self, vertex: u32) -> DVec3 {
@@ -65,7 +67,7 @@ impl<'a> Boundary<'a> {
     }
 
     fn vertices(&self) -> Vec<u32> {
-        let mut vertices: Vec<u32> = self.ends.iter().flatten().copied().collect();
+        let mut vertices: Vec<u32> = self.ends().flatten().collect();
         vertices.sort_unstable();
         vertices.dedup();
         vertices
@@ -90,11 +92,11 @@ impl<'a> Boundary<'a> {
         if near.is_empty() {
             return None;
         }
-        let edges: FxHashSet<[u32; 2]> = self.ends.iter().map(|&ends| sorted(ends)).collect();
+        let edges: FxHashSet<[u32; 2]> = self.ends().map(sorted).collect();
         let sets = Sets::new(self.positions.len());
         let mut is_closed = false;
-        for &[a, b] in self.ends.iter().filter(|ends| ends.iter().any(|end| near.contains_key(end)))
-        {
+        let is_near = |ends: &[u32; 2]| ends.iter().any(|end| near.contains_key(end));
+        for [a, b] in self.ends().filter(is_near) {
             for &x in near.get(&a).into_iter().flatten().chain([&a]) {
                 for &y in near.get(&b).into_iter().flatten().chain([&b]) {
                     let is_other = sorted([x, y]) != sorted([a, b]) && x != y && x != b && y != a;
@@ -118,8 +120,8 @@ impl<'a> Boundary<'a> {
         let mut arms: Vec<Arm> = self
             .sides
             .iter()
-            .zip(&self.ends)
-            .flat_map(|(&side, &[a, b])| {
+            .flat_map(|&side| {
+                let [a, b] = self.ends_of(side);
                 [Arm { from: a, to: b, side }, Arm { from: b, to: a, side }]
             })
             .collect();
@@ -139,6 +141,9 @@ impl<'a> Boundary<'a> {
             }
         }
         let mut junctions = walks.found;
+        if junctions.is_empty() {
+            return junctions;
+        }
         junctions.sort_by(|a, b| {
             a.side.cmp(&b.side).then(a.along.total_cmp(&b.along)).then(a.vertex.cmp(&b.vertex))
         });
@@ -159,7 +164,7 @@ impl<'a> Boundary<'a> {
 
     fn junction(&self, vertex: u32, arm: Arm) -> Junction {
         // Along the side, which may run the other way.
-        let [a, b] = self.ends_of[&arm.side];
+        let [a, b] = self.ends_of(arm.side);
         let (start, end) = (self.position(a), self.position(b));
         let along =
             (self.position(vertex) - start).dot(end - start) / (end - start).length_squared();
@@ -169,7 +174,8 @@ impl<'a> Boundary<'a> {
     /// Keeps the junctions beside a piece of an edge that is also a piece of another.
     fn retain_closing(&self, junctions: &mut Vec<Junction>) {
         let mut pieces: FxHashMap<[u32; 2], u32> = FxHashMap::default();
-        for (&side, &[a, b]) in self.sides.iter().zip(&self.ends) {
+        for &side in &self.sides {
+            let [a, b] = self.ends_of(side);
             let from = junctions.partition_point(|junction| junction.side < side);
             let on_side = junctions[from..].iter().take_while(|junction| junction.side == side);
             let mut before = a;
@@ -184,7 +190,7 @@ impl<'a> Boundary<'a> {
                 let neighbor = |index: Option<usize>| {
                     index.and_then(|index| junctions.get(index)).filter(|other| other.side == side)
                 };
-                let [a, b] = self.ends_of[&side];
+                let [a, b] = self.ends_of(side);
                 let before = neighbor(at.checked_sub(1)).map_or(a, |other| other.vertex);
                 let behind = neighbor(Some(at + 1)).map_or(b, |other| other.vertex);
                 [before, behind].into_iter().any(|other| pieces[&sorted([vertex, other])] > 1)
@@ -313,10 +319,7 @@ pub(crate) fn with_junctions(
     weld: &Weld,
     junctions: &[Junction],
 ) -> (Model, Vec<u32>) {
-    let mut input_of: FxHashMap<u32, u32> = FxHashMap::default();
-    for (input, &vertex) in weld.welded_from_input.iter().enumerate().rev() {
-        input_of.insert(vertex, to_u32(input));
-    }
+    let inputs = weld.first_inputs(weld.positions.len());
     // The corner behind which each new corner comes.
     let mut added: Vec<(u32, Junction)> = junctions
         .iter()
@@ -342,7 +345,7 @@ pub(crate) fn with_junctions(
             push_corner(&mut cut, model, corner);
             let behind = if corner + 1 == range.end { range.start } else { corner + 1 };
             while let Some((_, junction)) = added.get(next).filter(|add| add.0 as usize == corner) {
-                cut.corner_positions.push(input_of[&junction.vertex]);
+                cut.corner_positions.push(inputs[junction.vertex as usize]);
                 push_between(&mut cut, model, [corner, behind], junction.along);
                 next += 1;
             }

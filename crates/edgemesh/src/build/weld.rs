@@ -49,6 +49,20 @@ pub(crate) struct Weld {
     pub(crate) first_moved: Option<usize>,
 }
 
+impl Weld {
+    /// The first input position of each of `count` welded vertices, or [`NONE`].
+    pub(crate) fn first_inputs(&self, count: usize) -> Vec<u32> {
+        let mut inputs = vec![NONE; count];
+        for (input, &welded) in self.welded_from_input.iter().enumerate().rev() {
+            // Unused positions have no welded vertex.
+            if let Some(first) = inputs.get_mut(welded as usize) {
+                *first = to_u32(input);
+            }
+        }
+        inputs
+    }
+}
+
 /// Welds used positions. A tolerance is in the units of `positions`.
 pub(crate) fn weld(positions: &[[f32; 3]], is_used: &[bool], welding: Welding) -> Weld {
     let standing = match welding {

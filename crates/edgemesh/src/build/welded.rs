@@ -52,16 +52,7 @@ impl<'a> WeldedModel<'a> {
             Welding::Exact => by_rounding,
         };
         if tolerance > 0.0 && welded.table.iter().any(|(_, sides)| sides.len() == 1) {
-            let seams = welded.boundary(tolerance).close_seams();
-            // What collapses a triangle was no seam.
-            let keeps = |becomes: &Vec<u32>| {
-                let is_proper = |triangle: &[u32; 3]| {
-                    let [a, b, c] = triangle.map(|vertex| becomes[vertex as usize]);
-                    a != b && b != c && c != a
-                };
-                welded.triangles.par_iter().all(is_proper)
-            };
-            if let Some(becomes) = seams.filter(keeps) {
+            if let Some(becomes) = welded.seams(tolerance) {
                 weld_again(&mut welded.weld, &becomes);
                 first = Report::default();
                 welded = Self::of(welded.model, welded.weld, &[], &mut first);
@@ -74,9 +65,10 @@ impl<'a> WeldedModel<'a> {
                 let place = polygons.first().map(|&polygon| model.polygon_place(polygon as usize));
                 report.repair(RepairKind::ClosedJunctions, junctions.len(), place);
                 first = Report::default();
-                let has_closed_seams = welded.has_closed_seams;
-                welded = Self::of(Cow::Owned(cut), welded.weld, &polygons, &mut first);
-                welded.has_closed_seams = has_closed_seams;
+                welded = Self {
+                    has_closed_seams: welded.has_closed_seams,
+                    ..Self::of(Cow::Owned(cut), welded.weld, &polygons, &mut first)
+                };
             }
         }
         report.absorb(first);
@@ -98,6 +90,17 @@ impl<'a> WeldedModel<'a> {
         let table = EdgeTable::from_triangles(weld.positions.len(), &triangles);
         let degenerate_count = total - triangles.len();
         Self { model, weld, has_closed_seams: false, sources, triangles, degenerate_count, table }
+    }
+
+    /// The vertex that each vertex becomes, if seams are closed and no triangle collapses: what
+    /// collapses one was no seam.
+    fn seams(&self, tolerance: f64) -> Option<Vec<u32>> {
+        let becomes = self.boundary(tolerance).close_seams()?;
+        let is_proper = |triangle: &[u32; 3]| {
+            let [a, b, c] = triangle.map(|vertex| becomes[vertex as usize]);
+            a != b && b != c && c != a
+        };
+        self.triangles.par_iter().all(is_proper).then_some(becomes)
     }
 
     fn boundary(&self, tolerance: f64) -> Boundary<'_> {

@@ -11,7 +11,6 @@ use super::super::error::{ReadError, ReadErrorKind};
 use super::super::source::Source;
 use super::elements::{Counts, Elements};
 use super::header::Header;
-use crate::index::MAX_INDEX;
 use crate::model::Model;
 use crate::report::{Place, Report, WarningCode};
 
@@ -74,18 +73,9 @@ impl Rows<'_, '_> {
         // A face has at least its counts of corners and channels.
         let needed = (vertices * vertex_values).saturating_add(2 * faces).saturating_mul(VALUE);
         let left = self.source.bytes.len() - self.at.min(self.source.bytes.len());
-        if needed > left {
-            let what = format!(
-                "{vertices} vertices and {faces} faces need at least {needed} bytes, but {left} \
-                 are left; the file is truncated, or its counts are wrong"
-            );
-            return Err(self.error(ReadErrorKind::Truncated, what));
-        }
-        if vertices > MAX_INDEX || faces > MAX_INDEX {
-            let what = format!("too large: more than {MAX_INDEX} vertices or faces");
-            return Err(self.error(ReadErrorKind::Size, what));
-        }
-        Ok(Counts { vertices, faces })
+        let counts = Counts { vertices, faces };
+        counts.check(needed, left).map_err(|(kind, what)| self.error(kind, what))?;
+        Ok(counts)
     }
 
     /// Reads the vertices of a face, and passes over its color.

@@ -18,6 +18,26 @@ pub(super) struct Counts {
     pub(super) faces: usize,
 }
 
+impl Counts {
+    /// Checks that a file with `left` bytes can have so many elements, which need at least
+    /// `needed`.
+    pub(super) fn check(self, needed: usize, left: usize) -> Result<(), (ReadErrorKind, String)> {
+        let Self { vertices, faces } = self;
+        if needed > left {
+            let what = format!(
+                "{vertices} vertices and {faces} faces need at least {needed} bytes, but {left} \
+                 are left; the file is truncated, or its counts are wrong"
+            );
+            return Err((ReadErrorKind::Truncated, what));
+        }
+        if vertices > MAX_INDEX || faces > MAX_INDEX {
+            let what = format!("too large: more than {MAX_INDEX} vertices or faces");
+            return Err((ReadErrorKind::Size, what));
+        }
+        Ok(())
+    }
+}
+
 /// A model, to which vertices and faces are added.
 #[derive(Debug)]
 pub(super) struct Elements<'s, 'a> {

@@ -86,18 +86,9 @@ impl<'a> Rows<'_, 'a> {
         // A row takes a digit and a line end, which the last may lack.
         let needed = vertices.saturating_add(faces).saturating_mul(2).saturating_sub(1);
         let left = self.words.left().len();
-        if needed > left {
-            let what = format!(
-                "{vertices} vertices and {faces} faces need at least {needed} bytes, but {left} \
-                 are left; the file is truncated, or its counts are wrong"
-            );
-            return Err(self.error(ReadErrorKind::Truncated, what));
-        }
-        if vertices > MAX_INDEX || faces > MAX_INDEX {
-            let what = format!("too large: more than {MAX_INDEX} vertices or faces");
-            return Err(self.error(ReadErrorKind::Size, what));
-        }
-        Ok(Counts { vertices, faces })
+        let counts = Counts { vertices, faces };
+        counts.check(needed, left).map_err(|(kind, what)| self.error(kind, what))?;
+        Ok(counts)
     }
 
     fn count(&self, row: &mut Words) -> Result<usize, ReadError> {
