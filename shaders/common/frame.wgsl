@@ -29,6 +29,9 @@ struct FrameUniform {
     light_color: vec3f,
     // Half the diagonal of the scene's bounding box, in world units.
     scene_radius: f32,
+    // The distances along the line of sight between which the scene's bounding sphere lies.
+    depth_range: vec2f,
+    padding: vec2f,
     // A point in world space is cut away if dot(point, plane) is negative for any.
     clip_planes: array<vec4f, MAX_CLIP_PLANES>,
 }
@@ -62,10 +65,15 @@ struct ObjectUniform {
 @group(0) @binding(0) var<uniform> frame: FrameUniform;
 @group(2) @binding(0) var<uniform> object: ObjectUniform;
 
-// The distance from the eye along the line of sight, in world units, at a depth.
+// The distance from the eye along the line of sight, in world units, at a depth. The background
+// lies at the far end of the scene, since perspective has no far plane.
 fn distance_of(depth: f32) -> f32 {
     let clip = frame.projection;
-    return (clip.y - depth * clip.w) / (depth * clip.z - clip.x);
+    let divisor = depth * clip.z - clip.x;
+    if divisor == 0.0 {
+        return frame.depth_range.y;
+    }
+    return (clip.y - depth * clip.w) / divisor;
 }
 
 // Pixels per world unit at a distance along the line of sight.

@@ -8,7 +8,7 @@ fn depth(at: SurfaceVarying) -> @location(0) vec4f {
     return vec4f(dot(frame.sight, vec4f(at.point_in_world, 1.0)), 0.0, 0.0, 1.0);
 }
 
-// The background has the distance of the far plane.
+// The background lies at the far end of the scene.
 @fragment
 fn background(at: ScreenVarying) -> @location(0) vec4f {
     return vec4f(distance_of(0.0), 0.0, 0.0, 1.0);

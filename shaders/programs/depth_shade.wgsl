@@ -1,4 +1,4 @@
-// Depths as grays: white at the near plane, black at the far plane.
+// Depths as grays: white at the near end of the scene's bounding sphere, black at its far end.
 #import <common/screen.wgsl>
 #import <common/edges.wgsl>
 
@@ -8,7 +8,7 @@
 fn shade(at: ScreenVarying) -> @location(0) vec4f {
     let texel = texel_at(at.texcoord, textureDimensions(depth_texture));
     let depth = textureLoad(depth_texture, texel, 0);
-    let near = distance_of(1.0);
-    let part = (distance_of(depth) - near) / (distance_of(0.0) - near);
+    let range = frame.depth_range;
+    let part = (distance_of(depth) - range.x) / (range.y - range.x);
     return vec4f(vec3f(1.0 - part), 1.0);
 }

@@ -21,10 +21,10 @@ struct Params {
 @group(1) @binding(1) var normal_texture: texture_2d<f32>;
 @group(1) @binding(2) var depth_texture: texture_depth_2d;
 
-// The depth map: 0 at the near plane, 1 at the far plane.
+// The depth map: 0 at the near end of the scene's bounding sphere, 1 at its far end.
 fn map_depth(texel: vec2i) -> f32 {
-    let near = distance_of(1.0);
-    return (distance_at(depth_texture, texel) - near) / (distance_of(0.0) - near);
+    let range = frame.depth_range;
+    return (distance_at(depth_texture, texel) - range.x) / (range.y - range.x);
 }
 
 fn sum_of(x: f32, y: f32) -> f32 {

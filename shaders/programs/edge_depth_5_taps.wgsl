@@ -1,6 +1,6 @@
 // Card and Mitchell's five taps on the depth, which is stored in the alpha of their normals,
-// 0 at the near plane and 1 at the far plane (Listing 10): an edge where the sum of the
-// differences reaches the threshold. The listing as printed adds only two of the four.
+// 0 at the near end of the scene and 1 at its far end (Listing 10): an edge where the sum of
+// the differences reaches the threshold. The listing as printed adds only two of the four.
 #import <common/edges.wgsl>
 #import <common/screen.wgsl>
 

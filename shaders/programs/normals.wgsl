@@ -24,14 +24,15 @@ fn background(at: ScreenVarying) -> @location(0) vec4f {
     return vec4f(rgb_of_normal(normals[min(params.background, 2u)]), 1.0);
 }
 
-// Listing 8: alpha is the depth, 0 at the near plane and 1 at the far plane.
+// Listing 8: alpha is the depth, 0 at the near end of the scene's bounding sphere and 1 at its far
+// end.
 @fragment
 fn normals_and_depth(
     at: SurfaceVarying,
     @builtin(front_facing) is_front: bool,
 ) -> @location(0) vec4f {
     let surface = surface_at(at, is_front);
-    let range = vec2f(distance_of(1.0), distance_of(0.0));
+    let range = frame.depth_range;
     let distance = dot(frame.sight, vec4f(at.point_in_world, 1.0));
     return vec4f(rgb_of_normal(surface.normal), (distance - range.x) / (range.y - range.x));
 }

@@ -21,10 +21,12 @@ use edgemesh::format::read::read_model;
 use edgemesh::load::LoadedMesh;
 use edgemesh::oracle::detector::Image;
 use edgemesh::oracle::detector::chiang::{ChiangOptions, chiang};
+use edgemesh::oracle::detector::depth::DepthMapping;
 use edgemesh::view::Camera;
 use glam::Vec2;
-use strokes::{FrameUniform, Gpu, Surroundings, Tile, read_texels};
+use strokes::{FrameUniform, Gpu, Tile, read_texels};
 use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
+use viewer::scene::lighting::Lighting;
 use viewer::scene::models::Scene;
 use viewer::technique::Technique;
 use viewer::technique::library::Library;
@@ -91,8 +93,9 @@ fn measure(gpu: &Gpu, path: &Path, side: u32, frames: usize) {
     let mut maps = renderer(MAPS).unwrap();
     let camera = Camera::default_view(&scene.bounds);
     let view = camera.view(&scene.bounds, 1.0);
-    let frame =
-        FrameUniform::new(&view, &Tile::whole(Vec2::splat(side as f32)), &Surroundings::default());
+    let around = Lighting::default().surroundings(&view, &scene.bounds, &scene.frame);
+    let frame = FrameUniform::new(&view, &Tile::whole(Vec2::splat(side as f32)), &around);
+    let mapping = DepthMapping { projection: frame.projection, range: frame.depth_range };
     let [mut of_gpu, mut of_cpu] = [Times::default(), Times::default()];
     for _ in 0..frames {
         let statistics = on_gpu.render(&camera).unwrap().1;
@@ -107,7 +110,7 @@ fn measure(gpu: &Gpu, path: &Path, side: u32, frames: usize) {
         let normals = Image::new(side as usize, normals).unwrap();
         let depths = Image::new(side as usize, depths).unwrap();
         let detecting = Instant::now();
-        chiang(&normals, &depths, frame.projection, &OPTIONS).unwrap();
+        chiang(&normals, &depths, &mapping, &OPTIONS).unwrap();
         of_cpu.detector.push(detecting.elapsed().as_secs_f64() * 1e3);
         of_cpu.frames.push(drawn_ms + started.elapsed().as_secs_f64() * 1e3);
     }

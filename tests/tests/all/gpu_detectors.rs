@@ -6,7 +6,7 @@ use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::format::read::read_model;
 use edgemesh::oracle::detector::chiang::{ChiangOptions, chiang};
-use edgemesh::oracle::detector::depth::{self, distance_of};
+use edgemesh::oracle::detector::depth::{self, DepthMapping, distance_of};
 use edgemesh::oracle::detector::gradient::{Magnitude, of_intensity, of_largest_channel, sobel};
 use edgemesh::oracle::detector::normals::{self, dot_products, normal_of_rgb};
 use edgemesh::oracle::detector::planes::{ImageView, plane_distance_px};
@@ -244,10 +244,10 @@ impl Inputs {
             ChiangOptions { is_as_printed: true, ..options },
         ];
         let chiang = kinds
-            .map(|options| chiang(&normal_bytes, &depths, frame.projection, &options).unwrap());
+            .map(|options| chiang(&normal_bytes, &depths, &mapping_of(&frame), &options).unwrap());
         Self {
             normals: scene_normal.measured(|at| normal_of_rgb(scene_normal.at(at).truncate())),
-            distances: depths.measured(|at| distance_of(depths.at(at), frame.projection)),
+            distances: depths.measured(|at| distance_of(depths.at(at), &mapping_of(&frame))),
             depths,
             map_depths: map.measured(|at| map.at(at).w),
             colors: scene_color
@@ -263,11 +263,15 @@ impl Inputs {
         let view = ImageView {
             viewport_px: Vec2::from(self.frame.viewport_px),
             px_per_unit: self.frame.px_per_unit,
-            projection: self.frame.projection,
+            mapping: mapping_of(&self.frame),
             world_from_clip: Mat4::from_cols_array_2d(&self.frame.world_from_clip),
         };
         plane_distance_px(&self.depths, &self.normals, &view, at)
     }
+}
+
+fn mapping_of(frame: &FrameUniform) -> DepthMapping {
+    DepthMapping { projection: frame.projection, range: frame.depth_range }
 }
 
 fn compare(mesh: &EdgeMesh, camera: &Camera) {

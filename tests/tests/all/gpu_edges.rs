@@ -7,10 +7,9 @@ use std::path::Path;
 use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::format::read::read_model;
-use edgemesh::oracle::detector::depth::distance_of;
 use edgemesh::view::Camera;
 use glam::DVec3;
-use strokes::{FrameUniform, Surroundings, Tile, read_texels};
+use strokes::read_texels;
 use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
 use viewer::technique::library::Library;
 
@@ -425,17 +424,9 @@ fn chiang_adds_gradients_and_drops_edges_without_a_step_of_depth() {
         let mesh = strips(folder.path(), of);
         row(&mesh, folder.path(), &detector("edge_detect_chiang", more))
     };
-    // The depth map goes from the near to the far plane.
+    // The depth map goes from end to end of the bounding sphere, with a margin.
     let mesh = strips(folder.path(), &STEP);
-    let projection = |mesh: &EdgeMesh| {
-        let view = camera().view(&mesh.bounds, 1.0);
-        FrameUniform::new(&view, &Tile::whole(glam::Vec2::splat(32.0)), &Surroundings::default())
-            .projection
-    };
-    let range = |mesh: &EdgeMesh| {
-        let [far, near] = [0.0, 1.0].map(|depth| distance_of(depth, projection(mesh)));
-        f64::from(far - near)
-    };
+    let range = |mesh: &EdgeMesh| 2.02 * mesh.bounds.radius();
     // The gradient is four times the step, and so is the sum of the differences to three of
     // eight neighbors, with the middle one twice.
     let height = 4.0 * 0.4 / range(&mesh);

@@ -381,3 +381,60 @@ fn awkward_cameras(mesh: &EdgeMesh) -> Vec<(&'static str, Camera)> {
         ("flat", Camera { is_orthographic: true, ..at(default.target + DVec3::X, default.target) }),
     ]
 }
+
+fn differing_pixels(one: &RgbaImage, other: &RgbaImage) -> usize {
+    one.pixels().zip(other.pixels()).filter(|(one, other)| one != other).count()
+}
+
+/// The mesh of polygons that are added to a cube of side 1 at the origin.
+fn cube_with(positions: &[[f32; 3]], polygons: &[&[u32]]) -> EdgeMesh {
+    let side = |bit: u8| f32::from(bit);
+    let mut all: Vec<[f32; 3]> =
+        (0..8_u8).map(|at| [side(at & 1), side(at >> 1 & 1), side(at >> 2)]).collect();
+    let cube: [&[u32]; 6] =
+        [&[0, 2, 3, 1], &[4, 5, 7, 6], &[0, 1, 5, 4], &[2, 6, 7, 3], &[0, 4, 6, 2], &[1, 3, 7, 5]];
+    all.extend(positions);
+    let added = polygons.iter().map(|polygon| polygon.iter().map(|corner| corner + 8).collect());
+    let added: Vec<Vec<u32>> = added.collect();
+    let polygons: Vec<&[u32]> = cube.into_iter().chain(added.iter().map(Vec::as_slice)).collect();
+    let model = Model::from_polygons(&all, &polygons);
+    build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default())
+}
+
+/// What lies far away, out of sight or under the cube, does not move the near plane past it.
+#[test]
+fn what_is_near_is_drawn_whatever_is_far() {
+    let camera = Camera {
+        eye: DVec3::new(3.0, 2.0, 4.0),
+        target: DVec3::splat(0.5),
+        up: DVec3::Y,
+        fov_y_rad: 40_f64.to_radians(),
+        is_orthographic: false,
+    };
+    let alone = cube_with(&[], &[]);
+    for (distance, name) in [(1e5, "far"), (1e7, "very far")] {
+        // Behind the eye.
+        let stray = [[distance, 0.0, distance], [distance, 1.0, distance], [distance; 3]];
+        let with_stray = cube_with(&stray, &[&[0, 1, 2]]);
+        for style in ["ink", "linked", "phong", "hidden_line"] {
+            let technique = technique(style, &[]);
+            let [wanted, found] = [&alone, &with_stray]
+                .map(|mesh| scene_picture(&scene_of(mesh), &[technique.clone()], 300, &camera));
+            // In the box of the larger mesh, turned-away edges are left to the depth test.
+            let differing = differing_pixels(&wanted, &found);
+            assert!(differing < 12, "{style}, {name}: {differing} pixels");
+        }
+    }
+    // A ground of 30,000 units, of which no edge comes into the picture. The cube stands 0.01
+    // above it, so no line of it is in doubt.
+    let camera = Camera { target: DVec3::new(0.5, 0.1, 0.5), ..camera };
+    let level = -0.01;
+    let ground = [[-3e4, level, -3e4], [3e4, level, -3e4], [3e4, level, 3e4], [-3e4, level, 3e4]];
+    let on_ground = cube_with(&ground, &[&[3, 2, 1, 0]]);
+    let ink = ink_with(&[]);
+    let [wanted, found] = [&alone, &on_ground]
+        .map(|mesh| scene_picture(&scene_of(mesh), &[ink.clone()], 300, &camera));
+    let ink_of = |picture: &RgbaImage| count(picture, |[red, ..]| red < 128);
+    let differing = differing_pixels(&wanted, &found);
+    assert!(ink_of(&wanted) > 500 && differing < 12, "{differing} of {}", ink_of(&wanted));
+}

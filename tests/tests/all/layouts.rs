@@ -74,6 +74,8 @@ fn scene_layouts() -> BTreeMap<String, Layout> {
             light,
             light_color,
             scene_radius,
+            depth_range,
+            padding,
             clip_planes
         }),
         layout!(ObjectUniform {

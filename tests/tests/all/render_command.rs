@@ -309,4 +309,29 @@ mod with_adapter {
         assert_eq!(output.status.code(), Some(3), "{}", message(&output));
         assert!(message(&output).contains("there are: "), "{}", message(&output));
     }
+
+    #[test]
+    fn an_empty_picture_says_why() {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("a.png").display().to_string();
+        let cube = cube();
+        for (arguments, what) in [
+            (
+                &["--eye", "5,5,5", "--target", "9,9,9"][..],
+                Some("no part of the scene is in sight"),
+            ),
+            (&["--clip", "0,0,1,-100"], Some("cut away all")),
+            (&["--eye", "0,0,0.5", "--target", "0,0,1"], Some("draws nothing of what is in sight")),
+            (&[], None),
+        ] {
+            let mut all = vec!["render", &cube, "-o", &out, "--size", "64x64"];
+            all.extend(arguments);
+            let output = viewer(&all);
+            assert_eq!(output.status.code(), Some(0), "{}", message(&output));
+            match what {
+                Some(what) => assert!(message(&output).contains(what), "{}", message(&output)),
+                None => assert_eq!(message(&output), ""),
+            }
+        }
+    }
 }

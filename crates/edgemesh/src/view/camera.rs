@@ -1,8 +1,12 @@
 //! The camera: the eye, and the matrix from the world to clip space.
 //!
-//! Depth is reversed, 1 at the near plane and 0 at the far plane: in a 32-bit float buffer this
-//! spreads the precision evenly over the distance. Everything is computed in 64 bits and rounded
-//! once.
+//! Depth is reversed, 1 at the near plane and 0 far away: in a 32-bit float buffer this spreads the
+//! precision evenly over the distance. In perspective there is no far plane, and the near plane lies
+//! at a power of two: another one then scales all depths exactly, so no pixel changes with it.
+//! Everything is computed in 64 bits and rounded once.
+//!
+//! Rejected: a near plane at a fixed part of the scene's radius. One stray triangle far away would
+//! put it behind what the picture is of.
 
 use glam::dcamera::rh::proj::directx;
 use glam::dcamera::rh::view::look_to_mat4;
@@ -21,8 +25,9 @@ pub const DEFAULT_DISTANCE_RADII: f64 = 3.0;
 /// The default vertical field of view, in degrees.
 pub const DEFAULT_FOV_Y_DEG: f64 = 40.0;
 
-/// The least distance of the near plane, in bounding radii.
-const MIN_NEAR_RADII: f64 = 1e-4;
+/// The least distance of the near plane in bounding radii, if nothing is known of the scene but its
+/// bounds. Nearer planes would be lost in the rounding of clipped triangles.
+const MIN_NEAR_RADII: f64 = 1.0 / 1_048_576.0;
 
 /// A camera in the units of the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,7 +60,8 @@ pub enum CameraError {
 /// A view, as the GPU and the oracle need it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
-    /// Takes world positions to clip space; depth 1 near, 0 far.
+    /// Takes world positions to clip space; depth is 1 at the near plane, and 0 at the far plane or
+    /// at infinity.
     pub clip_from_world: Mat4,
     /// The eye with w = 1, or the direction to the viewer with w = 0.
     pub eye: Vec4,
@@ -66,7 +72,8 @@ pub struct View {
 
 impl View {
     /// The view of a program with another camera: `clip_from_world` with depth 1 at the near plane
-    /// and 0 at the far plane, and the eye with w = 1 or the direction to the viewer with w = 0.
+    /// and 0 at the far plane or at infinity, and the eye with w = 1 or the direction to the viewer
+    /// with w = 0.
     #[must_use]
     pub fn from_matrix(clip_from_world: Mat4, eye: Vec4) -> Self {
         // In perspective, w is a multiple of the distance along the direction of sight.
@@ -78,6 +85,29 @@ impl View {
         let distance = forward.extend(-forward.dot(eye.truncate()) * eye.w);
         Self { clip_from_world, eye, distance }
     }
+
+    /// The view with the near plane in front of everything at `nearest` or farther along the line
+    /// of sight, and no far plane; a parallel view as it is.
+    ///
+    /// [`SightIndex::nearest`](crate::view::SightIndex::nearest) finds the nearest surface.
+    #[must_use]
+    pub fn with_nearest(&self, nearest: f64) -> Self {
+        if self.eye.w == 0.0 {
+            return *self;
+        }
+        let mut rows = self.clip_from_world.transpose();
+        rows.z_axis = Vec4::new(0.0, 0.0, 0.0, near_before(nearest));
+        Self { clip_from_world: rows.transpose(), ..*self }
+    }
+}
+
+/// A power of two at half of `nearest` or before.
+fn near_before(nearest: f64) -> f32 {
+    let [least, most] = [f32::MIN_EXP - 1, f32::MAX_EXP - 1].map(f64::from);
+    let exponent = (nearest / 2.0).log2().floor().clamp(least, most);
+    #[expect(clippy::cast_possible_truncation, reason = "a power of two in the range of 32 bits")]
+    let near = exponent.exp2() as f32;
+    near
 }
 
 impl Camera {
@@ -96,8 +126,9 @@ impl Camera {
         }
     }
 
-    /// The view of a picture `aspect` times as wide as high, with near and far planes around the
-    /// bounding sphere of `bounds`.
+    /// The view of a picture `aspect` times as wide as high. A parallel view has near and far planes
+    /// around the bounding sphere of `bounds`, one in perspective has a near plane in front of it, or
+    /// a millionth of its radius from an eye inside; see [`View::with_nearest`].
     #[must_use]
     pub fn view(&self, bounds: &Bounds, aspect: f64) -> View {
         let radius = usable_radius(bounds);
@@ -110,21 +141,22 @@ impl Camera {
         let view_from_world = look_to_mat4(self.eye, forward, up);
         let middle = (bounds.center() - self.eye).dot(forward);
         // With a margin, so that rounding does not cut the sphere.
-        let (near, far) = (middle - 1.01 * radius, middle + 1.01 * radius);
+        let near = middle - 1.01 * radius;
         let clip_from_view = if self.is_orthographic {
             let half_height = (self.target - self.eye).length() * (self.fov_y_rad / 2.0).tan();
             let half_width = half_height * aspect;
             // Swapping near and far reverses the depth.
+            let far = middle + 1.01 * radius;
             directx::orthographic(-half_width, half_width, -half_height, half_height, far, near)
         } else {
-            let near = near.max(MIN_NEAR_RADII * radius);
-            directx::perspective(self.fov_y_rad, aspect, far.max(2.0 * near), near)
+            directx::perspective_infinite_reverse(self.fov_y_rad, aspect, 1.0)
         };
-        View {
+        let view = View {
             clip_from_world: (clip_from_view * view_from_world).as_mat4(),
             eye: self.eye_for_facing(forward),
             distance: forward.extend(-forward.dot(self.eye)).as_vec4(),
-        }
+        };
+        view.with_nearest(near.max(MIN_NEAR_RADII * radius))
     }
 
     fn eye_for_facing(&self, forward: DVec3) -> Vec4 {
@@ -176,6 +208,22 @@ mod tests {
         let (_, orthographic) = depth_and_x(&camera.view(&BOUNDS, 1.0), camera.target + right);
         assert!((perspective - orthographic).abs() < 1e-5);
         assert!(perspective > 0.0, "right is right");
+    }
+
+    #[test]
+    fn a_nearer_near_plane_scales_all_depths_and_moves_nothing() {
+        let view = Camera::default_view(&BOUNDS).view(&BOUNDS, 1.5);
+        let (first, second) = (view.with_nearest(3.0), view.with_nearest(3.0 / 1024.0));
+        for point in [DVec3::ZERO, DVec3::new(2.0, -1.0, -2.5), DVec3::new(0.3, 1.9, 0.7)] {
+            let point = point.as_vec3().extend(1.0);
+            let clips = [first, second].map(|view| view.clip_from_world * point);
+            assert_eq!(clips[0].truncate().truncate(), clips[1].truncate().truncate());
+            assert_eq!(clips[0].z / clips[0].w, 1024.0 * (clips[1].z / clips[1].w));
+        }
+        assert_eq!(first.clip_from_world.row(2), Vec4::new(0.0, 0.0, 0.0, 1.0));
+        let camera = Camera { is_orthographic: true, ..Camera::default_view(&BOUNDS) };
+        let parallel = camera.view(&BOUNDS, 1.5);
+        assert_eq!(parallel.with_nearest(0.1), parallel);
     }
 
     #[test]

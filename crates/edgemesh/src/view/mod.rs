@@ -6,6 +6,7 @@ mod facing;
 mod feature;
 mod feature_counts;
 mod projection;
+mod sight;
 
 pub use self::camera::{
     Camera, CameraError, DEFAULT_DIRECTION, DEFAULT_DISTANCE_RADII, DEFAULT_FOV_Y_DEG, View,
@@ -16,3 +17,4 @@ pub use self::feature_counts::{
     FeatureCounts, classify_edges, classify_lines, count_features, facing_bits,
 };
 pub use self::projection::{GUARD_BAND, WHOLE_BAND, to_pixels};
+pub use self::sight::{Sight, SightIndex};

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use edgemesh::edge_mesh::{Bounds, Quantization};
 use edgemesh::index::to_u32;
 use edgemesh::view::{View, eye_is_outside, to_pixels};
-use glam::{DMat3, DMat4, Mat4, Vec4};
+use glam::{DMat3, DMat4, Mat4, Vec3, Vec4};
 
 use crate::gpu::bind::{bind_buffers, uniform_buffer, uniform_entry};
 use crate::view::tile::Tile;
@@ -44,6 +44,11 @@ pub struct FrameUniform {
     pub light_color: [f32; 3],
     /// Half the diagonal of the box around the scene.
     pub scene_radius: f32,
+    /// The distances from the eye along the line of sight between which the scene's bounding sphere
+    /// lies.
+    pub depth_range: [f32; 2],
+    /// Unused.
+    pub padding: [f32; 2],
     /// A point of the world is drawn if its scalar product with none of these is negative;
     /// planes beyond the count are zero.
     pub clip_planes: [[f32; 4]; MAX_CLIP_PLANES],
@@ -59,7 +64,9 @@ pub struct Surroundings {
     pub light: [f32; 4],
     /// RGB, 1 for white.
     pub light_color: [f32; 3],
-    /// Half the diagonal of the box around the scene.
+    /// The middle of the box around the scene.
+    pub scene_center: [f32; 3],
+    /// Half the diagonal of that box.
     pub scene_radius: f32,
     /// Points of the world whose scalar product with one of these is negative are cut away.
     /// Planes past [`MAX_CLIP_PLANES`] are ignored.
@@ -70,7 +77,13 @@ impl Default for Surroundings {
     /// White light along z, and nothing cut away.
     fn default() -> Self {
         let light = [0.0, 0.0, 1.0, 0.0];
-        Self { light, light_color: [1.0; 3], scene_radius: 1.0, clip_planes: Vec::new() }
+        Self {
+            light,
+            light_color: [1.0; 3],
+            scene_center: [0.0; 3],
+            scene_radius: 1.0,
+            clip_planes: Vec::new(),
+        }
     }
 }
 
@@ -104,6 +117,8 @@ impl FrameUniform {
             light: around.light,
             light_color: around.light_color,
             scene_radius: around.scene_radius,
+            depth_range: depth_range(view, around),
+            padding: [0.0; 2],
             clip_planes,
         }
     }
@@ -117,6 +132,22 @@ impl FrameUniform {
         }
     }
 }
+
+/// The distances from the eye along the line of sight between which the scene lies; in perspective,
+/// from [`MIN_DEPTH_RADII`] on.
+fn depth_range(view: &View, around: &Surroundings) -> [f32; 2] {
+    let radius = around.scene_radius;
+    let middle = view.distance.dot(Vec3::from(around.scene_center).extend(1.0));
+    let (near, far) = (middle - 1.01 * radius, middle + 1.01 * radius);
+    if view.eye.w == 0.0 {
+        return [near, far];
+    }
+    let near = near.max(MIN_DEPTH_RADII * radius);
+    [near, far.max(2.0 * near)]
+}
+
+/// The least distance at which the depth range of a perspective view begins, in radii of the scene.
+const MIN_DEPTH_RADII: f32 = 1e-4;
 
 /// A row of the projection as a linear function of the distance along the line of sight, on
 /// which alone z and w depend: factor and offset.

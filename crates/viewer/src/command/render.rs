@@ -20,7 +20,7 @@ use crate::arguments::PictureArguments;
 use crate::error::Error;
 use crate::picture::animation::AnimationKind;
 use crate::picture::png::{DEFAULT_REFERENCE_THRESHOLD, as_stored, compare, encode_png, read_png};
-use crate::picture::renderer::{FrameStatistics, PictureInput, PictureOptions};
+use crate::picture::renderer::{Emptiness, FrameStatistics, PictureInput, PictureOptions};
 use crate::picture::tiles::AnySizeRenderer;
 use crate::picture::turntable;
 use crate::scene::models::Scene;
@@ -133,8 +133,8 @@ impl RenderCommand {
         let input = PictureInput { scene: &scene, technique: &technique, overrides: &overrides };
         let mut renderer = AnySizeRenderer::new(&gpu, input, &options)?;
         let statistics = match self.turntable {
-            Some(steps) => self.write_turntable(&mut renderer, &camera, steps)?,
-            None => self.write_picture(&mut renderer, &camera, reference.as_ref())?,
+            Some(steps) => self.write_turntable(&mut renderer, &camera, steps, is_quiet)?,
+            None => self.write_picture(&mut renderer, &camera, reference.as_ref(), is_quiet)?,
         };
         self.write_statistics(&gpu, &scene, &statistics)?;
         let Some(mut watcher) = watcher else { return Ok(()) };
@@ -187,7 +187,7 @@ impl RenderCommand {
         let overrides = &object_techniques(objects, &library, &technique, &mut warn(is_quiet))?;
         let input = PictureInput { scene, technique: &technique, overrides };
         renderer.reload(input, &self.options()?)?;
-        self.write_picture(renderer, camera, None).map(drop)
+        self.write_picture(renderer, camera, None, is_quiet).map(drop)
     }
 
     /// Opens the device while the models are read, since both take time.
@@ -245,6 +245,7 @@ impl RenderCommand {
         renderer: &mut AnySizeRenderer,
         camera: &Camera,
         reference: Option<&RgbaImage>,
+        is_quiet: bool,
     ) -> Result<FrameStatistics, Failure> {
         let (picture, statistics) = renderer.render(camera, &mut |done, total| {
             show_progress("tile", done, total);
@@ -252,6 +253,9 @@ impl RenderCommand {
         })?;
         if let Some(reference) = reference {
             self.compare_with(&picture, reference)?;
+        }
+        if let Some(emptiness) = renderer.why_empty(&picture, camera) {
+            warn_empty(&self.output, emptiness, is_quiet);
         }
         self.write_png(&self.output, &picture)?;
         Ok(statistics)
@@ -286,11 +290,15 @@ impl RenderCommand {
         renderer: &mut AnySizeRenderer,
         camera: &Camera,
         steps: u32,
+        is_quiet: bool,
     ) -> Result<FrameStatistics, Failure> {
         let mut last = None;
         turntable::write(&self.output, steps, self.size, self.picture.transparent, |step| {
-            let (picture, statistics) =
-                renderer.render(&turntable::camera_at(camera, step, steps), &mut |_, _| Ok(()))?;
+            let camera = turntable::camera_at(camera, step, steps);
+            let (picture, statistics) = renderer.render(&camera, &mut |_, _| Ok(()))?;
+            if let Some(emptiness) = renderer.why_empty(&picture, &camera).filter(|_| step == 0) {
+                warn_empty(&self.output, emptiness, is_quiet);
+            }
             last = Some(statistics);
             show_progress("picture", step + 1, steps);
             Ok(picture)
@@ -337,6 +345,19 @@ const FOREVER: Duration = Duration::from_secs(3600);
 #[expect(clippy::print_stderr, reason = "messages of a command")]
 fn report(message: &str) {
     eprintln!("error: {message}");
+}
+
+/// Tells why a picture is of one color.
+#[expect(clippy::print_stderr, reason = "messages of a command")]
+fn warn_empty(path: &Path, emptiness: Emptiness, is_quiet: bool) {
+    let hint = match emptiness {
+        Emptiness::OutOfSight => "without --eye and --target the picture shows all of it",
+        Emptiness::CutAway => "move or leave out --clip",
+        Emptiness::NothingDrawn => "try another --technique, or an --eye farther away",
+    };
+    if !is_quiet {
+        eprintln!("warning: {}: the picture is empty: {emptiness}; {hint}", path.display());
+    }
 }
 
 /// Reports that a picture was written again.

@@ -4,17 +4,19 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use edgemesh::edge_mesh::{Bounds, MeshFrame};
-use edgemesh::view::{Camera, View};
+use edgemesh::view::{Camera, GUARD_BAND, Sight, View};
+use glam::Vec3;
 use image::RgbaImage;
 use strokes::{
-    DetectionStage, Gpu, GpuTimer, GraphReadback, Layout, PendingRead, ResourceError, Tally,
-    Targets, Tile, read_picture,
+    DetectionStage, Gpu, GpuTimer, GraphReadback, Layout, PendingRead, ResourceError, Surroundings,
+    Tally, Targets, Tile, read_picture,
 };
 
 use crate::error::Error;
 use crate::pass_graph::{FrameInput, GraphInput, GraphOptions, PassGraph, TileInput};
 use crate::scene::lighting::Lighting;
 use crate::scene::models::Scene;
+use crate::scene::sight::SceneSight;
 use crate::technique::Technique;
 use crate::technique::plan::{Plan, TexturePlan};
 use crate::technique::program::ShaderFiles;
@@ -102,6 +104,7 @@ pub struct PictureRenderer {
     graph: PassGraph,
     options: PictureOptions,
     plan: Plan,
+    sight: SceneSight,
     bounds: Bounds,
     frame: MeshFrame,
     timer: Option<GpuTimer>,
@@ -128,6 +131,17 @@ impl FrameStatistics {
         }
         Self { frame_ms: self.frame_ms + other.frame_ms, ..self }
     }
+}
+
+/// Why a picture is of one color.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub(crate) enum Emptiness {
+    #[error("no part of the scene is in sight")]
+    OutOfSight,
+    #[error("the clip planes cut away all that is in sight")]
+    CutAway,
+    #[error("the technique draws nothing of what is in sight, or all of it in one color")]
+    NothingDrawn,
 }
 
 /// Statistics that are not read yet.
@@ -159,6 +173,7 @@ impl PictureRenderer {
             graph,
             options: options.clone(),
             plan,
+            sight: SceneSight::of(scene),
             bounds: scene.bounds,
             frame: scene.frame,
         })
@@ -336,11 +351,41 @@ impl PictureRenderer {
     /// The view of a camera in a picture of a size in pixels.
     #[must_use]
     pub(crate) fn view(&self, camera: &Camera, [width, height]: [u32; 2]) -> View {
-        camera.view(&self.bounds, f64::from(width) / f64::from(height))
+        let view = camera.view(&self.bounds, f64::from(width) / f64::from(height));
+        let around = self.surroundings(&view);
+        if is_outside(&view, &around) {
+            return view;
+        }
+        let sight = Sight::of(&view, GUARD_BAND, &around.clip_planes);
+        let nearest = self.sight.nearest(&sight);
+        nearest.map_or(view, |nearest| view.with_nearest(nearest))
+    }
+
+    /// Why a picture of a scene is of one color; `None` if there is nothing in the scene.
+    #[must_use]
+    pub(crate) fn why_empty(&self, camera: &Camera, size: [u32; 2]) -> Option<Emptiness> {
+        let view = self.view(camera, size);
+        let around = self.surroundings(&view);
+        let sees = |clip_planes: &[[f32; 4]]| {
+            self.sight.nearest(&Sight::of(&view, 1.0, clip_planes)).is_some()
+        };
+        if self.sight.is_empty() {
+            None
+        } else if sees(&around.clip_planes) {
+            Some(Emptiness::NothingDrawn)
+        } else if sees(&[]) {
+            Some(Emptiness::CutAway)
+        } else {
+            Some(Emptiness::OutOfSight)
+        }
+    }
+
+    fn surroundings(&self, view: &View) -> Surroundings {
+        self.options.lighting.surroundings(view, &self.bounds, &self.frame)
     }
 
     fn submit(&mut self, view: &View, tile: Option<TileInput>) -> Result<(), Error> {
-        let around = self.options.lighting.surroundings(view, &self.bounds, &self.frame);
+        let around = self.surroundings(view);
         let input = FrameInput { view, around: &around, tile };
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let timer = self.timer.as_ref().map(|timer| timer.passes_from(0));
@@ -398,6 +443,13 @@ impl PictureRenderer {
         let times = passes_ms.into_iter().map(Some).chain(std::iter::repeat(None));
         self.graph.time_names().into_iter().zip(times).collect()
     }
+}
+
+/// Whether the eye is so far outside of the scene that its bounding sphere tells where the near
+/// plane may lie.
+fn is_outside(view: &View, around: &Surroundings) -> bool {
+    let middle = view.distance.dot(Vec3::from(around.scene_center).extend(1.0));
+    view.eye.w == 0.0 || middle > 1.1 * around.scene_radius
 }
 
 fn timer_for(gpu: &Gpu, graph: &PassGraph) -> Option<GpuTimer> {

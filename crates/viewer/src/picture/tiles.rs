@@ -20,7 +20,9 @@ use image::RgbaImage;
 use strokes::{Gpu, Targets, Tile};
 
 use crate::error::Error;
-use crate::picture::renderer::{FrameStatistics, PictureInput, PictureOptions, PictureRenderer};
+use crate::picture::renderer::{
+    Emptiness, FrameStatistics, PictureInput, PictureOptions, PictureRenderer,
+};
 use crate::technique::core::CoreComponent;
 use crate::technique::core_view::Strokes;
 use crate::technique::pass::Pass;
@@ -136,6 +138,13 @@ impl AnySizeRenderer {
         }
     }
 
+    /// Why a picture that this renderer drew is of one color; `None` if it is not, or if there is
+    /// nothing in the scene.
+    pub(crate) fn why_empty(&self, picture: &RgbaImage, camera: &Camera) -> Option<Emptiness> {
+        let (Kind::Whole(renderer) | Kind::Tiles { tile: renderer, .. }) = &self.kind;
+        if is_of_one_color(picture) { renderer.why_empty(camera, self.size) } else { None }
+    }
+
     /// Draws one picture, with premultiplied alpha. The times are sums over the tiles.
     ///
     /// # Errors
@@ -176,6 +185,12 @@ impl AnySizeRenderer {
         let statistics = sum.ok_or_else(|| Error::Internal("a picture without tiles".into()))?;
         Ok((picture, statistics))
     }
+}
+
+/// Whether all pixels of a picture have one color.
+fn is_of_one_color(picture: &RgbaImage) -> bool {
+    let mut pixels = picture.pixels();
+    pixels.next().is_none_or(|first| pixels.all(|pixel| pixel == first))
 }
 
 /// Whether any rendered pass of strokes links them.

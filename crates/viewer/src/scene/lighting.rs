@@ -62,6 +62,7 @@ impl Lighting {
         Surroundings {
             light,
             light_color: self.color,
+            scene_center: bounds.center().as_vec3().to_array(),
             scene_radius: radius,
             clip_planes: self.clip_planes.iter().take(MAX_CLIP_PLANES).map(plane).collect(),
         }

@@ -4,8 +4,10 @@
 //! - `models`: models in memory, with their places.
 //! - `object_techniques`: the overrides of scene files.
 //! - `lighting`: light and clip planes.
+//! - `sight`: the nearest surface in sight.
 
 pub mod lighting;
 pub mod models;
 pub(crate) mod object_techniques;
 pub mod scene_file;
+pub(crate) mod sight;

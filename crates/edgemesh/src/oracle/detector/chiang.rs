@@ -17,14 +17,14 @@
 use rayon::prelude::*;
 
 use super::Image;
-use super::depth::distance_of;
+use super::depth::{DepthMapping, distance_of};
 
 /// Thresholds of the detector.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChiangOptions {
     /// T of the normal map, with channels from 0 to 1.
     pub normal_threshold: f32,
-    /// T of the depth map, with depths from 0 at the near plane to 1 at the far plane.
+    /// T of the depth map, with depths from 0 at the near end of the scene to 1 at its far end.
     pub depth_threshold: f32,
     /// Tz, the sum of differences in depth below which an edge is dropped; `None` disables the
     /// extra filter.
@@ -40,13 +40,12 @@ const BAND: usize = 16;
 const CHANNELS: usize = 4;
 
 /// Detects edges: 1 at edges, 0 elsewhere; `None` if the images differ in size. `normals` are
-/// colors with a normal in the first three channels, `depths` those of the depth buffer, and
-/// `projection` is theirs, as in [`distance_of`].
+/// colors with a normal in the first three channels, and `depths` those of the depth buffer.
 #[must_use]
 pub fn chiang(
     normals: &Image<[u8; CHANNELS]>,
     depths: &Image<f32>,
-    projection: [f32; 4],
+    mapping: &DepthMapping,
     options: &ChiangOptions,
 ) -> Option<Image<u8>> {
     let [width, height] = normals.size();
@@ -55,7 +54,7 @@ pub fn chiang(
     }
     let mut edges = vec![0; width * height];
     edges.par_chunks_mut(BAND * width).enumerate().for_each(|(index, edges)| {
-        let band = Band::new(normals, depths, projection, index * BAND, edges.len() / width);
+        let band = Band::new(normals, depths, mapping, index * BAND, edges.len() / width);
         for (row, edges) in edges.chunks_mut(width).enumerate() {
             band.detect(row, options, edges);
         }
@@ -74,7 +73,7 @@ impl Band {
     fn new(
         normals: &Image<[u8; CHANNELS]>,
         depths: &Image<f32>,
-        projection: [f32; 4],
+        mapping: &DepthMapping,
         first: usize,
         count: usize,
     ) -> Self {
@@ -85,8 +84,8 @@ impl Band {
             normals: Vec::with_capacity(padded * CHANNELS),
             depths: Vec::with_capacity(padded),
         };
-        let near = distance_of(1.0, projection);
-        let per_range = 1.0 / (distance_of(0.0, projection) - near);
+        let [near, far] = mapping.range;
+        let per_range = 1.0 / (far - near);
         for row in 0..count + 2 {
             let row = (first + row).cast_signed() - 1;
             let (normals, depths) = (normals.row(row), depths.row(row));
@@ -94,7 +93,7 @@ impl Band {
             band.normals.extend(ends[0].map(i16::from));
             band.normals.extend(normals.as_flattened().iter().map(|byte| i16::from(*byte)));
             band.normals.extend(ends[1].map(i16::from));
-            let map = |depth: &f32| (distance_of(*depth, projection) - near) * per_range;
+            let map = |depth: &f32| (distance_of(*depth, mapping) - near) * per_range;
             band.depths.push(map(&depths[0]));
             band.depths.extend(depths.iter().map(map));
             band.depths.push(map(&depths[width - 1]));
@@ -206,8 +205,8 @@ mod tests {
             panic!("whole rows");
         };
         // An orthographic view from 0 to 1 whose depth is 1 there.
-        let projection = [-1.0, 1.0, 0.0, 1.0];
-        let distances = depths.measured(|at| distance_of(depths.at(at), projection));
+        let mapping = DepthMapping { projection: [-1.0, 1.0, 0.0, 1.0], range: [0.0, 1.0] };
+        let distances = depths.measured(|at| distance_of(depths.at(at), &mapping));
         for (is_as_printed, extra_threshold) in [(false, None), (true, None), (false, Some(3.0))] {
             let options = ChiangOptions {
                 normal_threshold: 1.7,
@@ -215,7 +214,7 @@ mod tests {
                 extra_threshold,
                 is_as_printed,
             };
-            let Some(found) = chiang(&normals, &depths, projection, &options) else {
+            let Some(found) = chiang(&normals, &depths, &mapping, &options) else {
                 panic!("of one size");
             };
             let mut edges = 0;
@@ -234,9 +233,6 @@ mod tests {
             extra_threshold: None,
             is_as_printed: false,
         };
-        assert_eq!(
-            smaller.and_then(|depths| chiang(&normals, &depths, projection, &options)),
-            None
-        );
+        assert_eq!(smaller.and_then(|depths| chiang(&normals, &depths, &mapping, &options)), None);
     }
 }

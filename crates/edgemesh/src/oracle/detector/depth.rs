@@ -3,11 +3,22 @@
 
 use super::{CROSS, DIAGONALS, Image, Texel};
 
-/// The distance from the eye along the direction of sight (Equation 3.11, for any projection). At a
-/// distance d, the projection gives clip z = x d + y and w = z d + w.
+/// How distances from the eye along the direction of sight become depths.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DepthMapping {
+    /// At a distance d, clip z = x d + y and w = z d + w.
+    pub projection: [f32; 4],
+    /// The distances between which the scene's bounding sphere lies.
+    pub range: [f32; 2],
+}
+
+/// The distance from the eye along the direction of sight (Equation 3.11, for any projection). The
+/// background of a view without a far plane lies at the far end of the scene.
 #[must_use]
-pub fn distance_of(depth: f32, [x, y, z, w]: [f32; 4]) -> f32 {
-    (y - depth * w) / (depth * z - x)
+pub fn distance_of(depth: f32, mapping: &DepthMapping) -> f32 {
+    let [x, y, z, w] = mapping.projection;
+    let divisor = depth * z - x;
+    if divisor == 0.0 { mapping.range[1] } else { (y - depth * w) / divisor }
 }
 
 /// Equation 3.12: the largest difference to a neighbor. An edge is above a threshold.

@@ -3,7 +3,7 @@
 
 use glam::{Mat4, Vec2, Vec3, Vec4};
 
-use super::depth::distance_of;
+use super::depth::{DepthMapping, distance_of};
 use super::{CROSS, Image, Texel};
 
 /// The view of an image.
@@ -13,8 +13,8 @@ pub struct ImageView {
     pub viewport_px: Vec2,
     /// Pixels per unit of the world at w = 1.
     pub px_per_unit: f32,
-    /// At a distance d along the direction of sight, clip z = x d + y and w = z d + w.
-    pub projection: [f32; 4],
+    /// The depths of the image.
+    pub mapping: DepthMapping,
     /// The transform from clip space to the world.
     pub world_from_clip: Mat4,
 }
@@ -36,7 +36,8 @@ pub fn plane_distance_px(
     let is_background = |at: Texel| depths.at(at) <= 0.0;
     let normal = |at: Texel| normals.at(at).normalize_or_zero();
     let center = world_at(depths, view, at);
-    let w = view.projection[2] * distance_of(depths.at(at), view.projection) + view.projection[3];
+    let [.., w_scale, w_offset] = view.mapping.projection;
+    let w = w_scale * distance_of(depths.at(at), &view.mapping) + w_offset;
     let unit_px = view.px_per_unit / w;
     let beside = CROSS.map(|[x, y]| {
         let other = [at[0] + x, at[1] + y];
