@@ -3,12 +3,12 @@
 #![no_main]
 
 use edgemesh::format::edge_mesh_file::{parse, with_checksum};
-use edgemesh_fuzz::use_mesh;
+use edgemesh_fuzz::use_meshes;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
     let _ = parse(bytes);
     if let Ok(stored) = parse(&with_checksum(bytes)) {
-        use_mesh(&stored.to_mesh());
+        use_meshes(&stored.to_mesh(), &stored.instanced);
     }
 });

@@ -5,8 +5,8 @@
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::edge_mesh::{EdgeMesh, replicate, replicate_16};
+use edgemesh::build::{BuildOptions, build_instanced};
+use edgemesh::edge_mesh::{EdgeMesh, InstancedMesh, bounds_with, replicate, replicate_16};
 use edgemesh::format::read::{Format, ReadErrorKind, read_model_bytes};
 use edgemesh::line::LineClass;
 use edgemesh::view::{Camera, count_features};
@@ -19,14 +19,23 @@ use flate2::Crc;
 pub fn read_and_build(bytes: &[u8], format: Format) {
     match read_model_bytes("fuzz", bytes, format) {
         Ok((model, mut report)) => {
-            use_mesh(&build_edge_mesh(&model, &BuildOptions::default(), &mut report));
+            let (mesh, instanced) =
+                build_instanced(&model, &BuildOptions::default(), &mut report);
+            use_meshes(&mesh, &instanced);
         }
         Err(error) => assert!(error.kind != ReadErrorKind::Internal, "{error}"),
     }
 }
 
+/// Uses a mesh and those that have several places.
+pub fn use_meshes(mesh: &EdgeMesh, instanced: &[InstancedMesh]) {
+    let _ = bounds_with(mesh, instanced);
+    use_mesh(mesh);
+    instanced.iter().for_each(|instanced| use_mesh(&instanced.mesh));
+}
+
 /// Counts the features of an edge mesh and writes its replicated layouts.
-pub fn use_mesh(mesh: &EdgeMesh) {
+fn use_mesh(mesh: &EdgeMesh) {
     let eye = Camera::default_view(&mesh.bounds).view(&mesh.bounds, 1.0).eye;
     let counts = count_features(mesh, eye);
     assert!(counts[LineClass::Contour] as usize <= mesh.records.len());

@@ -11,6 +11,10 @@ pub const NONE: u32 = u32::MAX;
 /// which holds at most half as many edges.)
 pub const MAX_INDEX: usize = (1 << 30) - 1;
 
+/// The most places of instanced meshes in one file, because each is an object of its own when it is
+/// drawn.
+pub const MAX_PLACEMENTS: usize = 10_000;
+
 /// Narrows an index or count, at most [`MAX_INDEX`].
 ///
 /// # Panics

@@ -88,7 +88,7 @@ impl Runner {
         let Contender { layout, stage, .. } = *contender;
         let mut renderer = Renderer::new(gpu, RendererOptions { layout, stage, formats }).unwrap();
         let style = renderer.prepare(gpu, &contender.style).unwrap();
-        let options = MeshOptions { layout, links: style.is_linked(), surface: false };
+        let options = MeshOptions { layout, links: style.is_linked(), ..MeshOptions::default() };
         let buffers = Arc::new(MeshBuffers::new(&gpu.device, mesh, options).unwrap());
         let byte_count = buffers.byte_count();
         let instance = MeshInstance::new(&buffers, DMat4::IDENTITY);

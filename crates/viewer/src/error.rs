@@ -136,6 +136,17 @@ pub enum Error {
         /// Its size and the adapter's limit.
         reason: MeshTooLarge,
     },
+    /// The instances of models are too many objects.
+    #[error(
+        "too large: the instances of the models are {count} objects; the limit is {limit}: split \
+         the scene"
+    )]
+    TooManyObjects {
+        /// The number of objects.
+        count: usize,
+        /// The most objects.
+        limit: usize,
+    },
     /// A picture is larger than the largest texture.
     #[error(
         "a picture of {}x{} is too large: this adapter draws at most {limit} pixels a side at once",

@@ -25,9 +25,8 @@ const FILES: usize = 450;
 const LIMIT_KIB: usize = 1 << 20;
 
 /// Files in the folders of sound files that do not load, with the reasons.
-const REFUSED: [(&str, &str); 18] = [
+const REFUSED: [(&str, &str); 17] = [
     ("gltf/blender-io/00_empty_scene/00_empty_scene.gltf", "no mesh in it"),
-    (INSTANCES, "instances of 7.7 million triangles, which need more than the limit"),
     ("gltf/gltf-transform/cli/ACMEBox.gltf", "requires an unknown extension"),
     ("gltf/gltf-transform/functions/DenseSphere.glb", "requires Draco"),
     ("obj/assimp/point_cloud.obj", "points without faces"),
@@ -46,8 +45,6 @@ const REFUSED: [(&str, &str); 18] = [
     (LOAD_CONTROL, "a text and sensors only"),
 ];
 
-/// It is read without a limit in the tests of `edgemesh`.
-const INSTANCES: &str = "gltf/blender-io/24_gpu_instancing/24_gpu_instancing.gltf";
 const PROTO_NESTED: &str = "wrl/castle-demo-models/prototypes/proto_nested.wrl";
 const LOAD_CONTROL: &str =
     "wrl/castle-demo-models/vrml_2/castle_extensions/inline_load_control_test_1.wrl";
@@ -146,8 +143,7 @@ fn without_names(mut info: Value) -> Value {
 #[test]
 fn every_file_goes_through_both_commands() {
     let Some(shared) = shared() else { return left_out("files of the corpus", FILES) };
-    let mut files = models(&shared.join("corpus"));
-    files.retain(|path| !path.ends_with(INSTANCES));
+    let files = models(&shared.join("corpus"));
     assert!(files.len() >= FILES, "only {} files", files.len());
     let results = for_all(&files, |path| {
         check_file(path).map_err(|why| format!("{}: {why}", path.display())).err()

@@ -58,7 +58,7 @@ impl<'a> Linker<'a> {
     fn new(gpu: &'a Gpu, mesh: &'a EdgeMesh, renderer: &'a mut Renderer) -> Self {
         let RendererOptions { layout, formats, .. } = *renderer.options();
         let style = renderer.prepare(gpu, &linked_look()).unwrap();
-        let options = MeshOptions { layout, links: true, surface: false };
+        let options = MeshOptions { layout, links: true, ..MeshOptions::default() };
         let buffers = Arc::new(MeshBuffers::new(&gpu.device, mesh, options).unwrap());
         let instance = MeshInstance::new(&buffers, DMat4::IDENTITY);
         let scene = SceneView::new(gpu, vec![instance], vec![style]);

@@ -26,6 +26,8 @@ mod gpu_edges;
 #[cfg(feature = "gpu")]
 mod gpu_graph;
 #[cfg(feature = "gpu")]
+mod gpu_instances;
+#[cfg(feature = "gpu")]
 mod gpu_joins;
 #[cfg(feature = "gpu")]
 mod gpu_layouts;
@@ -48,6 +50,7 @@ mod gpu_visibility;
 #[cfg(feature = "gpu")]
 mod gpu_window;
 mod hostile;
+mod instances;
 mod layer_chains;
 mod layouts;
 mod models;

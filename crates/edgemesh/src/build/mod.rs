@@ -21,6 +21,7 @@ mod creases;
 mod duplicates;
 mod faces;
 mod fans;
+mod flatten;
 mod marks;
 mod orient;
 mod outside;
@@ -39,7 +40,7 @@ mod welded;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use glam::DVec3;
+use glam::{DMat4, DVec3};
 use rayon::prelude::*;
 
 pub(crate) use self::attributes::FaceAttributes;
@@ -47,6 +48,7 @@ pub use self::chains::DEFAULT_CHAIN_TURN_RAD;
 use self::corners::{CornerInput, build_fill};
 use self::faces::FaceSources;
 use self::fans::{FanInput, Split, apply_splits, walk_fans};
+pub(crate) use self::flatten::{TooManyCopies, flattened};
 use self::marks::Marks;
 use self::planes::Planes;
 use self::repair::Faces;
@@ -56,11 +58,11 @@ pub use self::weld::Welding;
 use self::weld::{Weld, weld};
 use self::welded::WeldedModel;
 use crate::edge_mesh::{
-    Bounds, EdgeCounts, EdgeFlags, EdgeMesh, EdgePart, EdgeTable, MeshCounts, MeshFrame,
-    SourceCounts, threshold_steps, triangle_side,
+    Bounds, EdgeCounts, EdgeFlags, EdgeMesh, EdgePart, EdgeTable, InstancedMesh, MeshCounts,
+    MeshFrame, SourceCounts, threshold_steps, triangle_side,
 };
-use crate::index::NONE;
-use crate::model::Model;
+use crate::index::{NONE, to_u32};
+use crate::model::{InstancedModel, Model};
 use crate::report::{RepairKind, Report, WarningCode};
 
 /// The default for the angle between face normals above which an edge is a crease: 30 degrees, an
@@ -115,9 +117,24 @@ impl BuildOptions {
     fn crease_steps(&self) -> [u32; 2] {
         [self.ridge_angle_rad, self.valley_angle_rad].map(threshold_steps)
     }
+
+    /// Takes the marks between vertices in `range`; returns these options with them alone, counted
+    /// from the start of the range.
+    fn take_marks(&mut self, range: std::ops::Range<u32>) -> Self {
+        let mut own = Self { marks: Vec::new(), unmarked: Vec::new(), ..self.clone() };
+        let lists = [(&mut self.marks, &mut own.marks), (&mut self.unmarked, &mut own.unmarked)];
+        for (all, own) in lists {
+            let is_own = |pair: &mut [u32; 2]| pair.iter().all(|vertex| range.contains(vertex));
+            let taken = all.extract_if(.., is_own);
+            own.extend(taken.map(|pair| pair.map(|vertex| vertex - range.start)));
+        }
+        own
+    }
 }
 
 /// Builds the edge mesh of `model`, and adds its warnings and repairs to `report`.
+///
+/// [`Model::instanced`] is left out; [`build_instanced`] builds it, too.
 ///
 /// A model of degenerate faces gives an edge mesh without triangles and a warning.
 ///
@@ -125,7 +142,25 @@ impl BuildOptions {
 /// Panics if an index of `model` is out of range. Models from a reader have none.
 #[must_use]
 pub fn build_edge_mesh(model: &Model, options: &BuildOptions, report: &mut Report) -> EdgeMesh {
-    build_with_file_vertices(model, options, report).mesh
+    build_main(model, options, report).mesh
+}
+
+/// As [`build_edge_mesh`], with the meshes that the model has in several places, each built once in
+/// its first place and in the frame of all.
+///
+/// # Panics
+/// As [`build_edge_mesh`].
+#[must_use]
+pub fn build_instanced(
+    model: &Model,
+    options: &BuildOptions,
+    report: &mut Report,
+) -> (EdgeMesh, Vec<InstancedMesh>) {
+    let BuiltScene { main, instanced } = build_scene(model, options, report);
+    let instanced = instanced
+        .into_iter()
+        .map(|(built, placements)| InstancedMesh { mesh: built.mesh, placements });
+    (main.mesh, instanced.collect())
 }
 
 /// An edge mesh, and the vertices of the model at its vertices.
@@ -138,17 +173,52 @@ pub(crate) struct BuiltMesh {
     pub(crate) corner_vertices: Vec<[u32; 3]>,
 }
 
-/// As [`build_edge_mesh`], with the vertices of the model.
+/// The edge mesh of a model, and those of its instanced models with their placements, in units of
+/// the mesh.
+#[derive(Debug)]
+pub(crate) struct BuiltScene {
+    pub(crate) main: BuiltMesh,
+    pub(crate) instanced: Vec<(BuiltMesh, Vec<DMat4>)>,
+}
+
+/// As [`build_instanced`], with the vertices of the models.
 #[must_use]
-pub(crate) fn build_with_file_vertices(
+pub(crate) fn build_scene(
     model: &Model,
     options: &BuildOptions,
     report: &mut Report,
-) -> BuiltMesh {
+) -> BuiltScene {
+    if model.instanced.is_empty() {
+        return BuiltScene { main: build_main(model, options, report), instanced: Vec::new() };
+    }
+    let (low, high) = box_of(model);
+    let frame = options.frame.unwrap_or_else(|| MeshFrame::of_box(low, high));
+    let mut options = BuildOptions { frame: Some(frame), ..options.clone() };
+    let mut first = to_u32(model.positions.len());
+    let mut instanced = Vec::new();
+    for InstancedModel { model, placements } in &model.instanced {
+        let end = first + to_u32(model.positions.len());
+        let mut built = build_one(model, &options.take_marks(first..end), report);
+        built.file_vertices.iter_mut().for_each(|vertex| *vertex += first);
+        let placements = placements.iter().map(|place| frame.of_file(place)).collect();
+        instanced.push((built, placements));
+        first = end;
+    }
+    BuiltScene { main: build_main(model, &options, report), instanced }
+}
+
+/// Builds a model without its instances, and reports its frame.
+fn build_main(model: &Model, options: &BuildOptions, report: &mut Report) -> BuiltMesh {
+    let built = build_one(model, options, report);
+    report.repair(RepairKind::Recentered, usize::from(!built.mesh.frame.is_identity()), None);
+    built
+}
+
+/// Builds a model without its instances.
+fn build_one(model: &Model, options: &BuildOptions, report: &mut Report) -> BuiltMesh {
     let is_used = used_vertices(model);
     let used_box = used_box(model, &is_used);
     let (frame, weld) = weld_model(model, &is_used, used_box, options);
-    report.repair(RepairKind::Recentered, usize::from(!frame.is_identity()), None);
     let rounding = Rounding::of(model, &frame, used_box);
     let source = model;
     let welded = WeldedModel::closed(model, weld, options, &frame, &rounding, report);
@@ -254,11 +324,34 @@ fn used_vertices(model: &Model) -> Vec<bool> {
     is_used.into_iter().map(AtomicBool::into_inner).collect()
 }
 
-/// The corners of the box around the used vertices of a model, in its units; without any, infinite
-/// with the lower corner above the upper one.
+/// The corners of a box around the used vertices of a model and its instances, in its units;
+/// without any, infinite with the lower corner above the upper one.
 #[must_use]
 pub(crate) fn box_of(model: &Model) -> (DVec3, DVec3) {
-    used_box(model, &used_vertices(model))
+    let (mut low, mut high) = used_box(model, &used_vertices(model));
+    for InstancedModel { model, placements } in &model.instanced {
+        let own = used_box(model, &used_vertices(model));
+        if own.0.cmple(own.1).all() {
+            (low, high) = with_placed_boxes((low, high), own, placements);
+        }
+    }
+    (low, high)
+}
+
+/// The box around `all` and the boxes around `own` in all its places.
+pub(crate) fn with_placed_boxes(
+    all: (DVec3, DVec3),
+    own: (DVec3, DVec3),
+    placements: &[DMat4],
+) -> (DVec3, DVec3) {
+    let corners = placements.iter().flat_map(|place| {
+        (0..8_u32).map(move |corner| {
+            let pick =
+                |axis: usize| if corner >> axis & 1 == 0 { own.0[axis] } else { own.1[axis] };
+            place.transform_point3(DVec3::new(pick(0), pick(1), pick(2)))
+        })
+    });
+    corners.fold(all, |(low, high), corner| (low.min(corner), high.max(corner)))
 }
 
 fn used_box(model: &Model, is_used: &[bool]) -> (DVec3, DVec3) {

@@ -11,7 +11,8 @@ use super::messages::print_warnings;
 use super::progress::TerminalLine;
 use super::target::{Targets, write_target};
 use crate::arguments::InputArguments;
-use crate::format::edge_mesh_file::{Layout, to_bytes};
+use crate::format::edge_mesh_file::{Layout, to_bytes_with_instances};
+use crate::load::LoadedMesh;
 
 /// Builds the edge mesh of a model and writes it to a file
 #[derive(Debug, Clone, Args)]
@@ -59,13 +60,15 @@ impl BuildCommand {
     pub fn run(&self, is_quiet: bool) -> Result<(), Failure> {
         let targets = Targets::new(&self.models, &self.output, "edgemesh")?;
         for (model, target) in targets.pairs() {
-            let loaded = load_input(&self.input, model, true, is_quiet)?;
+            let LoadedMesh { name, mesh, instanced, report, .. } =
+                load_input(&self.input, model, true, true, is_quiet)?;
             if !is_quiet {
-                print_warnings(&loaded.name, &loaded.report);
+                print_warnings(&name, &report);
             }
             let _progress = TerminalLine::start(format!("writing {}", target.display()), is_quiet);
-            let bytes = to_bytes(&loaded.mesh, &loaded.name, &loaded.report, &self.layouts)
-                .map_err(|error| Failure::fault(format!("{}: {error}", target.display())))?;
+            let bytes =
+                to_bytes_with_instances(&mesh, &instanced, &name, &report, &self.layouts)
+                    .map_err(|error| Failure::fault(format!("{}: {error}", target.display())))?;
             write_target(target, &bytes)?;
         }
         Ok(())

@@ -15,7 +15,7 @@ use super::target::{Targets, library_beside, write_target};
 use crate::arguments::InputArguments;
 use crate::edge_mesh::EdgeMesh;
 use crate::format::export::{
-    ExportFormat, LIBRARY_HEAD, material_library, obj_with_library, to_bytes_with_rig,
+    ExportFormat, LIBRARY_HEAD, Parts, material_library, obj_with_library, to_bytes_with,
 };
 use crate::load::LoadedMesh;
 use crate::report::Report;
@@ -79,11 +79,15 @@ impl ExportCommand {
         let format = self.format()?;
         let targets = Targets::new(&self.inputs, &self.output, format.as_str())?;
         for (input, target) in targets.pairs() {
-            let loaded = load_input(&self.input, input, true, is_quiet)?;
+            // Only glTF places a mesh several times.
+            let with_instances = matches!(format, ExportFormat::Glb | ExportFormat::Gltf);
+            let loaded = load_input(&self.input, input, true, with_instances, is_quiet)?;
             if !is_quiet {
                 print_warnings(&loaded.name, &loaded.report);
             }
-            let is_empty = loaded.mesh.triangles.is_empty() && loaded.mesh.records.is_empty();
+            let is_empty = loaded.mesh.triangles.is_empty()
+                && loaded.mesh.records.is_empty()
+                && loaded.instanced.is_empty();
             if is_empty && format != ExportFormat::Json {
                 // No reader takes a file without faces and lines, ours neither.
                 return Err(Failure::fault(format!(
@@ -115,7 +119,10 @@ fn bytes_of(
 ) -> io::Result<Vec<u8>> {
     match library {
         Some(library) => obj_with_library(&loaded.mesh, name, library),
-        None => to_bytes_with_rig(&loaded.mesh, loaded.rig.as_ref(), name, format),
+        None => {
+            let parts = Parts { rig: loaded.rig.as_ref(), instanced: &loaded.instanced };
+            to_bytes_with(&loaded.mesh, parts, name, format)
+        }
     }
 }
 

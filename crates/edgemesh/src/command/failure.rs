@@ -76,6 +76,7 @@ impl From<LoadError> for Failure {
             | LoadError::EdgeMeshFile { .. }
             | LoadError::Io { .. }
             | LoadError::Marks(_)
+            | LoadError::TooManyCopies { .. }
             | LoadError::Canceled => Self::fault(error.to_string()),
         }
     }

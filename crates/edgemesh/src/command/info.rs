@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 use serde::Serialize;
 
 use super::failure::{ExitStatus, Failure};
@@ -12,7 +12,9 @@ use super::loading::load_input;
 use super::messages::{print_error, print_warnings};
 use super::output::{print_to_stdout, to_json};
 use crate::arguments::{CameraArguments, InputArguments};
-use crate::edge_mesh::{EdgeMesh, EdgeVertex, EdgeVertex16};
+use crate::edge_mesh::{
+    Bounds, Chain, EdgeMesh, EdgeVertex, EdgeVertex16, InstancedMesh, MeshCounts, MeshFrame,
+};
 use crate::line::LineClass;
 use crate::load::LoadedMesh;
 use crate::report::{RepairKind, Report, place_in};
@@ -75,15 +77,27 @@ impl InfoCommand {
     }
 
     fn info_of(&self, model: &Path, is_quiet: bool) -> Result<Info, Failure> {
-        let LoadedMesh { name, mesh, report, .. } =
-            load_input(&self.input, model, false, is_quiet)?;
+        let loaded = load_input(&self.input, model, false, true, is_quiet)?;
         if !is_quiet {
-            print_warnings(&name, &report);
+            print_warnings(&loaded.name, &loaded.report);
         }
+        let bounds = loaded.bounds();
         // The eye does not depend on the aspect ratio.
-        let eye = self.camera.camera(&mesh.bounds, &mesh.frame)?.view(&mesh.bounds, 1.0).eye;
-        Ok(Info::of(&name, &mesh, &report, count_features(&mesh, eye)))
+        let eye = self.camera.camera(&bounds, &loaded.mesh.frame)?.view(&bounds, 1.0).eye;
+        Ok(Info::of(&loaded, &bounds, &features(&loaded, eye)))
     }
+}
+
+/// Counts the feature edges of a mesh and of all instances, each seen from its place.
+fn features(loaded: &LoadedMesh, eye: Vec4) -> FeatureCounts {
+    let mut sum = count_features(&loaded.mesh, eye);
+    for InstancedMesh { mesh, placements } in &loaded.instanced {
+        for place in placements {
+            let own = count_features(mesh, (place.inverse() * eye.as_dvec4()).as_vec4());
+            sum.0.iter_mut().zip(own.0).for_each(|(sum, own)| *sum = sum.saturating_add(own));
+        }
+    }
+    sum
 }
 
 /// The output of `info --json`; scripts rely on the keys.
@@ -121,13 +135,13 @@ struct BoundsInfo {
 }
 
 impl BoundsInfo {
-    fn of(mesh: &EdgeMesh) -> Self {
-        let [min, max] = [mesh.bounds.min, mesh.bounds.max].map(|corner| {
-            if mesh.frame.is_identity() {
+    fn of(bounds: &Bounds, frame: &MeshFrame) -> Self {
+        let [min, max] = [bounds.min, bounds.max].map(|corner| {
+            if frame.is_identity() {
                 // Prints the shortest digits of the 32-bit number, not those of its 64-bit value.
                 corner.map(|x| x.to_string().parse().unwrap_or(f64::from(x)))
             } else {
-                mesh.frame.to_file(Vec3::from(corner).as_dvec3()).to_array()
+                frame.to_file(Vec3::from(corner).as_dvec3()).to_array()
             }
         });
         Self { min, max }
@@ -141,7 +155,8 @@ struct FrameInfo {
     scale: f64,
 }
 
-/// Bytes of the input mesh, and of the edge mesh in each layout.
+/// Bytes of the input mesh, and of the edge mesh in each layout; a mesh in several places counts
+/// once.
 #[derive(Debug, Clone, Serialize)]
 struct BytesInfo {
     /// 24 bytes a vertex (position and normal), 12 a triangle.
@@ -155,16 +170,18 @@ struct BytesInfo {
 }
 
 impl BytesInfo {
-    fn of(mesh: &EdgeMesh) -> Self {
-        let edges = mesh.records.len();
+    fn of(loaded: &LoadedMesh) -> Self {
+        let sum = |bytes: fn(&EdgeMesh) -> usize| meshes(loaded).map(|(mesh, _)| bytes(mesh)).sum();
         Self {
-            input: mesh.positions.len() * 24 + size_of_val(&*mesh.triangles),
-            indexed: size_of_val(&*mesh.positions)
-                + size_of_val(&*mesh.vertex_normals)
-                + size_of_val(&*mesh.triangles)
-                + size_of_val(&*mesh.records),
-            replicated_f32: edges * 4 * size_of::<EdgeVertex>(),
-            replicated_i16: edges * 4 * size_of::<EdgeVertex16>(),
+            input: sum(|mesh| mesh.positions.len() * 24 + size_of_val(&*mesh.triangles)),
+            indexed: sum(|mesh| {
+                size_of_val(&*mesh.positions)
+                    + size_of_val(&*mesh.vertex_normals)
+                    + size_of_val(&*mesh.triangles)
+                    + size_of_val(&*mesh.records)
+            }),
+            replicated_f32: sum(|mesh| mesh.records.len() * 4 * size_of::<EdgeVertex>()),
+            replicated_i16: sum(|mesh| mesh.records.len() * 4 * size_of::<EdgeVertex16>()),
         }
     }
 }
@@ -227,10 +244,11 @@ pub(super) struct WarningInfo {
 }
 
 impl Info {
-    fn of(file: &str, mesh: &EdgeMesh, report: &Report, features: FeatureCounts) -> Self {
-        let counts = &mesh.counts;
+    fn of(loaded: &LoadedMesh, bounds: &Bounds, features: &FeatureCounts) -> Self {
+        let counts = &loaded.counts();
+        let (file, report, frame) = (&loaded.name, &loaded.report, &loaded.mesh.frame);
         Self {
-            file: file.into(),
+            file: file.clone(),
             vertices: counts.vertices,
             welded_vertices: counts.welded_vertices,
             triangles: counts.triangles,
@@ -242,16 +260,16 @@ impl Info {
             non_manifold_edges: counts.edges.non_manifold,
             inconsistent_edges: counts.edges.inconsistent,
             components: counts.components,
-            bounds: BoundsInfo::of(mesh),
-            frame: FrameInfo { origin: mesh.frame.origin.into(), scale: mesh.frame.scale },
-            bytes: BytesInfo::of(mesh),
-            records: mesh.records.len(),
-            chains: ChainsInfo::of(mesh),
-            source: SourceInfo::of(mesh),
+            bounds: BoundsInfo::of(bounds, frame),
+            frame: FrameInfo { origin: frame.origin.into(), scale: frame.scale },
+            bytes: BytesInfo::of(loaded),
+            records: drawn(loaded, |mesh| mesh.records.len()),
+            chains: ChainsInfo::of(loaded),
+            source: SourceInfo::of(counts),
             repairs: RepairsInfo::of(report),
             repair_places: repairs_of(file, report),
             warnings: warnings_of(file, report),
-            features,
+            features: *features,
         }
     }
 
@@ -316,20 +334,21 @@ impl Info {
 }
 
 impl ChainsInfo {
-    fn of(mesh: &EdgeMesh) -> Self {
-        let chains = &mesh.chains.chains;
+    fn of(loaded: &LoadedMesh) -> Self {
+        let chains = meshes(loaded).flat_map(|(mesh, _)| &mesh.chains.chains);
+        let is_loop = |chain: &&Chain| chain.is_loop != 0;
         Self {
-            count: chains.len(),
-            loops: chains.iter().filter(|chain| chain.is_loop != 0).count(),
-            edges: mesh.chains.links.len(),
-            longest: chains.iter().map(|chain| chain.link_count).max().unwrap_or_default(),
+            count: drawn(loaded, |mesh| mesh.chains.chains.len()),
+            loops: drawn(loaded, |mesh| mesh.chains.chains.iter().filter(is_loop).count()),
+            edges: drawn(loaded, |mesh| mesh.chains.links.len()),
+            longest: chains.map(|chain| chain.link_count).max().unwrap_or_default(),
         }
     }
 }
 
 impl SourceInfo {
-    const fn of(mesh: &EdgeMesh) -> Self {
-        let source = &mesh.counts.source;
+    const fn of(counts: &MeshCounts) -> Self {
+        let source = &counts.source;
         Self {
             vertices: source.vertices,
             polygons: source.polygons,
@@ -340,6 +359,17 @@ impl SourceInfo {
             inconsistent_edges: source.edges.inconsistent,
         }
     }
+}
+
+/// All meshes, each with the number of its places.
+fn meshes(loaded: &LoadedMesh) -> impl Iterator<Item = (&EdgeMesh, usize)> {
+    let instanced = loaded.instanced.iter().map(|own| (&own.mesh, own.placements.len()));
+    std::iter::once((&loaded.mesh, 1)).chain(instanced)
+}
+
+/// The sum of a count over all places.
+fn drawn(loaded: &LoadedMesh, count: impl Fn(&EdgeMesh) -> usize) -> usize {
+    meshes(loaded).map(|(mesh, places)| count(mesh).saturating_mul(places)).sum()
 }
 
 impl RepairsInfo {

@@ -56,7 +56,7 @@ impl ValidateCommand {
         let mut status = None;
         let mut verdicts = Vec::new();
         for path in &self.inputs {
-            let loaded = load_input(&input, path, false, is_quiet).map_err(Failure::from);
+            let loaded = load_input(&input, path, false, true, is_quiet).map_err(Failure::from);
             let verdict = match loaded {
                 Ok(loaded) => Verdict::of(&loaded),
                 Err(failure) if failure.status == ExitStatus::USAGE => return Err(failure),

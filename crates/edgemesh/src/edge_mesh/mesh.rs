@@ -255,6 +255,32 @@ pub struct SourceCounts {
     pub edges: EdgeCounts,
 }
 
+impl MeshCounts {
+    /// Adds the counts of a mesh that is drawn several times.
+    pub(crate) fn add(&mut self, other: &Self, times: usize) {
+        let add = |sum: &mut usize, count: usize| {
+            *sum = sum.saturating_add(count.saturating_mul(times));
+        };
+        add(&mut self.vertices, other.vertices);
+        add(&mut self.welded_vertices, other.welded_vertices);
+        add(&mut self.triangles, other.triangles);
+        add(&mut self.degenerate_triangles, other.degenerate_triangles);
+        add(&mut self.duplicate_triangles, other.duplicate_triangles);
+        add(&mut self.diagonal_edges, other.diagonal_edges);
+        add(&mut self.components, other.components);
+        add(&mut self.source.vertices, other.source.vertices);
+        add(&mut self.source.polygons, other.source.polygons);
+        add(&mut self.source.triangles, other.source.triangles);
+        let edges = [(&mut self.edges, other.edges), (&mut self.source.edges, other.source.edges)];
+        for (sum, own) in edges {
+            add(&mut sum.edges, own.edges);
+            add(&mut sum.boundary, own.boundary);
+            add(&mut sum.non_manifold, own.non_manifold);
+            add(&mut sum.inconsistent, own.inconsistent);
+        }
+    }
+}
+
 impl EdgeMesh {
     /// The vertex of `face` off the edge of `record`; without a face, the start of the edge.
     #[must_use]

@@ -7,7 +7,7 @@
 //! Rejected: moving every mesh. Two files of a scene would not share their coordinates, and
 //! positions would not be the numbers of the file.
 
-use glam::DVec3;
+use glam::{DMat4, DQuat, DVec3};
 
 /// Farther from the origin than this many times its size, a mesh loses more than a thousandth of
 /// its size to rounding in 32 bits.
@@ -64,6 +64,32 @@ impl MeshFrame {
     #[must_use]
     pub fn to_mesh(&self, in_file: DVec3) -> DVec3 {
         (in_file - self.origin) * self.scale
+    }
+
+    /// The transform of the mesh that is `in_file` in units of the file.
+    pub(crate) fn of_file(&self, in_file: &DMat4) -> DMat4 {
+        if self.is_identity() {
+            return *in_file;
+        }
+        self.mesh_from_file() * *in_file * self.file_from_mesh()
+    }
+
+    /// The transform of the file that is `in_mesh` in units of the mesh.
+    pub(crate) fn in_file(&self, in_mesh: &DMat4) -> DMat4 {
+        if self.is_identity() {
+            return *in_mesh;
+        }
+        self.file_from_mesh() * *in_mesh * self.mesh_from_file()
+    }
+
+    fn mesh_from_file(&self) -> DMat4 {
+        let scale = DVec3::splat(self.scale);
+        DMat4::from_scale_rotation_translation(scale, DQuat::IDENTITY, -self.origin * self.scale)
+    }
+
+    fn file_from_mesh(&self) -> DMat4 {
+        let scale = DVec3::splat(1.0 / self.scale);
+        DMat4::from_scale_rotation_translation(scale, DQuat::IDENTITY, self.origin)
     }
 
     /// Converts a point from units of the mesh to units of the file.

@@ -1,6 +1,7 @@
 //! The edge mesh: built from a model, drawn by the GPU.
 //!
 //! - [`EdgeMesh`]: the mesh with its records, chains and triangles.
+//! - [`InstancedMesh`]: a mesh in several places.
 //! - [`EdgeRecord`], [`EdgeVertex`], [`EdgeVertex16`], [`FinVertex`]: an edge in each layout;
 //!   [`replicate`], [`replicate_16`] and [`fins`] write the layouts that repeat vertices.
 //! - [`EdgeFlags`]: the classes of an edge. [`EdgeWord`]: these and the crease angle.
@@ -13,6 +14,7 @@ mod edge_flags;
 mod edge_word;
 mod face_edges;
 mod face_normal;
+mod instanced_mesh;
 mod mesh;
 mod mesh_frame;
 mod normal_cone;
@@ -30,6 +32,7 @@ pub use self::edge_word::{
 pub use self::face_edges::FaceEdges;
 pub(crate) use self::face_edges::side_on;
 pub(crate) use self::face_normal::{corners_of, face_normal};
+pub use self::instanced_mesh::{InstancedMesh, bounds_with, counts_with};
 pub use self::mesh::{
     Bounds, Chain, ChainLink, Chains, EdgeMesh, FacePlane, FillMesh, FillRun, FillVertex,
     MeshCounts, SourceCounts,

@@ -40,6 +40,19 @@ pub enum LoadError {
     /// of a stream is not detected.
     #[error("standard input needs a format, because the format of a stream is not detected")]
     FormatNeeded,
+    /// The copies of instanced meshes are too many for one mesh.
+    #[error(
+        "{file}: too large: its instances have {elements} vertices and corners; the limit of one \
+         mesh is {limit}: split the scene"
+    )]
+    TooManyCopies {
+        /// The model or the edge mesh.
+        file: String,
+        /// Vertices and corners of the mesh with all copies.
+        elements: usize,
+        /// The most of one mesh.
+        limit: usize,
+    },
     /// The options ask for welding or marks, but the input is an edge mesh.
     #[error("{file}: welding and marks apply to models only; an edge mesh is already welded")]
     ModelsOnly {

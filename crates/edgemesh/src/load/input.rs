@@ -11,8 +11,11 @@ use super::loaded_mesh::{LoadedMesh, ModelSource};
 use super::marks::{SideMarks, marks_beside, read_marks};
 use super::options::{InputFormat, LoadOptions};
 use super::progress::{Progress, Stage, StageGuard};
-use crate::build::{BuildOptions, BuiltMesh, box_of, build_with_file_vertices, reclassify};
-use crate::edge_mesh::{EdgeMesh, MeshFrame};
+use crate::build::{
+    BuildOptions, BuiltScene, TooManyCopies, box_of, build_scene, flattened, reclassify,
+    with_placed_boxes,
+};
+use crate::edge_mesh::{EdgeMesh, InstancedMesh, MeshFrame};
 use crate::format::edge_mesh_file::{HEADER_BYTES, is_edge_mesh, parse, stated_length};
 use crate::format::read::{Format, read_model_as, read_model_stream};
 use crate::format::regular_file::open_regular;
@@ -29,7 +32,7 @@ pub const STANDARD_INPUT: &str = "-";
 enum Input {
     /// With its path, if it comes from a file.
     Model(Box<Model>, Report, Option<PathBuf>),
-    Stored(Box<EdgeMesh>, String, Report),
+    Stored(Box<EdgeMesh>, Vec<InstancedMesh>, String, Report),
 }
 
 /// Reads one input and builds its edge mesh. `path` is a file, [`DEMO`] or
@@ -116,7 +119,12 @@ fn stored(path: &Path, stream: impl Read, options: &LoadOptions) -> Result<Input
     }
     let bytes = read_edge_mesh(stream).map_err(|error| unreadable(path, error))?;
     match parse(&bytes) {
-        Ok(stored) => Ok(Input::Stored(Box::new(stored.to_mesh()), file, stored.report().clone())),
+        Ok(stored) => Ok(Input::Stored(
+            Box::new(stored.to_mesh()),
+            stored.instanced.clone(),
+            file,
+            stored.report().clone(),
+        )),
         Err(reason) => Err(LoadError::EdgeMeshFile { file, reason }),
     }
 }
@@ -127,7 +135,7 @@ fn finish(
     build: &BuildOptions,
     progress: &dyn Progress,
 ) -> Result<LoadedMesh, LoadError> {
-    let loaded = match input {
+    let mut loaded = match input {
         Input::Model(model, mut report, path) => {
             let _running = StageGuard::begin(progress, Stage::Building(&model.name))?;
             let mut build = build.clone();
@@ -135,30 +143,79 @@ fn finish(
                 let SideMarks { marked, unmarked } = marks_of(path, &mut report)?;
                 (build.marks, build.unmarked) = (marked, unmarked);
             }
-            let built = build_with_file_vertices(&model, &build, &mut report);
-            let BuiltMesh { mut mesh, file_vertices, corner_vertices } = built;
-            if options.has_crease_angles() && model.stated_edges.is_some() {
-                reclassify(&mut mesh, &build);
-            }
-            let source = path.map(|path| ModelSource { path, file_vertices });
-            let rig = model.rig.filter(|_| options.with_rig);
-            let rig = rig.map(|rig| MeshRig { rig, corners: corner_vertices });
-            LoadedMesh { source, rig, ..LoadedMesh::new(model.name, mesh, report) }
+            built(*model, path, options, &build, report)
         }
-        Input::Stored(mut mesh, name, report) => {
+        Input::Stored(mut mesh, mut instanced, name, report) => {
             if let Some(frame) = build.frame {
                 mesh.set_frame(frame);
+                instanced.iter_mut().for_each(|instanced| instanced.set_frame(frame));
             }
             if options.has_crease_angles() {
                 reclassify(&mut mesh, build);
+                instanced.iter_mut().for_each(|own| reclassify(&mut own.mesh, build));
             }
-            LoadedMesh::new(name, *mesh, report)
+            LoadedMesh { instanced, ..LoadedMesh::new(name, *mesh, report) }
         }
     };
+    if !options.with_instances {
+        copy_instances(&mut loaded)?;
+    }
     if options.is_strict && !loaded.report.warnings().is_empty() {
         return Err(LoadError::Warnings { file: loaded.name, report: loaded.report });
     }
     Ok(loaded)
+}
+
+/// The edge meshes of a model.
+fn built(
+    model: Model,
+    path: Option<PathBuf>,
+    options: &LoadOptions,
+    build: &BuildOptions,
+    mut report: Report,
+) -> LoadedMesh {
+    let BuiltScene { mut main, instanced: built } = build_scene(&model, build, &mut report);
+    let has_angles = options.has_crease_angles();
+    if has_angles && model.stated_edges.is_some() {
+        reclassify(&mut main.mesh, build);
+    }
+    let (mut instanced, mut instanced_vertices) = (Vec::new(), Vec::new());
+    for ((mut built, placements), source) in built.into_iter().zip(&model.instanced) {
+        if has_angles && source.model.stated_edges.is_some() {
+            reclassify(&mut built.mesh, build);
+        }
+        instanced.push(InstancedMesh { mesh: built.mesh, placements });
+        instanced_vertices.push(built.file_vertices);
+    }
+    let file_vertices = main.file_vertices;
+    let source = path.map(|path| ModelSource { path, file_vertices, instanced_vertices });
+    let rig = model.rig.filter(|_| options.with_rig);
+    let rig = rig.map(|rig| MeshRig { rig, corners: main.corner_vertices });
+    LoadedMesh { source, rig, instanced, ..LoadedMesh::new(model.name, main.mesh, report) }
+}
+
+/// Copies all instances into the mesh, which then has no rig.
+fn copy_instances(loaded: &mut LoadedMesh) -> Result<(), LoadError> {
+    if loaded.instanced.is_empty() {
+        return Ok(());
+    }
+    let mut vertices = Vec::new();
+    if let Some(source) = &mut loaded.source {
+        vertices.push(std::mem::take(&mut source.file_vertices));
+        vertices.append(&mut source.instanced_vertices);
+    }
+    let (mesh, file_vertices) = flattened(&loaded.mesh, &loaded.instanced, &vertices).map_err(
+        |TooManyCopies { elements, limit }| LoadError::TooManyCopies {
+            file: loaded.name.clone(),
+            elements,
+            limit,
+        },
+    )?;
+    if let Some(source) = &mut loaded.source {
+        source.file_vertices = file_vertices;
+    }
+    (loaded.mesh, loaded.instanced, loaded.rig) = (mesh, Vec::new(), None);
+    Ok(())
 }
 
 /// The marks in the side file of a model; none without a side file. Warns of one outside of the
@@ -204,11 +261,22 @@ fn frame_of(inputs: &[Input]) -> MeshFrame {
     for input in inputs {
         let own = match input {
             Input::Model(model, ..) => box_of(model),
-            Input::Stored(mesh, ..) => mesh.box_in_file(),
+            Input::Stored(mesh, instanced, ..) => box_in_file(mesh, instanced),
         };
         (low, high) = (low.min(own.0), high.max(own.1));
     }
     MeshFrame::of_box(low, high)
+}
+
+/// The corners of a box around a mesh and its instances, in units of the file.
+fn box_in_file(mesh: &EdgeMesh, instanced: &[InstancedMesh]) -> (DVec3, DVec3) {
+    let mut all = mesh.box_in_file();
+    let has_vertices = |own: &&InstancedMesh| !own.mesh.positions.is_empty();
+    for InstancedMesh { mesh, placements } in instanced.iter().filter(has_vertices) {
+        let places: Vec<_> = placements.iter().map(|place| mesh.frame.in_file(place)).collect();
+        all = with_placed_boxes(all, mesh.box_in_file(), &places);
+    }
+    all
 }
 
 /// Whether the file at `path` begins like an edge mesh.

@@ -30,6 +30,10 @@ pub struct LoadOptions {
     pub with_fill: bool,
     /// Whether skins and morph targets are kept, which only exports need. Default: false.
     pub with_rig: bool,
+    /// Whether a large mesh that a model has in several places is kept once, in
+    /// [`LoadedMesh::instanced`](super::LoadedMesh::instanced), instead of being copied. Welding
+    /// does not join its places; its tolerance counts in the first of them. Default: false.
+    pub with_instances: bool,
 }
 
 impl Default for LoadOptions {
@@ -43,6 +47,7 @@ impl Default for LoadOptions {
             valley_angle_rad: None,
             with_fill: true,
             with_rig: false,
+            with_instances: false,
         }
     }
 }

@@ -8,7 +8,8 @@ mod rig;
 pub(crate) use self::material::MAX_PICTURE_BYTES;
 pub use self::material::{Material, Texture, TextureSource};
 pub use self::polygon_model::{
-    Attributes, Corner, Model, PolygonRun, Segment, Smoothing, StatedClasses, StatedEdge,
+    Attributes, Corner, InstancedModel, Model, PolygonRun, Segment, Smoothing, StatedClasses,
+    StatedEdge,
 };
 pub use self::rig::{
     Displacement, Influence, MeshRig, NodeTransform, Pose, Rig, RigNode, RigPart, Skin,

@@ -6,6 +6,8 @@
 //! Each attribute has a list, which stays empty if the file lacks it: large models are mostly bare
 //! triangles, with 12 bytes of corners and 4 of line each.
 
+use glam::DMat4;
+
 use crate::index::{NONE, to_u32};
 use crate::model::material::Material;
 use crate::model::rig::Rig;
@@ -55,6 +57,19 @@ pub struct Model {
     pub groups: Vec<String>,
     /// Skins and morph targets, if the model has any; `positions` are those of the rest pose.
     pub rig: Option<Box<Rig>>,
+    /// Large meshes that the file places several times. They are no part of the lists above. Marks
+    /// count their vertices after those of `positions`, one mesh after the other.
+    pub instanced: Vec<InstancedModel>,
+}
+
+/// A mesh that a file places several times, read once.
+#[derive(Debug, Clone)]
+pub struct InstancedModel {
+    /// The mesh in its first place. It has no instances and no rig.
+    pub model: Model,
+    /// The transforms from the first place to each place, in units of the file: the identity, then
+    /// turns, moves, mirrors and scales that are the same along all axes.
+    pub placements: Vec<DMat4>,
 }
 
 /// One corner of a polygon.

@@ -5,6 +5,7 @@
 //! - `linked`: chains, fans, welding, frames, threads.
 //! - `files`: written files are read back.
 //! - `views`: contours and creases under flips, scales and the paper's Equation 1.
+//! - `instances`: meshes in several places, copied, stored and exported.
 //! - `exports`: exported files give back their edge mesh.
 //! - `readers`: the same polygons and materials as two other OBJ parsers.
 //! - `readers_ply_stl`: the same polygons as other PLY and STL parsers; sound, broken and cut
@@ -21,6 +22,7 @@ mod edges;
 mod exports;
 mod files;
 mod gltf_edges;
+mod instances;
 mod linked;
 mod meshes;
 mod readers;

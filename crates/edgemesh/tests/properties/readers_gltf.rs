@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 use edgemesh::format::read::{Format, ReadError, ReadErrorKind, read_model, read_model_bytes};
-use edgemesh::model::Model;
+use edgemesh::model::{InstancedModel, Model};
 use edgemesh::report::{Report, WarningCode};
 
 /// Sound files that do not load, and why not.
@@ -120,7 +120,11 @@ fn judge_sound(name: &str, model: &Model, report: &Report) -> Option<String> {
     if warnings != expected {
         return Some(format!("{name}: {:?}", report.warnings()));
     }
-    let counts = (model.positions.len(), model.polygon_count());
+    let mut counts = (model.positions.len(), model.polygon_count());
+    for InstancedModel { model, placements } in &model.instanced {
+        counts.0 += placements.len() * model.positions.len();
+        counts.1 += placements.len() * model.polygon_count();
+    }
     let (_, vertices, faces) = COUNTS.iter().find(|(known, ..)| *known == name)?;
     (counts != (*vertices, *faces)).then(|| format!("{name}: {counts:?} vertices and faces"))
 }

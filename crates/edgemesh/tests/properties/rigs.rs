@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
 use edgemesh::build::{BuildOptions, build_edge_mesh};
-use edgemesh::format::export::{ExportFormat, to_bytes_with_rig};
+use edgemesh::format::export::{ExportFormat, Parts, to_bytes_with};
 use edgemesh::format::read::{Format, read_model_bytes};
 use edgemesh::index::NONE;
 use edgemesh::model::{
@@ -97,7 +97,13 @@ fn round_trip(model: &Model) -> Model {
     // Nothing is dropped or turned.
     let corners = model.corner_positions.as_chunks().0.to_vec();
     let rig = MeshRig { rig: model.rig.clone().unwrap(), corners };
-    let bytes = to_bytes_with_rig(&mesh, Some(&rig), "strip", ExportFormat::Glb).unwrap();
+    let bytes = to_bytes_with(
+        &mesh,
+        Parts { rig: Some(&rig), ..Parts::default() },
+        "strip",
+        ExportFormat::Glb,
+    )
+    .unwrap();
     let (back, report) = read_model_bytes("back", &bytes, Format::Glb).unwrap();
     assert!(report.warnings().is_empty(), "{report:?}");
     back

@@ -101,7 +101,19 @@ pub fn read_buffer<T: Pod>(
     source: &wgpu::Buffer,
     count: usize,
 ) -> Result<Vec<T>, ReadbackError> {
-    let buffer = copy_to_staging::<T>(gpu, source, count)?;
+    read_buffers(gpu, &[(source, count)])
+}
+
+/// As [`read_buffer`], of several buffers with the count of each: their items in order. All are
+/// copied at once, because every copy waits for the adapter.
+///
+/// # Errors
+/// As [`read_buffer`].
+pub(crate) fn read_buffers<T: Pod>(
+    gpu: &Gpu,
+    sources: &[(&wgpu::Buffer, usize)],
+) -> Result<Vec<T>, ReadbackError> {
+    let buffer = copy_to_staging::<T>(gpu, sources)?;
     Ok(bytemuck::pod_collect_to_vec(&map(gpu, &buffer)?))
 }
 
@@ -120,7 +132,18 @@ impl<T: Pod> PendingRead<T> {
     /// # Errors
     /// As [`read_buffer`].
     pub fn begin(gpu: &Gpu, source: &wgpu::Buffer, count: usize) -> Result<Self, ReadbackError> {
-        let buffer = copy_to_staging::<T>(gpu, source, count)?;
+        Self::begin_all(gpu, &[(source, count)])
+    }
+
+    /// As [`Self::begin`], of several buffers with the count of each: their items in order.
+    ///
+    /// # Errors
+    /// As [`read_buffer`].
+    pub(crate) fn begin_all(
+        gpu: &Gpu,
+        sources: &[(&wgpu::Buffer, usize)],
+    ) -> Result<Self, ReadbackError> {
+        let buffer = copy_to_staging::<T>(gpu, sources)?;
         Ok(Self { answer: begin_map(&buffer), buffer, items: PhantomData })
     }
 
@@ -142,12 +165,26 @@ impl<T: Pod> PendingRead<T> {
     }
 }
 
-/// Submits a copy of the first `count` items of a buffer to one that can be mapped.
+/// Submits a copy of the first items of each buffer to one that can be mapped.
 fn copy_to_staging<T: Pod>(
     gpu: &Gpu,
-    source: &wgpu::Buffer,
-    count: usize,
+    sources: &[(&wgpu::Buffer, usize)],
 ) -> Result<wgpu::Buffer, ReadbackError> {
+    let sizes = sources.iter().map(|&(source, count)| copied_bytes::<T>(source, count));
+    let sizes = sizes.collect::<Result<Vec<u64>, ReadbackError>>()?;
+    let buffer = staging(gpu, sizes.iter().sum())?;
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    let mut offset = 0;
+    for ((source, _), byte_count) in sources.iter().zip(sizes) {
+        encoder.copy_buffer_to_buffer(source, 0, &buffer, offset, byte_count);
+        offset += byte_count;
+    }
+    gpu.queue.submit([encoder.finish()]);
+    Ok(buffer)
+}
+
+/// The bytes of the first `count` items of a buffer, if they can be copied.
+fn copied_bytes<T: Pod>(source: &wgpu::Buffer, count: usize) -> Result<u64, ReadbackError> {
     let byte_count = (count as u64).saturating_mul(size_of::<T>() as u64);
     if byte_count > source.size() {
         let has = source.size();
@@ -159,11 +196,7 @@ fn copy_to_staging<T: Pod>(
     if !source.usage().contains(wgpu::BufferUsages::COPY_SRC) {
         return Err(ReadbackError::new("the buffer was made without the usage COPY_SRC"));
     }
-    let buffer = staging(gpu, byte_count)?;
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    encoder.copy_buffer_to_buffer(source, 0, &buffer, 0, byte_count);
-    gpu.queue.submit([encoder.finish()]);
-    Ok(buffer)
+    Ok(byte_count)
 }
 
 fn staging(gpu: &Gpu, size: u64) -> Result<wgpu::Buffer, ReadbackError> {

@@ -339,9 +339,10 @@ const _: () = assert!(BYTES_PER_NODE == 8 * size_of::<Ribbon>() as u64, "as the 
 
 /// The most points of the even grid along paths, besides two for each element: a quarter of a
 /// million pixels of lines at four pixels per point. Longer lines have points further apart,
-/// and meshes of few edges have room for fewer.
+/// and meshes of few edges have room for fewer. The objects that draw one mesh share them.
 const GRID_POINTS: u32 = 1 << 16;
 const LEAST_GRID_POINTS: u32 = 1 << 11;
+const LEAST_SHARED_GRID_POINTS: u32 = 1 << 9;
 const GRID_POINTS_A_NODE: u32 = 1 << 8;
 
 /// The sizes of the buffers.
@@ -354,14 +355,20 @@ pub(crate) struct GraphSize {
 }
 
 impl GraphSize {
-    /// Sizes for stroke sets with at most `sets_per_layer` in one layer.
-    pub(crate) fn new(device: &wgpu::Device, chunks: &[ChunkUniform], sets_per_layer: u32) -> Self {
+    /// Sizes for stroke sets with at most `sets_per_layer` in one layer, in each of `objects`
+    /// objects.
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        chunks: &[ChunkUniform],
+        sets_per_layer: u32,
+        objects: u32,
+    ) -> Self {
         let nodes = chunks.iter().map(|chunk| chunk.node_capacity).sum::<u32>().max(1);
         let limit = device.limits().max_storage_buffer_binding_size;
         let most = u32::try_from(limit / size_of::<Ribbon>() as u64).unwrap_or(u32::MAX);
         let joints = nodes.saturating_mul(sets_per_layer).min(most);
         let grid = LEAST_GRID_POINTS + nodes.min(GRID_POINTS) * GRID_POINTS_A_NODE;
-        let grid = grid.min(GRID_POINTS);
+        let grid = grid.min((GRID_POINTS / objects.max(1)).max(LEAST_SHARED_GRID_POINTS));
         let points = joints.saturating_mul(2).saturating_add(grid).min(most);
         Self { nodes, joints, points }
     }
@@ -393,8 +400,13 @@ pub(crate) struct GraphBuffers {
 }
 
 impl GraphBuffers {
-    pub(crate) fn new(device: &wgpu::Device, chunks: &[ChunkUniform], sets_per_layer: u32) -> Self {
-        let size = GraphSize::new(device, chunks, sets_per_layer);
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        chunks: &[ChunkUniform],
+        sets_per_layer: u32,
+        objects: u32,
+    ) -> Self {
+        let size = GraphSize::new(device, chunks, sets_per_layer, objects);
         let buffer = |label: &str, count: u32, bytes: usize, usage: BufferUsages| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),

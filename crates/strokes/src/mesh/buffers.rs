@@ -66,6 +66,9 @@ pub struct MeshOptions {
     pub links: bool,
     /// Whether the surface can be shaded: 32 bytes per corner with distinct attributes.
     pub surface: bool,
+    /// How many objects draw the mesh at once: the more, the less room each has for the strokes of
+    /// a view. 0 counts as 1.
+    pub objects: u32,
 }
 
 impl From<Layout> for MeshOptions {
@@ -127,6 +130,7 @@ impl MeshBuffers {
         let upload = Upload {
             device,
             layout,
+            objects: options.objects,
             mesh,
             quantization: Quantization::of(&mesh.bounds),
             replicated: replicated_words(mesh, layout),
@@ -288,6 +292,8 @@ fn surface_arrays(
 struct Upload<'a> {
     device: &'a wgpu::Device,
     layout: Layout,
+    /// As in [`MeshOptions`].
+    objects: u32,
     mesh: &'a EdgeMesh,
     quantization: Quantization,
     /// See [`replicated_words`].
@@ -320,10 +326,15 @@ impl Upload<'_> {
             face_count: to_u32(chunk.triangles.len()),
             edge_count: to_u32(edge_count),
             run_count: to_u32(edge_count).div_ceil(EDGES_PER_RUN),
-            capacity: stroke_capacity(self.device, edge_count),
+            capacity: stroke_capacity(self.device, edge_count, self.objects),
             first_run: to_u32(chunk.edges.start) / EDGES_PER_RUN,
             chunk_index: to_u32(index),
-            node_capacity: node_capacity(self.device, edge_count, self.mesh.records.len()),
+            node_capacity: node_capacity(
+                self.device,
+                edge_count,
+                self.mesh.records.len(),
+                self.objects,
+            ),
             padding: 0,
         };
         let storage = BufferUsages::STORAGE;

@@ -1,7 +1,8 @@
 //! How much room a chunk gets for the lists of a view.
 //!
 //! Views list, expand and link edges in buffers whose sizes depend on the mesh alone, so
-//! that no view allocates. A view that needs more draws the rest straight from its list.
+//! that no view allocates. A view that needs more draws the rest straight from its list. The
+//! objects that draw one mesh share the room that small meshes have beyond their part.
 
 use edgemesh::index::to_u32;
 use edgemesh::line::LineKind;
@@ -27,22 +28,25 @@ const MAX_EXPANDED_BYTES: u64 = 1 << 26;
 /// twice that for layers that draw hidden strokes too; 80 bytes for the ribbon of each.
 pub(crate) const BYTES_PER_NODE: u64 = 8 * 80;
 
-/// Strokes of a chunk that can be expanded at once.
-pub(crate) fn stroke_capacity(device: &wgpu::Device, edge_count: usize) -> u32 {
+/// Strokes of a chunk that can be expanded at once, in each of `objects` objects.
+pub(crate) fn stroke_capacity(device: &wgpu::Device, edge_count: usize, objects: u32) -> u32 {
     let bytes = MAX_EXPANDED_BYTES.min(device.limits().max_storage_buffer_binding_size);
     let most = usize::try_from(bytes / u64::from(BYTES_PER_STROKE)).unwrap_or(usize::MAX);
-    to_u32(edge_count.min(MIN_EXPANDED.max(edge_count / EDGES_PER_EXPANDED)).min(most))
+    let least = MIN_EXPANDED / objects.max(1) as usize;
+    to_u32(edge_count.min(least.max(edge_count / EDGES_PER_EXPANDED)).min(most))
 }
 
-/// Edges of a chunk that can be linked: limited by the chunk's share of what one binding can
+/// Edges of a chunk that can be linked, in each of `objects` objects: limited by the chunk's share of what one binding can
 /// hold of the whole mesh of `mesh_edge_count` edges.
 pub(crate) fn node_capacity(
     device: &wgpu::Device,
     edge_count: usize,
     mesh_edge_count: usize,
+    objects: u32,
 ) -> u32 {
     let limit = device.limits().max_storage_buffer_binding_size / BYTES_PER_NODE;
     let most = u128::from(limit) * edge_count as u128 / mesh_edge_count.max(1) as u128;
     let most = usize::try_from(most).unwrap_or(usize::MAX);
-    to_u32(edge_count.min(MIN_NODES.max(edge_count / EDGES_PER_NODE)).min(most))
+    let least = MIN_NODES / objects.max(1) as usize;
+    to_u32(edge_count.min(least.max(edge_count / EDGES_PER_NODE)).min(most))
 }

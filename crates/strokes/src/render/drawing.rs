@@ -10,7 +10,7 @@ use edgemesh::index::to_u32;
 use crate::draw::stroke_indices::IndexKey;
 use crate::gpu::bind::{bind_buffers, uniform_buffer};
 use crate::gpu::device::Gpu;
-use crate::gpu::readback::{PendingRead, ReadbackError, read_buffer};
+use crate::gpu::readback::{PendingRead, ReadbackError, read_buffer, read_buffers};
 use crate::graph::buffers::{GraphBuffers, GraphUniform};
 use crate::graph::link::{LinkBindings, LinkedChunk};
 use crate::graph::path::PathBindings;
@@ -99,6 +99,29 @@ impl Drawing {
     #[must_use]
     pub fn objects(&self) -> &[DrawnObject] {
         &self.objects
+    }
+
+    /// The counts of all objects in the last frame, zero if vertex shaders detect; waits for all
+    /// submitted work.
+    ///
+    /// # Errors
+    /// [`ReadbackError`], if the device is lost or has no memory for the copy.
+    pub fn read_tally(&self, gpu: &Gpu) -> Result<Tally, ReadbackError> {
+        let tallies: Vec<Tally> = read_buffers(gpu, &self.tallies())?;
+        Ok(tallies.iter().fold(Tally::default(), |sum, tally| sum.plus(tally)))
+    }
+
+    /// Begins to read the counts of each chunk of each object in the last frame.
+    ///
+    /// # Errors
+    /// As [`Self::read_tally`].
+    pub fn begin_read_tallies(&self, gpu: &Gpu) -> Result<PendingRead<Tally>, ReadbackError> {
+        PendingRead::begin_all(gpu, &self.tallies())
+    }
+
+    /// The counts of the objects, with the number of chunks of each.
+    fn tallies(&self) -> Vec<(&wgpu::Buffer, usize)> {
+        self.objects.iter().map(|object| (&object.runs.tallies, object.chunks.len())).collect()
     }
 
     pub(crate) fn objects_mut(&mut self) -> &mut [DrawnObject] {
@@ -286,14 +309,6 @@ impl DrawnObject {
         Ok(tallies.iter().fold(Tally::default(), |sum, tally| sum.plus(tally)))
     }
 
-    /// Begins to read the counts of each chunk in the last frame.
-    ///
-    /// # Errors
-    /// As [`Self::read_tally`].
-    pub fn begin_read_tallies(&self, gpu: &Gpu) -> Result<PendingRead<Tally>, ReadbackError> {
-        PendingRead::begin(gpu, &self.runs.tallies, self.chunks.len())
-    }
-
     fn read_tallies(&self, gpu: &Gpu) -> Result<Vec<Tally>, ReadbackError> {
         read_buffer(gpu, &self.runs.tallies, self.chunks.len())
     }
@@ -412,7 +427,8 @@ impl Binder<'_> {
         }
         let mesh = instance.mesh();
         let sizes: Vec<ChunkUniform> = mesh.chunks.iter().map(|chunk| chunk.size).collect();
-        let buffers = GraphBuffers::new(self.device, &sizes, self.shape.linked_sets_per_layer);
+        let (sets, objects) = (self.shape.linked_sets_per_layer, mesh.options().objects);
+        let buffers = GraphBuffers::new(self.device, &sizes, sets, objects);
         let lists = drawn.iter().filter_map(|chunk| Some(&chunk.lists.as_ref()?.lists));
         let chunks = mesh.chunks.iter().zip(&instance.geometry().chunks).zip(lists);
         let chunks: Vec<LinkedChunk> = chunks

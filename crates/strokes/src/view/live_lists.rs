@@ -109,13 +109,17 @@ impl Tally {
         FeatureCounts(self.features)
     }
 
-    /// The sums of the counts of both.
+    /// The sums of the counts of both, at most the largest number.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
         Self {
-            stroke_count: self.stroke_count + other.stroke_count,
-            features: std::array::from_fn(|at| self.features[at] + other.features[at]),
-            layer_first: std::array::from_fn(|at| self.layer_first[at] + other.layer_first[at]),
+            stroke_count: self.stroke_count.saturating_add(other.stroke_count),
+            features: std::array::from_fn(|at| {
+                self.features[at].saturating_add(other.features[at])
+            }),
+            layer_first: std::array::from_fn(|at| {
+                self.layer_first[at].saturating_add(other.layer_first[at])
+            }),
         }
     }
 }

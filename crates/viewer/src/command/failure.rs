@@ -61,6 +61,7 @@ fn status_of(error: &Error) -> ExitStatus {
         | Error::Readback(_)
         | Error::OutOfMemory { .. }
         | Error::MeshTooLarge { .. }
+        | Error::TooManyObjects { .. }
         | Error::PictureTooLarge { .. }
         | Error::NoMemoryForPicture { .. }
         | Error::MarksWithoutFile { .. }

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use edgemesh::command::{Failure, TerminalProgress, print_to_stdout, print_warnings, to_json};
 use edgemesh::format::whole_file::{check_folder, write_file};
+use edgemesh::load::LoadOptions;
 use edgemesh::view::{Camera, FeatureCounts};
 use image::RgbaImage;
 use serde::Serialize;
@@ -199,7 +200,7 @@ impl RenderCommand {
         thread::scope(|scope| {
             let opening =
                 scope.spawn(|| pollster::block_on(Gpu::open(self.picture.adapter.as_deref())));
-            let options = self.picture.input.load_options();
+            let options = LoadOptions { with_instances: true, ..self.picture.input.load_options() };
             let scene = Scene::load(objects, &options, &TerminalProgress::new(is_quiet));
             let gpu = opening.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
             // Mistakes in a model are likelier and more useful than those of the adapter.

@@ -107,6 +107,7 @@ impl PassGraph {
             layout: options.layout,
             links: strokes.iter().flatten().any(StrokeGroup::is_linked),
             surface: has(&groups, technique, CoreComponent::SimpleRender),
+            objects: 1,
         };
         let instances = self.scene.instances(gpu, input.scene, needs)?;
         self.view.resize(device, instances.len());

@@ -38,7 +38,7 @@ pub(crate) mod textures;
 
 use edgemesh::view::View;
 use strokes::{
-    DetectionStage, DrawingStyle, DrawnObject, FrameUniform, Gpu, Layout, MeshInstance, PASS_NAMES,
+    DetectionStage, Drawing, DrawingStyle, FrameUniform, Gpu, Layout, MeshInstance, PASS_NAMES,
     Surroundings, Tally, Targets, Tile, TimedPasses, ViewState,
 };
 
@@ -226,18 +226,13 @@ impl PassGraph {
     /// # Errors
     /// If the device is lost.
     pub(crate) fn tally(&self, gpu: &Gpu) -> Result<Option<Tally>, strokes::ReadbackError> {
-        let objects = self.counted_objects();
-        if objects.is_empty() {
-            return Ok(None);
-        }
-        let mut tallies = objects.iter().map(|object| object.read_tally(gpu));
-        tallies.try_fold(Tally::default(), |sum, tally| Ok(sum.plus(&tally?))).map(Some)
+        self.counted().map(|drawing| drawing.read_tally(gpu)).transpose()
     }
 
-    /// The objects whose strokes are counted.
-    pub(crate) fn counted_objects(&self) -> &[DrawnObject] {
+    /// The drawing whose strokes are counted; `None` if none are, or if it has no objects.
+    pub(crate) fn counted(&self) -> Option<&Drawing> {
         let group = self.stroke_groups().next().filter(|group| !group.counts_nothing());
-        group.map_or(&[], |group| group.drawing.objects())
+        group.map(|group| &group.drawing).filter(|drawing| !drawing.objects().is_empty())
     }
 
     /// The picture with its depth.

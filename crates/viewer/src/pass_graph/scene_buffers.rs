@@ -5,7 +5,7 @@ use std::sync::Arc;
 use strokes::{Gpu, MeshBuffers, MeshInstance, MeshOptions};
 
 use crate::error::Error;
-use crate::scene::models::Scene;
+use crate::scene::models::{PlacedObject, Scene};
 
 /// The models of a scene on the GPU.
 #[derive(Debug, Default)]
@@ -23,7 +23,10 @@ impl SceneBuffers {
         needs: MeshOptions,
     ) -> Result<Vec<MeshInstance>, Error> {
         self.meshes.resize(scene.models.len(), None);
-        let instance = |placed: &crate::scene::models::PlacedObject| {
+        let mut counts = vec![0; scene.models.len()];
+        scene.objects.iter().for_each(|placed| counts[placed.model] += 1);
+        let instance = |placed: &PlacedObject| {
+            let needs = MeshOptions { objects: counts[placed.model], ..needs };
             let mesh = self.mesh(gpu, scene, placed.model, needs)?;
             Ok(MeshInstance::new(&mesh, placed.world_from_object))
         };

@@ -147,7 +147,7 @@ pub(crate) enum Emptiness {
 /// Statistics that are not read yet.
 #[derive(Debug)]
 pub(crate) struct PendingStatistics {
-    tallies: Vec<PendingRead<Tally>>,
+    tallies: Option<PendingRead<Tally>>,
     ticks: Option<PendingRead<u64>>,
     started: Instant,
 }
@@ -402,9 +402,8 @@ impl PictureRenderer {
     /// # Errors
     /// If the device is lost.
     pub(crate) fn begin_statistics(&self) -> Result<PendingStatistics, Error> {
-        let objects = self.graph.counted_objects().iter();
-        let tallies = objects.map(|object| object.begin_read_tallies(&self.gpu));
-        let tallies = tallies.collect::<Result<Vec<_>, _>>()?;
+        let counted = self.graph.counted();
+        let tallies = counted.map(|drawing| drawing.begin_read_tallies(&self.gpu)).transpose()?;
         let ticks = self.timer.as_ref().map(|timer| timer.begin_read(&self.gpu));
         let ticks = ticks.transpose()?;
         Ok(PendingStatistics { tallies, ticks, started: Instant::now() })
@@ -420,10 +419,9 @@ impl PictureRenderer {
         pending: &PendingStatistics,
     ) -> Result<Option<FrameStatistics>, Error> {
         let mut sum = None;
-        for pending in &pending.tallies {
+        if let Some(pending) = &pending.tallies {
             let Some(tallies) = pending.poll(&self.gpu)? else { return Ok(None) };
-            let before = sum.unwrap_or_default();
-            sum = Some(tallies.iter().fold(before, |sum: Tally, tally| sum.plus(tally)));
+            sum = Some(tallies.iter().fold(Tally::default(), |sum, tally| sum.plus(tally)));
         }
         let mut passes_ms = Vec::new();
         if let (Some(timer), Some(ticks)) = (&self.timer, &pending.ticks) {

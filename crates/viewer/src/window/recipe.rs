@@ -133,7 +133,7 @@ impl Recipe {
     /// How the models are read and built.
     #[must_use]
     pub(crate) fn load_options(&self) -> LoadOptions {
-        self.arguments.input.load_options()
+        LoadOptions { with_instances: true, ..self.arguments.input.load_options() }
     }
 
     /// The file of marks, if one is named.

@@ -8,6 +8,7 @@ use std::borrow::Cow;
 use bytemuck::Pod;
 
 use super::materials::StoredMaterial;
+use super::numbers::Placement;
 use crate::edge_mesh::{
     Chain, ChainLink, EdgeRecord, EdgeVertex, EdgeVertex16, FacePlane, FillRun, FillVertex,
 };
@@ -30,7 +31,7 @@ elements! {
     1: u8;
     4: u32, [u32; 3], [f32; 3], FacePlane, EdgeRecord, Chain, ChainLink, FillVertex, FillRun,
         StoredMaterial, EdgeVertex;
-    8: u64, f64;
+    8: u64, f64, [u64; 2], Placement;
 }
 
 impl Element for EdgeVertex16 {

@@ -58,6 +58,12 @@
 //!  PICT     1           the pictures, PNG or JPEG (optional)
 //!  RF32    80   4 E     edge vertex in floats (optional)
 //!  RI16    40   4 E     edge vertex at 16 bits (optional)
+//!  INST    16   I       instanced mesh: end of its file in IMSH, end of its places in
+//!                       IPLC, u64 each; they begin at the ends of the previous one, files
+//!                       at the next multiple of 16 (optional)
+//!  IMSH     1           the files of the instanced meshes, with zeros between (optional)
+//!  IPLC    96   P       placement, 12 f64: the columns of a transform from positions of
+//!                       the instanced mesh to positions of the mesh (optional)
 //!  FRAM     8   4       origin x, y, z and scale s of the mesh frame, f64:
 //!                       position in mesh = (position in model file - origin) s
 //!  BNDS    12   2       lower and upper corner of the bounds of POSI, 3 f32
@@ -94,6 +100,10 @@
 //!   edges, diagonals, components; then of the polygons of the file: vertices,
 //!   polygons, triangles, edges, boundary edges, non-manifold edges, inconsistent
 //!   edges. All are below 2^32 - 1.
+//! - An instanced mesh is a whole file as described here, with its own checksum and the
+//!   frame of this one, and without instances. It is drawn once for each of its places, of
+//!   which a file has 10,000 at most; their transforms are finite. All counts are of this
+//!   mesh alone.
 //! - Version 1 is read, too. Its words have classes only, and its replicated layouts
 //!   are skipped.
 //! - `META`: `name` (of the model), `warnings` (`code`, `count`, `place`,
@@ -108,6 +118,7 @@ mod draft;
 mod element;
 mod error;
 mod header;
+mod instances;
 mod layout;
 mod materials;
 mod meta;
@@ -126,4 +137,4 @@ pub(crate) use header::{HEADER_BYTES, is_edge_mesh, stated_length};
 pub use layout::Layout;
 pub use read::parse;
 pub use stored::StoredMesh;
-pub use write::to_bytes;
+pub use write::{to_bytes, to_bytes_with_instances};

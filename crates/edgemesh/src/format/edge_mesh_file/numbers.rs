@@ -1,6 +1,6 @@
-//! The mesh frame and the counts, as numbers of sections.
+//! The mesh frame, the counts and placements, as numbers of sections.
 
-use glam::DVec3;
+use glam::{DMat4, DVec3};
 
 use crate::edge_mesh::{EdgeCounts, MeshCounts, MeshFrame, SourceCounts};
 
@@ -12,6 +12,25 @@ pub(super) fn of_frame(frame: &MeshFrame) -> [f64; 4] {
 
 pub(super) const fn to_frame([x, y, z, scale]: [f64; 4]) -> MeshFrame {
     MeshFrame { origin: DVec3::new(x, y, z), scale }
+}
+
+/// A placement: the four columns of an affine transform.
+pub(super) type Placement = [f64; 12];
+
+/// The numbers of a placement.
+pub(super) fn of_transform(place: &DMat4) -> Placement {
+    let columns = [place.x_axis, place.y_axis, place.z_axis, place.w_axis];
+    let mut numbers = [0.0; 12];
+    for (three, column) in numbers.as_chunks_mut().0.iter_mut().zip(columns) {
+        *three = column.truncate().to_array();
+    }
+    numbers
+}
+
+/// The transform of a placement.
+pub(super) fn to_transform(numbers: &Placement) -> DMat4 {
+    let [x, y, z, place] = [0, 3, 6, 9].map(|at| DVec3::from_slice(&numbers[at..at + 3]));
+    DMat4::from_cols(x.extend(0.0), y.extend(0.0), z.extend(0.0), place.extend(1.0))
 }
 
 /// The counts in the order of the file.

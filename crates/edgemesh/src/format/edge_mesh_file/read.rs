@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use super::check::{Flaw, check, check_materials};
 use super::error::{FileError, FileErrorKind};
 use super::header::{Header, Version};
+use super::instances;
 use super::materials::to_materials;
 use super::meta::{MaterialNames, from_json};
 use super::numbers::{to_counts, to_frame};
@@ -20,14 +21,35 @@ use crate::model::Material;
 /// Fails if the file is not an edge mesh, of a newer version, incomplete or damaged, or
 /// if its sections contradict each other.
 pub fn parse(bytes: &[u8]) -> Result<StoredMesh<'_>, FileError> {
+    let (mut mesh, sections) = parse_one(bytes)?;
+    mesh.instanced = instances::read(&sections, &mesh.frame, parse_instanced)?;
+    Ok(mesh)
+}
+
+/// Reads a file within another, which cannot have instances.
+fn parse_instanced(bytes: &[u8]) -> Result<StoredMesh<'_>, FileError> {
+    let (mesh, sections) = parse_one(bytes)?;
+    if let Some(place) = sections.place(Tag::INSTANCES, 0) {
+        return Err(FileError {
+            kind: FileErrorKind::Inconsistent,
+            place: Some(place),
+            what: "section INST: has instances itself; build the file again".into(),
+        });
+    }
+    Ok(mesh)
+}
+
+/// Reads the bytes of a file without its instances.
+fn parse_one(bytes: &[u8]) -> Result<(StoredMesh<'_>, Sections<'_>), FileError> {
     let header = Header::read(bytes)?;
     let sections = Sections::read(bytes, header.section_count)?;
     let mesh = mesh_of(&sections)?;
     check(&mesh).map_err(|flaw| error_of(flaw, &sections))?;
-    Ok(match header.version {
+    let mesh = match header.version {
         Version::V1 => with_crease_angles(mesh),
         Version::V2 => mesh,
-    })
+    };
+    Ok((mesh, sections))
 }
 
 /// The error of a flaw, with its place in the file.
@@ -68,6 +90,7 @@ fn mesh_of<'a>(sections: &Sections<'a>) -> Result<StoredMesh<'a>, FileError> {
         counts: to_counts(sections.array(Tag::COUNTS)?),
         replicated_f32: sections.optional(Tag::REPLICATED_F32)?,
         replicated_i16: sections.optional(Tag::REPLICATED_I16)?,
+        instanced: Vec::new(),
         report: Cow::Owned(meta.report),
     })
 }

@@ -36,6 +36,9 @@ impl Tag {
     pub(super) const PICTURES: Self = Self(*b"PICT");
     pub(super) const REPLICATED_F32: Self = Self(*b"RF32");
     pub(super) const REPLICATED_I16: Self = Self(*b"RI16");
+    pub(super) const INSTANCES: Self = Self(*b"INST");
+    pub(super) const INSTANCED_MESHES: Self = Self(*b"IMSH");
+    pub(super) const PLACEMENTS: Self = Self(*b"IPLC");
     pub(super) const FRAME: Self = Self(*b"FRAM");
     pub(super) const BOUNDS: Self = Self(*b"BNDS");
     pub(super) const COUNTS: Self = Self(*b"CNTS");

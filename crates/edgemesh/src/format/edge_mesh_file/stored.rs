@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use super::layout::Layout;
 use crate::edge_mesh::{
     Bounds, Chain, ChainLink, Chains, EdgeMesh, EdgeRecord, EdgeVertex, EdgeVertex16, FacePlane,
-    FillMesh, FillRun, FillVertex, MeshCounts, MeshFrame,
+    FillMesh, FillRun, FillVertex, InstancedMesh, MeshCounts, MeshFrame,
 };
 use crate::model::Material;
 use crate::report::Report;
@@ -60,6 +60,8 @@ pub struct StoredMesh<'a> {
     /// The result of [`replicate_16`](crate::edge_mesh::replicate_16), if it is
     /// in the file.
     pub replicated_i16: Option<Cow<'a, [EdgeVertex16]>>,
+    /// Meshes that the model has in several places, as copies.
+    pub instanced: Vec<InstancedMesh>,
     pub(super) report: Cow<'a, Report>,
 }
 
@@ -86,11 +88,12 @@ impl<'a> StoredMesh<'a> {
             counts: mesh.counts,
             replicated_f32: None,
             replicated_i16: None,
+            instanced: Vec::new(),
             report: Cow::Borrowed(report),
         }
     }
 
-    /// A copy as an [`EdgeMesh`], without the replicated layouts.
+    /// A copy as an [`EdgeMesh`], without the replicated layouts and the instances.
     #[must_use]
     pub fn to_mesh(&self) -> EdgeMesh {
         EdgeMesh {

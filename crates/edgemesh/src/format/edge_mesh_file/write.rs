@@ -7,14 +7,15 @@ use super::check::check;
 use super::element::{self, Element};
 use super::error::{FileError, FileErrorKind};
 use super::header::{TABLE_START, write_header};
+use super::instances::InstanceSections;
 use super::layout::Layout;
 use super::materials::{MaterialSections, with_pictures};
 use super::meta::to_json;
 use super::numbers::{of_counts, of_frame};
 use super::section::{ALIGNMENT, ENTRY_BYTES, Section, Tag};
 use super::stored::StoredMesh;
-use crate::edge_mesh::{EdgeMesh, replicate, replicate_16};
-use crate::index::to_u32;
+use crate::edge_mesh::{EdgeMesh, InstancedMesh, replicate, replicate_16};
+use crate::index::{MAX_PLACEMENTS, to_u32};
 use crate::report::Report;
 
 /// The bytes of a file with `mesh`, the name of its model and the report of its build. The
@@ -30,6 +31,22 @@ pub fn to_bytes(
     report: &Report,
     layouts: &[Layout],
 ) -> Result<Vec<u8>, FileError> {
+    to_bytes_with_instances(mesh, &[], name, report, layouts)
+}
+
+/// As [`to_bytes`], with meshes in several places, which must be in the frame of `mesh`. Their files
+/// have the same layouts.
+///
+/// # Errors
+/// As [`to_bytes`]; [`FileErrorKind::Size`] for more than [`MAX_PLACEMENTS`] places.
+pub fn to_bytes_with_instances(
+    mesh: &EdgeMesh,
+    instanced: &[InstancedMesh],
+    name: &str,
+    report: &Report,
+    layouts: &[Layout],
+) -> Result<Vec<u8>, FileError> {
+    let instances = instance_sections(instanced, name, layouts)?;
     let mut stored = StoredMesh::of(mesh, name, report);
     check(&stored).map_err(|flaw| flaw.at(None))?;
     stored.materials = with_pictures(&mesh.fill.materials)?;
@@ -43,11 +60,39 @@ pub fn to_bytes(
     let json = to_json(&stored)?;
     let mut contents = mesh_contents(&stored);
     contents.extend(material_contents(&materials));
+    contents.extend(instance_contents(&instances));
     contents.push(SectionContent::new(Tag::FRAME, &frame));
     contents.push(SectionContent::new(Tag::BOUNDS, &bounds));
     contents.push(SectionContent::new(Tag::COUNTS, &counts));
     contents.push(SectionContent::new(Tag::META, &json));
     assemble(&contents)
+}
+
+fn instance_sections(
+    instanced: &[InstancedMesh],
+    name: &str,
+    layouts: &[Layout],
+) -> Result<InstanceSections, FileError> {
+    let places: usize = instanced.iter().map(|own| own.placements.len()).sum();
+    if places > MAX_PLACEMENTS {
+        let what = format!("{places} placements; the limit is {MAX_PLACEMENTS}: split the scene");
+        return Err(FileError::new(FileErrorKind::Size, what));
+    }
+    let mut files = Vec::new();
+    for own in instanced {
+        files.push((own, to_bytes(&own.mesh, name, &Report::default(), layouts)?));
+    }
+    Ok(InstanceSections::new(files))
+}
+
+/// The sections of instances that are not empty.
+fn instance_contents(instances: &InstanceSections) -> impl Iterator<Item = SectionContent<'_>> {
+    let contents = [
+        SectionContent::new(Tag::INSTANCES, &instances.ends),
+        SectionContent::new(Tag::INSTANCED_MESHES, &instances.files),
+        SectionContent::new(Tag::PLACEMENTS, &instances.placements),
+    ];
+    contents.into_iter().filter(|content| !content.bytes.is_empty())
 }
 
 /// The content of a section, before its place in the file is known.

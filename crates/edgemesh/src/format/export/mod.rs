@@ -10,7 +10,8 @@
 //!
 //! The readers of this project give the edges of all but JSON, which they do not read, their
 //! classes back (`format/edge_classes.rs`). Texture coordinates are in all but JSON,
-//! materials in glTF and, with a library beside it, in OBJ, skins and morph targets in glTF.
+//! materials in glTF and, with a library beside it, in OBJ, skins, morph targets and
+//! instances in glTF.
 //!
 //! In the words of the glTF extension, a *hard* edge is drawn in every view, and a
 //! *silhouette* edge is another one that some view draws. An edge of more than two
@@ -34,10 +35,12 @@ mod mtl;
 mod names;
 mod obj;
 mod one_line;
+mod parts;
 mod ply;
 mod vertices;
 mod write;
 
 pub use format::ExportFormat;
 pub use mtl::LIBRARY_HEAD;
-pub use write::{material_library, obj_with_library, to_bytes, to_bytes_with_rig};
+pub use parts::Parts;
+pub use write::{material_library, obj_with_library, to_bytes, to_bytes_with};

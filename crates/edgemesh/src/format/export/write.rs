@@ -4,10 +4,10 @@ use std::io;
 use std::path::Path;
 
 use super::format::ExportFormat;
+use super::parts::Parts;
 use super::{gltf, json, mtl, obj, ply};
 use crate::edge_mesh::EdgeMesh;
 use crate::index::NONE;
-use crate::model::MeshRig;
 use crate::report::Report;
 
 /// The bytes of a file with `mesh`; `name` is its name in the file.
@@ -16,23 +16,23 @@ use crate::report::Report;
 /// [`FileTooLarge`](io::ErrorKind::FileTooLarge) for a GLB file of 4 GiB or more, whose
 /// length does not fit into its header. Fails if a picture of a material cannot be read.
 pub fn to_bytes(mesh: &EdgeMesh, name: &str, format: ExportFormat) -> io::Result<Vec<u8>> {
-    to_bytes_with_rig(mesh, None, name, format)
+    to_bytes_with(mesh, Parts::default(), name, format)
 }
 
-/// As [`to_bytes`], with skins and morph targets in glTF, which alone has them.
+/// As [`to_bytes`], with what glTF alone has; other formats leave it out.
 ///
 /// # Errors
 /// As [`to_bytes`].
-pub fn to_bytes_with_rig(
+pub fn to_bytes_with(
     mesh: &EdgeMesh,
-    rig: Option<&MeshRig>,
+    parts: Parts,
     name: &str,
     format: ExportFormat,
 ) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     match format {
-        ExportFormat::Glb => gltf::write_glb(mesh, rig, name, &mut bytes)?,
-        ExportFormat::Gltf => gltf::write_gltf(mesh, rig, name, &mut bytes)?,
+        ExportFormat::Glb => gltf::write_glb(mesh, parts, name, &mut bytes)?,
+        ExportFormat::Gltf => gltf::write_gltf(mesh, parts, name, &mut bytes)?,
         ExportFormat::Ply => ply::write_ply(mesh, name, &mut bytes)?,
         ExportFormat::Obj => obj::write_obj(mesh, name, None, &mut bytes)?,
         ExportFormat::Json => json::write_json(mesh, name, &mut bytes)?,

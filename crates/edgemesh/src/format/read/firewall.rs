@@ -1,6 +1,8 @@
 //! Checks the model that any reader returns: indices in range, finite numbers, at least three
 //! corners a polygon, counts within the limits. Readers may check more, and earlier.
 
+use std::iter;
+
 use super::error::{ReadError, ReadErrorKind};
 use super::source::Source;
 use crate::index::{MAX_INDEX, NONE, to_u32};
@@ -15,7 +17,8 @@ pub(crate) const LARGEST_COORDINATE: f64 = 1e300;
 /// A corner with a wrong texture coordinate or normal loses only that, a material with a
 /// number that is not finite only this number. A polygon is dropped if one of its vertices
 /// is not finite; `warned_of_vertices` is set if the reader has already warned of those. A
-/// model that loses all its faces here is returned empty, if it has a finite vertex.
+/// model that loses all its faces here is returned empty, if it has a finite vertex. An instanced
+/// mesh without faces and lines is dropped.
 ///
 /// # Errors
 /// Fails if a face or line names a vertex that does not exist, if there are more
@@ -27,43 +30,89 @@ pub(crate) fn check(
     report: &mut Report,
     warned_of_vertices: bool,
 ) -> Result<(), ReadError> {
+    let mut instanced = std::mem::take(&mut model.instanced);
+    let own = iter::once(&mut *model);
+    let mut parts: Vec<&mut Model> =
+        own.chain(instanced.iter_mut().map(|instanced| &mut instanced.model)).collect();
+    for part in &parts {
+        check_counts(source, part)?;
+        check_positions(source, part)?;
+    }
+    check_is_drawn(source, &parts, report)?;
+    for part in &mut parts {
+        drop_wrong_attributes(part, report);
+    }
+    let is_finite: Vec<Vec<bool>> = parts.iter().map(|part| finite_vertices(part)).collect();
+    check_is_finite(source, &parts, &is_finite)?;
+    for (part, is_finite) in parts.into_iter().zip(&is_finite) {
+        if !warned_of_vertices {
+            warn_of_vertices(is_finite, report);
+        }
+        drop_what_is_not_finite(part, is_finite, report);
+    }
+    instanced.retain(|instanced| !has_nothing(&instanced.model));
+    model.instanced = instanced;
+    Ok(())
+}
+
+/// Whether a model has neither faces nor lines.
+const fn has_nothing(model: &Model) -> bool {
+    model.polygon_count() == 0 && model.segments.is_empty()
+}
+
+fn check_counts(source: &Source, model: &Model) -> Result<(), ReadError> {
     let counts = [model.positions.len(), model.corner_positions.len(), model.segments.len()];
-    if let Some(&count) = counts.iter().find(|&&count| count > MAX_INDEX) {
-        let what = format!("too large: {count} vertices or corners; the limit is {MAX_INDEX}");
-        return Err(source.error(ReadErrorKind::Size, None, what));
+    match counts.into_iter().find(|&count| count > MAX_INDEX) {
+        None => Ok(()),
+        Some(count) => {
+            let what = format!("too large: {count} vertices or corners; the limit is {MAX_INDEX}");
+            Err(source.error(ReadErrorKind::Size, None, what))
+        }
     }
-    check_positions(source, model)?;
-    if model.polygon_count() == 0
-        && model.segments.is_empty()
-        && report.count(WarningCode::Degenerate) == 0
-        && !model.has_invisible_parts
-    {
-        let what = match model.positions.len() {
-            0 => "no vertices and no faces: nothing to draw".into(),
-            count => format!("{count} vertices but no faces and no lines: nothing to draw"),
-        };
-        return Err(source.error(ReadErrorKind::Empty, None, what));
+}
+
+/// Checks that the parts of a model have a face or a line, or are empty for a reason.
+fn check_is_drawn(source: &Source, parts: &[&mut Model], report: &Report) -> Result<(), ReadError> {
+    let is_meant = |part: &Model| !has_nothing(part) || part.has_invisible_parts;
+    if parts.iter().any(|part| is_meant(part)) || report.count(WarningCode::Degenerate) > 0 {
+        return Ok(());
     }
-    drop_wrong_attributes(model, report);
-    let is_finite = finite_vertices(model);
-    if !is_finite.is_empty() && !is_finite.contains(&true) {
-        let what = format!(
-            "none of the {} vertices is finite, so nothing can be drawn; export the model again",
-            is_finite.len()
-        );
-        return Err(source.error(ReadErrorKind::Number, Some(Place::Vertex(1)), what));
+    let what = match parts.iter().map(|part| part.positions.len()).sum() {
+        0_usize => "no vertices and no faces: nothing to draw".into(),
+        count => format!("{count} vertices but no faces and no lines: nothing to draw"),
+    };
+    Err(source.error(ReadErrorKind::Empty, None, what))
+}
+
+/// Checks that the parts of a model have a finite vertex, given those of each (see
+/// [`finite_vertices`]).
+fn check_is_finite(
+    source: &Source,
+    parts: &[&mut Model],
+    is_finite: &[Vec<bool>],
+) -> Result<(), ReadError> {
+    let has_any = |(part, is_finite): (&&mut Model, &Vec<bool>)| match is_finite.is_empty() {
+        true => !part.positions.is_empty(),
+        false => is_finite.contains(&true),
+    };
+    let count: usize = parts.iter().map(|part| part.positions.len()).sum();
+    if count == 0 || parts.iter().zip(is_finite).any(has_any) {
+        return Ok(());
     }
-    if !warned_of_vertices {
-        warn_of_vertices(&is_finite, report);
-    }
+    let what = format!(
+        "none of the {count} vertices is finite, so nothing can be drawn; export the model again"
+    );
+    Err(source.error(ReadErrorKind::Number, Some(Place::Vertex(1)), what))
+}
+
+fn drop_what_is_not_finite(model: &mut Model, is_finite: &[bool], report: &mut Report) {
     clear_attributes_not_finite(model, report);
     clear_colors_not_finite(&mut model.materials, report);
-    drop_polygons(model, &is_finite, report);
+    drop_polygons(model, is_finite, report);
     model.segments.retain(|segment| {
         let [a, b] = segment.ends.map(|end| end as usize);
         a != b && (is_finite.is_empty() || is_finite[a] && is_finite[b])
     });
-    Ok(())
 }
 
 fn check_positions(source: &Source, model: &Model) -> Result<(), ReadError> {
@@ -229,7 +278,7 @@ fn keep_polygons(model: &mut Model, is_kept: &[bool]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Attributes, Corner, PolygonRun, Segment};
+    use crate::model::{Attributes, Corner, InstancedModel, PolygonRun, Segment};
 
     const SOURCE: Source = Source { name: "test", folder: None, bytes: b"" };
 
@@ -275,6 +324,33 @@ mod tests {
         check(&SOURCE, &mut model, &mut report, false).unwrap();
         assert_eq!(model.corner_texcoords[7..], [0, 1, NONE]);
         assert_eq!(report.count(WarningCode::Index), 4);
+    }
+
+    /// Instanced meshes are checked as the model is, and count as its faces.
+    #[test]
+    fn instanced_meshes_are_checked() {
+        let instanced = |model| InstancedModel { model, placements: Vec::new() };
+        let check = |mut model: Model| {
+            let mut report = Report::default();
+            check(&SOURCE, &mut model, &mut report, false).map(|()| (model, report))
+        };
+        let mut wrong = square();
+        wrong.corner_positions[1] = 77;
+        let model = Model { instanced: vec![instanced(wrong)], ..square() };
+        assert_eq!(check(model).unwrap_err().kind, ReadErrorKind::Index);
+        let mut torn = square();
+        torn.positions[3][1] = f64::NAN;
+        let bare = Model { polygon_ends: vec![], corner_positions: vec![], ..square() };
+        let model = Model { instanced: vec![instanced(torn), instanced(bare)], ..Model::default() };
+        let (model, report) = check(model).unwrap();
+        let [only] = &model.instanced[..] else { panic!("{model:?}") };
+        assert_eq!((only.model.polygon_count(), report.count(WarningCode::NonFinite)), (1, 1));
+        let lost = Model { positions: vec![[f64::NAN; 3]; 4], ..square() };
+        let model = Model { instanced: vec![instanced(lost.clone())], ..square() };
+        assert_eq!(check(model).unwrap().0.instanced.len(), 0, "the rest is drawn");
+        let model = Model { instanced: vec![instanced(lost.clone())], ..lost };
+        let error = check(model).unwrap_err();
+        assert!(error.what.starts_with("none of the 8 vertices is finite"), "{error}");
     }
 
     #[test]

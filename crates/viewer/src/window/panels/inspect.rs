@@ -135,7 +135,7 @@ fn times(ui: &mut Ui, session: &Session) {
 fn repairs(ui: &mut Ui, session: &Session) {
     let Some(scene) = &session.scene else { return };
     ui.heading("Repairs");
-    for model in &scene.models {
+    for model in scene.models.iter().take(scene.file_count) {
         let lines = model.report.warning_lines(&model.name, "");
         if lines.is_empty() {
             ui.weak(format!("{}: none", model.name.trim_end_matches(':')));

@@ -10,6 +10,7 @@
 //!        '- mesh: triangles of each material, with the extension
 //!                 lines without a face; all with the same vertices
 //! with a rig: its own nodes, a mesh for each part ([`rig`])
+//! with instances: a node for each place ([`instances`])
 //!
 //! GLB:  "glTF" 2 size | size "JSON" {...} | size "BIN" data, all multiples of 4
 //! ```
@@ -27,12 +28,14 @@ mod binary_data;
 mod edge_visibility;
 mod edges;
 mod faces;
+mod instances;
 mod materials;
 mod objects;
 mod primitives;
 mod rig;
 mod surface;
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 
 use base64::Engine as _;
@@ -45,10 +48,11 @@ use self::edge_visibility::EXTENSION;
 use self::materials::MaterialLists;
 use self::objects::Objects;
 use super::lines::LineFormatter;
+use super::parts::Parts;
 use crate::edge_mesh::EdgeMesh;
 use crate::format::edge_classes::{GENERATOR, STATES_CLASSES};
 use crate::index::NONE;
-use crate::model::MeshRig;
+use crate::model::{Material, MeshRig};
 
 /// Writes a mesh as JSON, with its data in a URI.
 ///
@@ -56,11 +60,11 @@ use crate::model::MeshRig;
 /// Those of `out`.
 pub(super) fn write_gltf(
     mesh: &EdgeMesh,
-    rig: Option<&MeshRig>,
+    parts: Parts,
     name: &str,
     out: &mut impl Write,
 ) -> io::Result<()> {
-    let (mut document, data) = document(mesh, rig, name)?;
+    let (mut document, data) = document(mesh, parts, name)?;
     if !data.is_empty() {
         let uri = format!("data:application/octet-stream;base64,{}", BASE64_STANDARD.encode(&data));
         document["buffers"] = json!([{"byteLength": data.len(), "uri": uri}]);
@@ -77,11 +81,11 @@ pub(super) fn write_gltf(
 /// Those of `out`; also `FileTooLarge` from 4 GiB on.
 pub(super) fn write_glb(
     mesh: &EdgeMesh,
-    rig: Option<&MeshRig>,
+    parts: Parts,
     name: &str,
     out: &mut impl Write,
 ) -> io::Result<()> {
-    let (mut document, data) = document(mesh, rig, name)?;
+    let (mut document, data) = document(mesh, parts, name)?;
     if !data.is_empty() {
         document["buffers"] = json!([{"byteLength": data.len()}]);
     }
@@ -114,7 +118,8 @@ fn glb_size(size: usize) -> io::Result<[u8; 4]> {
 ///
 /// # Errors
 /// Those of [`MaterialLists::new`].
-fn document(mesh: &EdgeMesh, rig: Option<&MeshRig>, name: &str) -> io::Result<(Value, Vec<u8>)> {
+fn document(mesh: &EdgeMesh, parts: Parts, name: &str) -> io::Result<(Value, Vec<u8>)> {
+    let Parts { rig, instanced } = parts;
     let mut data = BinaryData::default();
     let mut document = json!({
         "asset": {
@@ -125,10 +130,15 @@ fn document(mesh: &EdgeMesh, rig: Option<&MeshRig>, name: &str) -> io::Result<(V
     });
     let is_of_mesh =
         |own: &&MeshRig| own.corners.len() == mesh.triangles.len() && !own.rig.parts.is_empty();
-    let objects = match rig.filter(is_of_mesh) {
+    let mut objects = match rig.filter(is_of_mesh) {
         Some(rig) => Objects::of_rig(mesh, rig, name, &mut data),
         None => Objects::of_mesh(mesh, name, &mut data),
     };
+    let mut materials = Cow::Borrowed(&mesh.fill.materials);
+    for own in instanced {
+        objects.add_instanced(own, name, materials.len(), &mut data);
+        materials.to_mut().extend(own.mesh.fill.materials.iter().cloned());
+    }
     if objects.uses_extension() {
         document["extensionsUsed"] = json!([EXTENSION]);
     }
@@ -140,8 +150,9 @@ fn document(mesh: &EdgeMesh, rig: Option<&MeshRig>, name: &str) -> io::Result<(V
         if !objects.skins.is_empty() {
             document["skins"] = objects.skins.into();
         }
-        if mesh.fill.runs.iter().any(|run| run.material != NONE) {
-            add_materials(&mut document, mesh, &mut data)?;
+        let fills = std::iter::once(&mesh.fill).chain(instanced.iter().map(|own| &own.mesh.fill));
+        if fills.flat_map(|fill| &fill.runs).any(|run| run.material != NONE) {
+            add_materials(&mut document, &materials, &mut data)?;
         }
         document["accessors"] = data.accessors.into();
         document["bufferViews"] = data.views.into();
@@ -149,9 +160,12 @@ fn document(mesh: &EdgeMesh, rig: Option<&MeshRig>, name: &str) -> io::Result<(V
     Ok((document, data.bytes))
 }
 
-fn add_materials(document: &mut Value, mesh: &EdgeMesh, data: &mut BinaryData) -> io::Result<()> {
-    let MaterialLists { materials, textures, images } =
-        MaterialLists::new(&mesh.fill.materials, data)?;
+fn add_materials(
+    document: &mut Value,
+    materials: &[Material],
+    data: &mut BinaryData,
+) -> io::Result<()> {
+    let MaterialLists { materials, textures, images } = MaterialLists::new(materials, data)?;
     document["materials"] = materials.into();
     if !images.is_empty() {
         document["textures"] = textures.into();
@@ -179,7 +193,7 @@ mod tests {
 
     #[test]
     fn a_square_in_full() {
-        let (document, data) = document(&build(&square()), None, "a \"b\"").unwrap();
+        let (document, data) = document(&build(&square()), Parts::default(), "a \"b\"").unwrap();
         let expected = json!({
             "asset": {
                 "version": "2.0",
@@ -220,7 +234,7 @@ mod tests {
     #[test]
     fn a_glb_file_states_the_sizes_of_its_chunks() {
         let mut bytes = Vec::new();
-        write_glb(&build(&square()), None, "", &mut bytes).unwrap();
+        write_glb(&build(&square()), Parts::default(), "", &mut bytes).unwrap();
         let number = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
         assert_eq!((&bytes[..4], number(4), number(8)), (&b"glTF"[..], 2, bytes.len()));
         let json = number(12);
@@ -233,11 +247,11 @@ mod tests {
     #[test]
     fn an_empty_mesh_is_a_node_without_a_mesh() {
         let mesh = build(&Model::from_polygons(&[[0.; 3], [1.; 3]], &[&[0, 1, 0]]));
-        let (document, data) = document(&mesh, None, "").unwrap();
+        let (document, data) = document(&mesh, Parts::default(), "").unwrap();
         assert_eq!(document["nodes"], json!([{"name": ""}]));
         assert!(document.get("buffers").is_none() && document.get("meshes").is_none());
         let mut bytes = Vec::new();
-        write_glb(&mesh, None, "", &mut bytes).unwrap();
+        write_glb(&mesh, Parts::default(), "", &mut bytes).unwrap();
         assert!(data.is_empty() && bytes.len() == 20 + bytes[12] as usize, "one chunk");
     }
 
@@ -245,7 +259,7 @@ mod tests {
     fn lines_alone_are_one_primitive_without_the_extension() {
         let mut model = Model::from_polygons(&[[0.; 3], [1.; 3]], &[]);
         model.segments.push(Segment { ends: [0, 1], line: 0 });
-        let (document, _) = document(&build(&model), None, "").unwrap();
+        let (document, _) = document(&build(&model), Parts::default(), "").unwrap();
         let primitives = &document["meshes"][0]["primitives"];
         let expected = json!([{"attributes": {"POSITION": 0}, "indices": 1, "mode": 1}]);
         assert_eq!(primitives, &expected);

@@ -4,10 +4,11 @@ use serde_json::{Value, json};
 
 use super::binary_data::BinaryData;
 use super::edge_visibility::EXTENSION;
+use super::instances::{placed_node, shift_materials};
 use super::primitives::{Attributes, line_primitive, triangle_primitives};
 use super::rig::{Bending, RigLists};
 use super::surface::{Surface, line_ends};
-use crate::edge_mesh::{EdgeMesh, MeshFrame};
+use crate::edge_mesh::{EdgeMesh, InstancedMesh, MeshFrame};
 use crate::model::MeshRig;
 
 /// The nodes, meshes and skins of a document.
@@ -23,19 +24,7 @@ impl Objects {
     /// One mesh in its place.
     pub(super) fn of_mesh(mesh: &EdgeMesh, name: &str, data: &mut BinaryData) -> Self {
         let mut objects = Self::default();
-        let surface = Surface::of(mesh);
-        let vertices = &surface.parts[0];
-        let lines: Vec<u32> = line_ends(mesh).map(|end| vertices.stored(end)).collect();
-        if !surface.corners.is_empty() || !lines.is_empty() {
-            let attributes = Attributes::of(vertices, !surface.corners.is_empty(), data);
-            let mut primitives: Vec<Value> =
-                triangle_primitives(mesh, &surface, std::slice::from_ref(&attributes), data)
-                    .into_iter()
-                    .map(|(_, primitive)| primitive)
-                    .collect();
-            primitives.extend(line_primitive(&attributes, &lines, data));
-            objects.meshes.push(json!({"name": name, "primitives": primitives}));
-        }
+        objects.meshes.extend(whole_mesh(mesh, name, data));
         let own = (!objects.meshes.is_empty()).then_some(0);
         objects.add_placed(&mesh.frame, name, own);
         objects
@@ -82,6 +71,33 @@ impl Objects {
         objects
     }
 
+    /// Adds a mesh with a node for each of its places. Its materials follow the first
+    /// `first_material` of the file.
+    pub(super) fn add_instanced(
+        &mut self,
+        InstancedMesh { mesh, placements }: &InstancedMesh,
+        name: &str,
+        first_material: usize,
+        data: &mut BinaryData,
+    ) {
+        let Some(mut own) = whole_mesh(mesh, name, data) else { return };
+        shift_materials(&mut own, first_material);
+        self.meshes.push(own);
+        let number = self.meshes.len() - 1;
+        let is_placed = !mesh.frame.is_identity();
+        if is_placed {
+            self.add_placed(&mesh.frame, name, None);
+        }
+        let parent = self.nodes.len();
+        self.nodes.extend(placements.iter().map(|place| placed_node(place, name, number)));
+        let own = parent..self.nodes.len();
+        if is_placed {
+            self.nodes[parent - 1]["children"] = json!(own.collect::<Vec<usize>>());
+        } else {
+            self.roots.extend(own);
+        }
+    }
+
     /// Adds the lines without a face as a mesh of their own.
     fn add_lines(&mut self, mesh: &EdgeMesh, name: &str, data: &mut BinaryData) {
         let ends: Vec<u32> = line_ends(mesh).collect();
@@ -112,6 +128,24 @@ impl Objects {
         let mut extensions = primitives.filter_map(|primitive| primitive.get("extensions"));
         extensions.any(|extensions| extensions.get(EXTENSION).is_some())
     }
+}
+
+/// A mesh with its triangles and its lines without a face; `None` without any.
+fn whole_mesh(mesh: &EdgeMesh, name: &str, data: &mut BinaryData) -> Option<Value> {
+    let surface = Surface::of(mesh);
+    let vertices = &surface.parts[0];
+    let lines: Vec<u32> = line_ends(mesh).map(|end| vertices.stored(end)).collect();
+    if surface.corners.is_empty() && lines.is_empty() {
+        return None;
+    }
+    let attributes = Attributes::of(vertices, !surface.corners.is_empty(), data);
+    let mut primitives: Vec<Value> =
+        triangle_primitives(mesh, &surface, std::slice::from_ref(&attributes), data)
+            .into_iter()
+            .map(|(_, primitive)| primitive)
+            .collect();
+    primitives.extend(line_primitive(&attributes, &lines, data));
+    Some(json!({"name": name, "primitives": primitives}))
 }
 
 /// The node of a mesh, number `first` of the file. A mesh with a frame has a second node within,

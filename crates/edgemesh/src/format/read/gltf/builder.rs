@@ -11,9 +11,9 @@
 
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap, HashSet};
-use std::iter;
+use std::{iter, mem};
 
-use glam::{DVec3, Vec3};
+use glam::{DAffine3, DVec3, Vec3};
 use gltf_json as json;
 use json::mesh::Semantic;
 use json::validation::Checked;
@@ -27,14 +27,17 @@ use super::edge_extensions::edge_marks;
 use super::extension::check_uncompressed;
 use super::instances::instances;
 use super::material::material;
+use super::placements::{Placed, relative, similar_groups};
 use super::primitive::Primitive;
 use super::scene::NodeHierarchy;
+use super::scene_size::SceneSize;
 use super::texture::PictureCache;
 use super::topology::{Shapes, shapes};
 use super::vertices::{VertexAttributes, positions};
 use crate::index::{NONE, to_u32};
 use crate::model::{
-    Attributes, Corner, Model, NodeTransform, Pose, Rig, RigNode, RigPart, Segment, Smoothing,
+    Attributes, Corner, InstancedModel, Model, NodeTransform, Pose, Rig, RigNode, RigPart, Segment,
+    Smoothing,
 };
 use crate::report::{Report, WarningCode};
 
@@ -50,6 +53,9 @@ pub(super) struct ModelBuilder<'a> {
     /// For each material of the file, its index in the model, or [`NONE`].
     materials: Vec<u32>,
     pictures: PictureCache,
+    size: SceneSize,
+    /// The places of each mesh that is read once.
+    shared: BTreeMap<usize, Vec<Placed>>,
 }
 
 /// The attributes and morph targets that primitives with shared vertices have in
@@ -90,16 +96,22 @@ impl<'a> ModelBuilder<'a> {
     pub(super) fn new(
         asset: &'a Asset<'a>,
         hierarchy: &NodeHierarchy,
+        size: SceneSize,
         report: &'a mut Report,
     ) -> Result<Self, ReadError> {
         let rig = new_rig(asset, hierarchy)?;
-        let rest = rig.rest_pose();
-        let materials = vec![NONE; asset.document.materials.len()];
-        let (model, pictures) = (Model::default(), PictureCache::default());
-        Ok(Self { asset, report, rig, rest, model, materials, pictures })
+        Ok(Self::of_rig(asset, rig, size, report))
     }
 
-    /// Adds the mesh of a node, if it has one.
+    fn of_rig(asset: &'a Asset<'a>, rig: Rig, size: SceneSize, report: &'a mut Report) -> Self {
+        let rest = rig.rest_pose();
+        let materials = vec![NONE; asset.document.materials.len()];
+        let (model, pictures, shared) = Default::default();
+        Self { asset, report, rig, rest, model, materials, pictures, size, shared }
+    }
+
+    /// Adds the mesh of a node, if it has one. One that is read once is kept for
+    /// [`Self::add_shared`].
     ///
     /// # Errors
     /// Fails if the mesh, its skin, its positions or its indices have a fault.
@@ -113,14 +125,74 @@ impl<'a> ModelBuilder<'a> {
             error.warn_left_out(self.report);
             None
         });
-        let Some(found) = found else {
-            return self.add_mesh(Spot { node: index, rig_node: index }, mesh_index, mesh);
-        };
-        for transform in found {
-            let spot = Spot { node: index, rig_node: self.add_instance(index, transform) };
-            self.add_mesh(spot, mesh_index, mesh)?;
+        let is_shared = self.size.is_shared(mesh_index);
+        let instances = found.map_or_else(|| vec![None], |all| all.into_iter().map(Some).collect());
+        for instance in instances {
+            let placed = self.placed(index, instance);
+            if is_shared {
+                self.shared.entry(mesh_index).or_default().push(placed);
+            } else {
+                self.add_copy(&placed, mesh_index, mesh)?;
+            }
         }
         Ok(())
+    }
+
+    /// The place of a node, or of an instance of it.
+    fn placed(&self, node: usize, instance: Option<NodeTransform>) -> Placed {
+        let world_from_node = self.rest.world_from_node.get(node).copied().unwrap_or_default();
+        let own = instance.map_or(DAffine3::IDENTITY, |instance| instance.parent_from_node());
+        Placed { node, instance, world: world_from_node * own }
+    }
+
+    /// Adds a mesh to the model.
+    fn add_copy(
+        &mut self,
+        &Placed { node, instance, .. }: &Placed,
+        mesh_index: usize,
+        mesh: &'a json::Mesh,
+    ) -> Result<(), ReadError> {
+        let rig_node = instance.map_or(node, |instance| self.add_instance(node, instance));
+        self.add_mesh(Spot { node, rig_node }, mesh_index, mesh)
+    }
+
+    /// The meshes that are read once, with their places. A place that is stretched as no other
+    /// is gets a copy in this model.
+    ///
+    /// # Errors
+    /// As [`Self::add_node`]; Size if there are too many such copies.
+    pub(super) fn add_shared(&mut self) -> Result<Vec<InstancedModel>, ReadError> {
+        let mut instanced = Vec::new();
+        for (mesh_index, placed) in mem::take(&mut self.shared) {
+            let part = || format!("meshes[{mesh_index}]");
+            let mesh = self.asset.get(&self.asset.document.meshes, mesh_index, "meshes", part)?;
+            for group in similar_groups(placed) {
+                if let [only] = &group[..] {
+                    self.size.add_copy(self.asset, mesh_index)?;
+                    self.add_copy(only, mesh_index, mesh)?;
+                } else {
+                    instanced.push(self.instanced(&group, mesh_index, mesh)?);
+                }
+            }
+        }
+        Ok(instanced)
+    }
+
+    /// A mesh as a model of its own, in the first of its places.
+    fn instanced(
+        &mut self,
+        group: &[Placed],
+        mesh_index: usize,
+        mesh: &json::Mesh,
+    ) -> Result<InstancedModel, ReadError> {
+        let Placed { node, world, .. } = group[0];
+        let root = RigNode { parent: NONE, transform: NodeTransform::Matrix(world) };
+        let rig = Rig { nodes: vec![root], node_order: vec![0], ..Rig::default() };
+        let mut own = ModelBuilder::of_rig(self.asset, rig, SceneSize::default(), self.report);
+        own.pictures = mem::take(&mut self.pictures);
+        own.add_mesh(Spot { node, rig_node: 0 }, mesh_index, mesh)?;
+        self.pictures = mem::take(&mut own.pictures);
+        Ok(InstancedModel { model: own.finish(), placements: relative(group) })
     }
 
     /// Adds an instance to the rig, as a child of its node; returns its index there.

@@ -17,7 +17,8 @@
 //! silently yields no positions for an accessor past its buffer.
 //!
 //! A mesh is read once for each node that draws it, so the time is proportional to the
-//! size of the model. A [`Budget`](asset::Budget) limits that size.
+//! size of the model. A [`Budget`](asset::Budget) limits that size. A large mesh in several
+//! places is read once and becomes a model of its own ([`placements`]).
 
 mod accessor;
 mod asset;
@@ -34,6 +35,7 @@ mod instances;
 mod khronos_validator;
 mod material;
 mod meshopt;
+mod placements;
 mod primitive;
 #[cfg(test)]
 mod sample;
@@ -49,7 +51,7 @@ use asset::Asset;
 use builder::ModelBuilder;
 use document::RuleCheck;
 use scene::{NodeHierarchy, is_visible};
-use scene_size::check_scene_size;
+use scene_size::SceneSize;
 
 use super::error::ReadError;
 use super::source::Source;
@@ -72,12 +74,14 @@ pub(super) fn read_gltf(
     let asset = Asset::new(source, &document, container.binary);
     let hierarchy = NodeHierarchy::new(&asset)?;
     let nodes = hierarchy.drawn_nodes(&asset)?;
-    check_scene_size(&asset, &nodes)?;
-    let mut builder = ModelBuilder::new(&asset, &hierarchy, report)?;
+    let size = SceneSize::of(&asset, &nodes)?;
+    let mut builder = ModelBuilder::new(&asset, &hierarchy, size, report)?;
     for node in nodes {
         builder.add_node(node)?;
     }
+    let instanced = builder.add_shared()?;
     let mut model = builder.finish();
+    model.instanced = instanced;
     model.has_invisible_parts = !document.nodes.iter().all(is_visible);
     Ok(model)
 }
@@ -86,7 +90,7 @@ pub(super) fn read_gltf(
 mod tests {
     use serde_json::json;
 
-    use super::sample::{SQUARE, Sample, one_mesh, read, read_source};
+    use super::sample::{SQUARE, Sample, TWO_TRIANGLES, one_mesh, read, read_source};
     use super::*;
     use crate::report::Warning;
 
@@ -148,6 +152,43 @@ mod tests {
         let (model, _) = read_source(&source).unwrap();
         assert_eq!(model.positions[2], [1.0, 1.0, 5.0]);
         assert_eq!(model.corner_positions, [0, 1, 2, 0, 2, 3]);
+    }
+
+    /// A square of 4,000 triangles: moved by a node, mirrored by an instance, stretched by another.
+    #[test]
+    fn a_large_mesh_in_several_places_is_read_once() {
+        let mut sample = Sample::default();
+        let places = sample.floats("VEC3", &[[0.0; 3], [0.0, 5.0, 0.0]]);
+        let scales = sample.floats("VEC3", &[[-2.0, 2.0, 2.0], [1.0, 3.0, 1.0]]);
+        let mut rest = one_mesh(&json!({
+            "attributes": {"POSITION": sample.floats("VEC3", &SQUARE)},
+            "indices": sample.bytes("SCALAR", &TWO_TRIANGLES.repeat(2000))
+        }));
+        let attributes = json!({"TRANSLATION": places, "SCALE": scales});
+        rest["extensionsUsed"] = json!(["EXT_mesh_gpu_instancing"]);
+        rest["nodes"] = json!([
+            {"mesh": 0, "name": "first", "translation": [1, 0, 0]},
+            {"mesh": 0, "translation": [10, 0, 0]},
+            {"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": attributes}}}
+        ]);
+        let (model, report) = sample.read(&rest).unwrap();
+        assert!(report.warnings().is_empty(), "{report:?}");
+        let [instanced] = &model.instanced[..] else { panic!("{:?}", model.instanced) };
+        assert_eq!(instanced.model.positions[2], [2.0, 1.0, 0.0], "in its first place");
+        assert_eq!((instanced.model.polygon_count(), &*instanced.model.groups[0]), (4000, "first"));
+        // (2, 1, 0) is the corner (1, 1, 0).
+        let corner = glam::DVec3::new(2.0, 1.0, 0.0);
+        let corners: Vec<[f64; 3]> = instanced
+            .placements
+            .iter()
+            .map(|place| place.transform_point3(corner).to_array())
+            .collect();
+        assert_eq!(corners, [[2., 1., 0.], [11., 1., 0.], [-2., 2., 0.]]);
+        assert_eq!((model.positions.len(), model.polygon_count()), (4, 4000), "stretched: a copy");
+        assert_eq!(model.positions[2], [1.0, 8.0, 0.0]);
+        rest["nodes"] = json!([{"mesh": 0}, {"mesh": 0, "scale": [0, 1, 1]}]);
+        let (model, _) = sample.read(&rest).unwrap();
+        assert_eq!((model.instanced.len(), model.polygon_count()), (0, 8000), "flattened: copies");
     }
 
     #[test]
