@@ -66,8 +66,8 @@ pub struct MeshOptions {
     pub links: bool,
     /// Whether the surface can be shaded: 32 bytes per corner with distinct attributes.
     pub surface: bool,
-    /// How many objects draw the mesh at once: the more, the less room each has for the strokes of
-    /// a view. 0 counts as 1.
+    /// How many objects of meshes with several objects are drawn at once: the more, the less room
+    /// each has for the strokes of a view. 0 counts as 1, as for a mesh with one object.
     pub objects: u32,
 }
 

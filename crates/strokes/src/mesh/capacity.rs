@@ -2,7 +2,8 @@
 //!
 //! Views list, expand and link edges in buffers whose sizes depend on the mesh alone, so
 //! that no view allocates. A view that needs more draws the rest straight from its list. The
-//! objects that draw one mesh share the room that small meshes have beyond their part.
+//! objects of meshes with several objects share the room that small meshes have beyond their
+//! part.
 
 use edgemesh::index::to_u32;
 use edgemesh::line::LineKind;

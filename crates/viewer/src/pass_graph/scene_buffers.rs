@@ -23,10 +23,12 @@ impl SceneBuffers {
         needs: MeshOptions,
     ) -> Result<Vec<MeshInstance>, Error> {
         self.meshes.resize(scene.models.len(), None);
-        let mut counts = vec![0; scene.models.len()];
+        let mut counts = vec![0_u32; scene.models.len()];
         scene.objects.iter().for_each(|placed| counts[placed.model] += 1);
+        let shared = counts.iter().filter(|count| **count > 1).sum();
         let instance = |placed: &PlacedObject| {
-            let needs = MeshOptions { objects: counts[placed.model], ..needs };
+            let objects = if counts[placed.model] > 1 { shared } else { 1 };
+            let needs = MeshOptions { objects, ..needs };
             let mesh = self.mesh(gpu, scene, placed.model, needs)?;
             Ok(MeshInstance::new(&mesh, placed.world_from_object))
         };
