@@ -43,52 +43,73 @@ fn ball() -> (Vec<[f32; 3]>, [Vec<u32>; 2]) {
     (positions, halves)
 }
 
-/// A GLB file with the ball in each place: as instances of one node, or with a mesh for each place,
-/// which are copied.
-pub(crate) fn balls(places: &[Place], are_shared: bool) -> Vec<u8> {
-    let (positions, halves) = ball();
-    let mut data = Vec::new();
-    let (mut views, mut accessors) = (Vec::new(), Vec::new());
-    let mut push = |bytes: Vec<u8>, accessor: Value| {
-        views.push(json!({"buffer": 0, "byteOffset": data.len(), "byteLength": bytes.len()}));
-        data.extend(bytes);
+/// The binary data of a file, with its views and accessors.
+#[derive(Default)]
+struct Content {
+    data: Vec<u8>,
+    views: Vec<Value>,
+    accessors: Vec<Value>,
+}
+
+impl Content {
+    /// Adds an accessor; returns its number.
+    fn push(&mut self, bytes: &[u8], accessor: Value) -> usize {
+        let view = json!({"buffer": 0, "byteOffset": self.data.len(), "byteLength": bytes.len()});
+        self.views.push(view);
+        self.data.extend(bytes);
         let mut accessor = accessor;
-        accessor["bufferView"] = (views.len() - 1).into();
-        accessors.push(accessor);
-        accessors.len() - 1
-    };
-    let floats =
-        |numbers: &[f32]| numbers.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
-    let column = |pick: fn(f32, f32) -> f32| -> Vec<f32> {
-        let of = |axis: usize| positions.iter().map(move |at: &[f32; 3]| at[axis]);
-        (0..3).map(|axis| of(axis).reduce(pick).unwrap()).collect()
-    };
-    let position = push(
-        floats(positions.as_flattened()),
-        json!({"componentType": 5126, "count": positions.len(), "type": "VEC3",
-               "min": column(f32::min), "max": column(f32::max)}),
-    );
-    let primitives: Vec<Value> = halves
-        .iter()
-        .enumerate()
-        .map(|(material, half)| {
-            let bytes = half.iter().flat_map(|corner| corner.to_le_bytes()).collect();
-            let accessor = json!({"componentType": 5125, "count": half.len(), "type": "SCALAR"});
-            let indices = push(bytes, accessor);
-            json!({"attributes": {"POSITION": position}, "indices": indices, "material": material})
-        })
-        .collect();
-    let mesh = json!({"primitives": primitives});
-    let count = places.len();
-    let (meshes, nodes): (Vec<Value>, Vec<Value>) = if are_shared {
-        let mut list = |numbers: Vec<f32>, kind: &str| {
-            push(floats(&numbers), json!({"componentType": 5126, "count": count, "type": kind}))
+        accessor["bufferView"] = (self.views.len() - 1).into();
+        self.accessors.push(accessor);
+        self.accessors.len() - 1
+    }
+
+    fn floats(&mut self, numbers: &[f32], accessor: Value) -> usize {
+        let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
+        self.push(&bytes, accessor)
+    }
+
+    /// Adds the ball; returns the primitives of its halves.
+    fn ball(&mut self) -> Vec<Value> {
+        let (positions, halves) = ball();
+        let column = |pick: fn(f32, f32) -> f32| -> Vec<f32> {
+            let of = |axis: usize| positions.iter().map(move |at: &[f32; 3]| at[axis]);
+            (0..3).map(|axis| of(axis).reduce(pick).unwrap()).collect()
         };
-        let attributes = json!({
+        let position = self.floats(
+            positions.as_flattened(),
+            json!({"componentType": 5126, "count": positions.len(), "type": "VEC3",
+                   "min": column(f32::min), "max": column(f32::max)}),
+        );
+        let primitive = |(material, half): (usize, &Vec<u32>)| {
+            let bytes: Vec<u8> = half.iter().flat_map(|corner| corner.to_le_bytes()).collect();
+            let accessor = json!({"componentType": 5125, "count": half.len(), "type": "SCALAR"});
+            let indices = self.push(&bytes, accessor);
+            json!({"attributes": {"POSITION": position}, "indices": indices, "material": material})
+        };
+        halves.iter().enumerate().map(primitive).collect()
+    }
+
+    /// Adds the places as attributes of instances.
+    fn instances(&mut self, places: &[Place]) -> Value {
+        let mut list = |numbers: Vec<f32>, kind: &str| {
+            let accessor = json!({"componentType": 5126, "count": places.len(), "type": kind});
+            self.floats(&numbers, accessor)
+        };
+        json!({
             "TRANSLATION": list(places.iter().flat_map(|place| place.0).collect(), "VEC3"),
             "ROTATION": list(places.iter().flat_map(|place| place.1).collect(), "VEC4"),
             "SCALE": list(places.iter().flat_map(|place| place.2).collect(), "VEC3")
-        });
+        })
+    }
+}
+
+/// A GLB file with the ball in each place: as instances of one node, or with a mesh for each place,
+/// which are copied.
+pub(crate) fn balls(places: &[Place], are_shared: bool) -> Vec<u8> {
+    let mut content = Content::default();
+    let mesh = json!({"primitives": content.ball()});
+    let (meshes, nodes): (Vec<Value>, Vec<Value>) = if are_shared {
+        let attributes = content.instances(places);
         let extensions = json!({"EXT_mesh_gpu_instancing": {"attributes": attributes}});
         (vec![mesh], vec![json!({"mesh": 0, "name": "ball", "extensions": extensions})])
     } else {
@@ -96,25 +117,24 @@ pub(crate) fn balls(places: &[Place], are_shared: bool) -> Vec<u8> {
             json!({"mesh": at, "name": "ball", "translation": translation,
                    "rotation": rotation, "scale": scale})
         };
-        (vec![mesh; count], places.iter().enumerate().map(node).collect())
+        (vec![mesh; places.len()], places.iter().enumerate().map(node).collect())
     };
     let color = |color: [f32; 4]| json!({"pbrMetallicRoughness": {"baseColorFactor": color}});
-    let document = json!({
+    let mut document = json!({
         "asset": {"version": "2.0"}, "scenes": [{"nodes": (0..nodes.len()).collect::<Vec<_>>()}],
         "nodes": nodes, "meshes": meshes,
         "materials": [color([0.2, 0.4, 0.8, 1.0]), color([0.8, 0.1, 0.1, 1.0])],
-        "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": data.len()}],
-        "extensionsUsed": if are_shared { vec!["EXT_mesh_gpu_instancing"] } else { vec![] }
+        "accessors": content.accessors, "bufferViews": content.views,
+        "buffers": [{"byteLength": content.data.len()}]
     });
-    glb(&document, &data)
+    if are_shared {
+        document["extensionsUsed"] = json!(["EXT_mesh_gpu_instancing"]);
+    }
+    glb(&document, &content.data)
 }
 
 /// A binary glTF file; the length of `data` is a multiple of 4.
 fn glb(document: &Value, data: &[u8]) -> Vec<u8> {
-    let mut document = document.clone();
-    if document["extensionsUsed"] == json!([]) {
-        document.as_object_mut().unwrap().remove("extensionsUsed");
-    }
     let mut text = document.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
     let word = |number: usize| u32::try_from(number).unwrap().to_le_bytes();

@@ -339,8 +339,8 @@ const _: () = assert!(BYTES_PER_NODE == 8 * size_of::<Ribbon>() as u64, "as the 
 
 /// The most points of the even grid along paths, besides two for each element: a quarter of a
 /// million pixels of lines at four pixels per point. Longer lines have points further apart,
-/// and meshes of few edges have room for fewer. The objects of meshes with
-/// several objects share them.
+/// and meshes of few edges have room for fewer. The objects of meshes with several objects
+/// share them.
 const GRID_POINTS: u32 = 1 << 16;
 const LEAST_GRID_POINTS: u32 = 1 << 11;
 const LEAST_SHARED_GRID_POINTS: u32 = 1 << 9;
