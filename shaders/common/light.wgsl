@@ -21,11 +21,13 @@ fn intensity(color: vec3f) -> f32 {
     return dot(color, vec3f(0.3, 0.6, 0.1));
 }
 
-// The material of a range; its diffuse and ambient colors are multiplied by the base
-// texture if the model has texture coordinates.
-fn material_at(material_range: u32, texel: vec4f) -> MaterialUniform {
+// The material of a range; its diffuse and ambient colors are multiplied by the color of the
+// vertices, and by the base texture if the model has texture coordinates.
+fn material_at(material_range: u32, texel: vec4f, color: vec4f) -> MaterialUniform {
     let of_range = surface_ranges[material_range];
     var material = materials[of_range.material];
+    material.diffuse *= color;
+    material.ambient *= vec4f(color.rgb, 1.0);
     if of_range.has_texcoords == 1u {
         material.diffuse *= texel;
         material.ambient *= vec4f(texel.rgb, 1.0);

@@ -29,8 +29,11 @@ struct MaterialUniform {
 @group(2) @binding(2) var<storage, read> materials: array<MaterialUniform>;
 @group(2) @binding(3) var base_texture: texture_2d<f32>;
 @group(2) @binding(4) var base_sampler: sampler;
+// Colors in bytes, red first, one for each vertex or one for all.
+@group(2) @binding(5) var<storage, read> vertex_colors: array<u32>;
 
 struct SurfaceVertex {
+    @builtin(vertex_index) index: u32,
     @location(0) position: vec3f,
     @location(1) normal: vec3f,
     @location(2) texcoord: vec2f,
@@ -45,6 +48,8 @@ struct SurfaceVarying {
     @location(2) texcoord: vec2f,
     @location(3) @interpolate(flat) material_range: u32,
     @location(4) point_in_object: vec3f,
+    // With opacity; white if the model has no colors, or if they are not drawn.
+    @location(5) color: vec4f,
 }
 
 // The surface at a fragment: a point and unit vectors, in world space.
@@ -65,7 +70,12 @@ fn surface_varying(vertex: SurfaceVertex) -> SurfaceVarying {
         vec2f(vertex.texcoord.x, 1.0 - vertex.texcoord.y),
         vertex.material_range,
         vertex.position,
+        color_of_vertex(vertex),
     );
+}
+
+fn color_of_vertex(vertex: SurfaceVertex) -> vec4f {
+    return unpack4x8unorm(vertex_colors[min(vertex.index, arrayLength(&vertex_colors) - 1u)]);
 }
 
 // The surface at a fragment, discarded if a clip plane cuts it away. Inner sides are lit like

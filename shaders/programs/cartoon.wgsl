@@ -39,7 +39,7 @@ fn band(facing: f32) -> vec3f {
 fn cartoon(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
     let texel = textureSample(base_texture, base_sampler, at.texcoord);
     let surface = surface_at(at, is_front);
-    let material = material_at(at.material_range, texel);
+    let material = material_at(at.material_range, texel, at.color);
     let facing = dot(surface.normal, surface.to_light);
     let glint = dot(surface.normal, unit(surface.to_light + surface.to_eye));
     let reach = params.smoothness * vec2f(fwidth(facing), fwidth(glint));

@@ -18,7 +18,7 @@ struct Params {
 fn gooch(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
     let texel = textureSample(base_texture, base_sampler, at.texcoord);
     let surface = surface_at(at, is_front);
-    let material = material_at(at.material_range, texel);
+    let material = material_at(at.material_range, texel, at.color);
     let warm = params.yellow + params.beta * material.diffuse.rgb;
     let cool = params.blue + params.alpha * material.diffuse.rgb;
     let warmth = 0.5 * (1.0 + dot(surface.normal, surface.to_light));

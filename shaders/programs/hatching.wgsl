@@ -35,6 +35,7 @@ struct HatchingVarying {
     @location(6) outside_456: vec3f,
     @location(7) inside_123: vec3f,
     @location(8) inside_456: vec3f,
+    @location(9) color: vec4f,
 }
 
 struct Weights {
@@ -69,6 +70,7 @@ fn tone(uv: vec2f, along_x: vec2f, along_y: vec2f, weights: Weights) -> f32 {
 fn hatched(
     material_range: u32,
     texel: vec4f,
+    color: vec4f,
     texcoord: vec2f,
     point: vec3f,
     normal: vec3f,
@@ -90,7 +92,7 @@ fn hatched(
             + sides.y * tone(place.xz, place_x.xz, place_y.xz, weights)
             + sides.z * tone(place.xy, place_x.xy, place_y.xy, weights);
     }
-    let material = material_at(material_range, texel);
+    let material = material_at(material_range, texel, color);
     let ink = select(params.ink_color, material.diffuse.rgb, params.from_material == 1u);
     return vec4f(mix(ink, params.paper_color, level), 1.0);
 }
@@ -113,6 +115,7 @@ fn hatching_vertex(vertex: SurfaceVertex) -> HatchingVarying {
         outside.of_456,
         inside.of_123,
         inside.of_456,
+        at.color,
     );
 }
 
@@ -127,6 +130,7 @@ fn per_vertex(at: HatchingVarying, @builtin(front_facing) is_front: bool) -> @lo
     let color = hatched(
         at.material_range,
         texel,
+        at.color,
         at.texcoord,
         at.point_in_object,
         unit(at.normal_in_object),
@@ -145,7 +149,15 @@ fn per_pixel(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @loca
     let normal = unit(cross(dpdx(at.point_in_object), dpdy(at.point_in_object)));
     let surface = surface_of(at.point_in_world, side_seen(is_front) * at.normal_in_world);
     let weights = weights_of(params.brightness * diffuse_factor(surface));
-    let color = hatched(at.material_range, texel, at.texcoord, at.point_in_object, normal, weights);
+    let color = hatched(
+        at.material_range,
+        texel,
+        at.color,
+        at.texcoord,
+        at.point_in_object,
+        normal,
+        weights,
+    );
     cut(at);
     return color;
 }

@@ -20,6 +20,7 @@ struct ToonVarying {
     @location(2) @interpolate(flat) material_range: u32,
     // Of the outside and of the inside; a vertex at a contour needs both.
     @location(3) intensities: vec2f,
+    @location(4) color: vec4f,
 }
 
 // Equation 4.4.
@@ -59,7 +60,7 @@ fn per_pixel(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @loca
     let side = side_seen(is_front);
     let right = surface_of(at.point_in_world + point_x, side * (at.normal_in_world + normal_x));
     let below = surface_of(at.point_in_world + point_y, side * (at.normal_in_world + normal_y));
-    let material = material_at(at.material_range, texel);
+    let material = material_at(at.material_range, texel, at.color);
     let light = light_intensity(surface, material);
     let light_a_pixel = abs(light_intensity(right, material) - light)
         + abs(light_intensity(below, material) - light);
@@ -73,7 +74,14 @@ fn toon_vertex(vertex: SurfaceVertex) -> ToonVarying {
     let outside = surface_of(at.point_in_world, at.normal_in_world);
     let inside = surface_of(at.point_in_world, -at.normal_in_world);
     let intensities = vec2f(light_intensity(outside, material), light_intensity(inside, material));
-    return ToonVarying(at.position, at.point_in_world, at.texcoord, at.material_range, intensities);
+    return ToonVarying(
+        at.position,
+        at.point_in_world,
+        at.texcoord,
+        at.material_range,
+        intensities,
+        at.color,
+    );
 }
 
 @fragment
@@ -86,5 +94,6 @@ fn per_vertex(at: ToonVarying, @builtin(front_facing) is_front: bool) -> @locati
     let is_outside = side_seen(is_front) > 0.0;
     let light = select(at.intensities.y, at.intensities.x, is_outside);
     let light_a_pixel = select(a_pixel.y, a_pixel.x, is_outside);
-    return stepped(light, light_a_pixel, material_at(at.material_range, texel));
+    let material = material_at(at.material_range, texel, at.color);
+    return stepped(light, light_a_pixel, material);
 }

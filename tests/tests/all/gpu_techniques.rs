@@ -1,13 +1,16 @@
 //! Techniques on the GPU: textures between passes, and pictures of the built-in techniques.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use edgemesh::build::{BuildOptions, build_edge_mesh};
 use edgemesh::edge_mesh::EdgeMesh;
-use edgemesh::view::Camera;
-use glam::DVec3;
+use edgemesh::model::{Attributes, Material, Model, PolygonRun};
+use edgemesh::report::Report;
+use edgemesh::view::{Camera, to_pixels};
+use glam::{DVec3, Vec2};
 use image::RgbaImage;
-use strokes::read_texels;
+use strokes::{Layout, read_texels};
 use testkit::compare::Golden;
 use testkit::locate::workspace_root;
 use viewer::picture::renderer::{PictureInput, PictureOptions, PictureRenderer};
@@ -313,6 +316,161 @@ fn objects_have_the_fill_and_the_strokes_of_their_own_technique() {
     let (green, red, black) =
         (count([0, 255, 0, 255]), count([255, 0, 0, 255]), count([0, 0, 0, 255]));
     assert!(green > 500 && red > 100 && black > 100, "{green} green, {red} red, {black} black");
+}
+
+/// The passes that shade by the material, one technique each.
+const SHADING_PASSES: [&str; 10] = [
+    "component = \"render_phong\"",
+    "component = \"render_unlit\"",
+    "component = \"render_cartoon\"",
+    "component = \"render_toon\"",
+    "component = \"render_toon_per_vertex\"",
+    "component = \"render_gooch\"",
+    "component = \"render_hatching\"\nfrom_material = true",
+    "component = \"render_hatching_per_vertex\"\nfrom_material = true",
+    "component = \"render_scene_data\"\n[[pass]]\ncomponent = \"composite\"\n\
+     blend = \"replace\"\ntexture = \"<generated>:scene_color\"",
+    "component = \"own\"",
+];
+
+/// A fill of a user, of a component that knows nothing of colors.
+const OWN_FILL: &str = "[component.own]\ninherits = \"simple_render\"\n\
+    [component.own.modify]\nfragment_program = { default = \"own:own\" }\n";
+const OWN_SHADER: &str = "
+#import <common/light.wgsl>
+@fragment
+fn own(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
+    let lit = 0.5 + 0.5 * diffuse_factor(surface_at(at, is_front));
+    return vec4f(lit * material_at(at.material_range, vec4f(1.0), at.color).diffuse.rgb, 1.0);
+}
+";
+
+/// The corners of a box and its sides, as in `vertex_colours.ply`; the corners have all colors of
+/// full and empty channels.
+fn painted_box() -> Model {
+    let corner = |k: u8| [k & 1, k >> 1 & 1, k >> 2].map(f32::from);
+    let positions: Vec<[f32; 3]> = (0..8).map(corner).map(|[x, y, z]| [2.0 * x, y, z]).collect();
+    let sides: [&[u32]; 6] =
+        [&[0, 2, 3, 1], &[4, 5, 7, 6], &[0, 1, 5, 4], &[2, 6, 7, 3], &[0, 4, 6, 2], &[1, 3, 7, 5]];
+    let mut model = Model::from_polygons(&positions, &sides);
+    model.colors = (0..8).map(corner).map(|[x, y, z]| [x, y, z, 1.0]).collect();
+    model
+}
+
+/// A box with one material for all of it.
+fn plain_box(diffuse: Option<[f32; 3]>) -> Model {
+    let mut model = Model { colors: Vec::new(), ..painted_box() };
+    if diffuse.is_some() {
+        model.materials = vec![Material { diffuse, ..Material::default() }];
+        let attributes = Attributes { material: 0, ..Attributes::default() };
+        model.runs = vec![PolygonRun { first_polygon: 0, attributes }];
+    }
+    model
+}
+
+fn built(model: &Model) -> EdgeMesh {
+    build_edge_mesh(model, &BuildOptions::default(), &mut Report::default())
+}
+
+/// Pixels of each visible side near each of its corners, with the corner.
+fn pixels_at_corners(mesh: &EdgeMesh, camera: &Camera, size_px: u16) -> Vec<(usize, [u32; 2])> {
+    let model = painted_box();
+    let view = camera.view(&mesh.bounds, 1.0);
+    let mut pixels = Vec::new();
+    for side in 0..6 {
+        let corners = &model.corner_positions[model.corner_range(side)];
+        let at = |corner: u32| DVec3::from(model.positions[corner as usize]);
+        let middle = corners.iter().map(|&corner| at(corner)).sum::<DVec3>() / 4.0;
+        if (middle - mesh.bounds.center()).dot(camera.eye - middle) <= 0.0 {
+            continue;
+        }
+        for &corner in corners {
+            let point = at(corner).lerp(middle, 0.05).as_vec3();
+            let clip = view.clip_from_world * point.extend(1.0);
+            let from_middle = to_pixels(clip, Vec2::splat(size_px.into()));
+            let px = 0.5 * f32::from(size_px) + from_middle * Vec2::new(1.0, -1.0);
+            pixels.push((corner as usize, px.as_uvec2().to_array()));
+        }
+    }
+    pixels
+}
+
+/// Near each corner of a painted box, every fill that shades has the color that a box of a
+/// material of that color has there; without vertex colors, that of a box without any.
+#[test]
+fn corners_have_their_colors_in_every_fill_that_shades() {
+    const SIZE_PX: u16 = 240;
+    let painted = built(&painted_box());
+    let references: Vec<EdgeMesh> = painted_box()
+        .colors
+        .iter()
+        .map(|&[red, green, blue, _]| built(&plain_box(Some([red, green, blue]))))
+        .collect();
+    let front = Camera::default_view(&painted.bounds);
+    let back = Camera { eye: 2.0 * painted.bounds.center() - front.eye, ..front };
+    for pass in SHADING_PASSES {
+        let folder = tempfile::tempdir().unwrap();
+        let of_text = |more: &str| {
+            let own = if pass.contains("own") { OWN_FILL } else { "" };
+            let text = format!("{own}[[pass]]\nname = \"fill\"\n{pass}\n{more}");
+            written(folder.path(), &[("fill.toml", &text), ("own.wgsl", OWN_SHADER)])
+        };
+        let on = of_text("");
+        let mut off = on.clone();
+        off.set("fill.vertex_colors=false").unwrap();
+        let mut seen = BTreeSet::new();
+        for camera in [front, back] {
+            let draw =
+                |mesh: &EdgeMesh, technique| picture(mesh, &camera, technique, SIZE_PX.into(), 1);
+            let drawn = draw(&painted, &on);
+            let expected: Vec<RgbaImage> = references.iter().map(|mesh| draw(mesh, &on)).collect();
+            for (corner, [x, y]) in pixels_at_corners(&painted, &camera, SIZE_PX) {
+                let [found, wanted] = [&drawn, &expected[corner]].map(|at| at.get_pixel(x, y).0);
+                let is_close = found.iter().zip(wanted).all(|(a, b)| a.abs_diff(b) <= 20);
+                assert!(is_close, "{pass}: corner {corner} is {found:?}, not {wanted:?}");
+                seen.insert(corner);
+            }
+            let plain = draw(&built(&plain_box(None)), &on);
+            assert_eq!(draw(&painted, &off), plain, "{pass}");
+            assert_ne!(drawn, plain, "{pass}");
+        }
+        assert_eq!(seen.len(), 8, "{pass}");
+    }
+}
+
+/// Vertex colors in every layout and in chunks, of a moved object and of one that an override
+/// turns them off for.
+#[test]
+fn objects_have_colors_of_their_own_in_every_layout() {
+    let mesh = built(&painted_box());
+    let mut scene = scene_of(&mesh);
+    let mut second = scene.objects[0];
+    second.world_from_object = glam::DMat4::from_translation(DVec3::X * 3.0);
+    (second.override_index, scene.objects[0].override_index) = (0, 9);
+    scene.objects.push(second);
+    let scene = Scene::placed(scene.models, scene.objects);
+    let on = technique("phong", &[]);
+    let overrides = &[technique("phong", &["fill.vertex_colors=false"])];
+    let camera = Camera::default_view(&scene.bounds);
+    let draw = |overrides: &[Technique], layout| {
+        let input = PictureInput { scene: &scene, technique: &on, overrides };
+        let options = PictureOptions { layout, ..small([256, 128]) };
+        PictureRenderer::new(gpu(), input, &options).unwrap().render(&camera).unwrap().0
+    };
+    let is_colored = |pixel: &image::Rgba<u8>| {
+        let [red, green, blue, _] = pixel.0.map(i16::from);
+        (red - green).abs().max((green - blue).abs()) > 30
+    };
+    // The second object covers the right of the picture.
+    let colored = |picture: &RgbaImage| {
+        let pixels = || picture.enumerate_pixels().filter(|(_, _, pixel)| is_colored(pixel));
+        [pixels().filter(|(x, ..)| *x < 110).count(), pixels().filter(|(x, ..)| *x > 145).count()]
+    };
+    let [left, right] = colored(&draw(&[], Layout::Indexed));
+    assert!(left > 300 && right > 300, "{left} {right}");
+    for layout in [Layout::Indexed, Layout::Replicated, Layout::FaceNormals] {
+        assert_eq!(colored(&draw(overrides, layout)), [left, 0], "{layout:?}");
+    }
 }
 
 /// A transparent background drops the color that a fill clears to and the image of paper.

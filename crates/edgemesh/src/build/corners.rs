@@ -1,4 +1,5 @@
-//! Corner attributes of the fill: normals with sharp edges, texture coordinates with seams.
+//! Corner attributes of the fill: normals with sharp edges, texture coordinates and colors with
+//! seams.
 //!
 //! A corner keeps its normal of the file. Other corners at a vertex share a normal if smooth edges
 //! join them: edges within a smoothing group, edges below the crease angle in files without groups,
@@ -48,6 +49,7 @@ pub(crate) fn build_fill(input: &CornerInput) -> FillMesh {
         return FillMesh::default();
     }
     let normals = smooth_normals(input);
+    let has_colors = !input.model.colors.is_empty();
     let mut variants = Variants::new(input.positions.len());
     let mut indices = Vec::with_capacity(input.triangles.len() * 3);
     for (face, triangle) in input.triangles.iter().enumerate() {
@@ -63,16 +65,29 @@ pub(crate) fn build_fill(input: &CornerInput) -> FillMesh {
                 index => input.model.texcoords[index as usize],
             };
             let position = input.positions[vertex as usize];
-            indices.push(variants.index(vertex, FillVertex { position, normal, texcoord }));
+            let color = if has_colors { coded(input.model, sources[corner]) } else { NO_COLOR };
+            let wanted = FillVertex { position, normal, texcoord };
+            indices.push(variants.index(vertex, wanted, color));
         }
     }
     FillMesh {
         vertices: variants.vertices,
+        colors: if has_colors { variants.colors } else { Vec::new() },
         indices,
         runs: fill_runs(input.model, input.sources),
         materials: input.model.materials.clone(),
         groups: input.model.groups.clone(),
     }
+}
+
+/// The color of all vertices of a model without colors.
+const NO_COLOR: [u8; 4] = [0; 4];
+
+/// The color of a corner in bytes.
+#[expect(clippy::cast_possible_truncation, reason = "clamped")]
+#[expect(clippy::cast_sign_loss, reason = "clamped")]
+fn coded(model: &Model, corner: u32) -> [u8; 4] {
+    model.corner_color(corner as usize).map(|part| (part.clamp(0.0, 1.0) * 255.0).round() as u8)
 }
 
 /// The vertices of the fill, by the vertex of the mesh at their position.
@@ -81,11 +96,13 @@ pub(crate) fn build_fill(input: &CornerInput) -> FillMesh {
 /// a few finds the others in a table.
 struct Variants {
     vertices: Vec<FillVertex>,
+    /// One for each of `vertices`.
+    colors: Vec<[u8; 4]>,
     /// The latest fill vertex at each vertex, or [`NONE`].
     latest: Vec<u32>,
     /// The previous fill vertex at the same vertex, or [`NONE`].
     before: Vec<u32>,
-    table: FxHashMap<(u32, [u32; 8]), u32>,
+    table: FxHashMap<(u32, [u32; 9]), u32>,
 }
 
 impl Variants {
@@ -94,19 +111,24 @@ impl Variants {
 
     fn new(vertex_count: usize) -> Self {
         let latest = vec![NONE; vertex_count];
-        Self { vertices: Vec::new(), latest, before: Vec::new(), table: FxHashMap::default() }
+        Self {
+            vertices: Vec::new(),
+            colors: Vec::new(),
+            latest,
+            before: Vec::new(),
+            table: FxHashMap::default(),
+        }
     }
 
     /// The index of a fill vertex at `vertex`, which is added if it is new.
-    fn index(&mut self, vertex: u32, wanted: FillVertex) -> u32 {
-        let bits = |vertex: &FillVertex| -> [u32; 8] { bytemuck::cast(*vertex) };
-        let wanted_bits = bits(&wanted);
+    fn index(&mut self, vertex: u32, wanted: FillVertex, color: [u8; 4]) -> u32 {
+        let wanted_bits = bits_of(&wanted, color);
         let (mut at, mut last) = (self.latest[vertex as usize], NONE);
         for step in 0..Self::FEW {
             if at == NONE {
                 break;
             }
-            if bits(&self.vertices[at as usize]) == wanted_bits {
+            if self.bits(at) == wanted_bits {
                 return at;
             }
             if step + 1 == Self::FEW {
@@ -121,13 +143,24 @@ impl Variants {
         }
         // The vertex that the new one pushes out of reach goes to the table.
         if last != NONE {
-            self.table.insert((vertex, bits(&self.vertices[last as usize])), last);
+            self.table.insert((vertex, self.bits(last)), last);
         }
         let index = to_u32(self.vertices.len());
         self.vertices.push(wanted);
+        self.colors.push(color);
         self.before.push(std::mem::replace(&mut self.latest[vertex as usize], index));
         index
     }
+
+    fn bits(&self, index: u32) -> [u32; 9] {
+        bits_of(&self.vertices[index as usize], self.colors[index as usize])
+    }
+}
+
+/// The bits of all attributes of a fill vertex.
+fn bits_of(vertex: &FillVertex, color: [u8; 4]) -> [u32; 9] {
+    let [px, py, pz, nx, ny, nz, u, v]: [u32; 8] = bytemuck::cast(*vertex);
+    [px, py, pz, nx, ny, nz, u, v, u32::from_le_bytes(color)]
 }
 
 /// A unit normal for each corner (3 f + k), shared across smooth edges.
@@ -254,6 +287,34 @@ mod tests {
     }
 
     #[test]
+    fn one_place_keeps_the_colors_of_its_vertices() {
+        // Two squares that meet at a right angle, with vertices of their own at the shared edge.
+        let mut positions = CUBE[..4].to_vec();
+        positions.extend([CUBE[0], CUBE[1], CUBE[5], CUBE[4]]);
+        let polygons: [&[u32]; 2] = [&[0, 3, 2, 1], &[4, 5, 6, 7]];
+        let plain = Model::from_polygons(&positions, &polygons);
+        let mut model = plain.clone();
+        let [red, blue] = [[1.0, 0.0, -1.0, 0.5], [0.0, 0.2, 7.0, 1.0]];
+        model.colors = [[red; 4], [blue; 4]].concat();
+        let build =
+            |model| build_edge_mesh(model, &BuildOptions::default(), &mut Report::default());
+        let (mesh, without) = (build(&model), build(&plain));
+        assert_eq!((mesh.counts, &mesh.records), (without.counts, &without.records));
+        assert_eq!((mesh.positions.len(), without.fill.colors.len()), (6, 0));
+        let colors_at = |index: &u32| mesh.fill.colors[*index as usize];
+        let (of_first, of_second) = mesh.fill.indices.split_at(6);
+        assert!(of_first.iter().all(|index| colors_at(index) == [255, 0, 0, 128]));
+        assert!(of_second.iter().all(|index| colors_at(index) == [0, 51, 255, 255]));
+        // Rounded, so that only colors part the vertices.
+        let attributes = Attributes { smoothing: Smoothing::Group(1), ..Attributes::default() };
+        for model in [&mut model.clone(), &mut plain.clone()] {
+            model.runs = vec![PolygonRun { first_polygon: 0, attributes }];
+            let expected = if model.colors.is_empty() { 6 } else { 8 };
+            assert_eq!(fill_of(model).vertices.len(), expected);
+        }
+    }
+
+    #[test]
     fn a_vertex_may_have_many_variants() {
         let mut variants = Variants::new(2);
         let wanted = |k: u16| FillVertex {
@@ -264,11 +325,12 @@ mod tests {
         for round in 0..3 {
             for k in 0..100_u16 {
                 let place = u32::from(k % 2);
-                let index = variants.index(place, wanted(k * 7 % 100));
+                let color = [u8::try_from(k * 7 % 100).unwrap(), 0, 0, 255];
+                let index = variants.index(place, wanted(k * 7 % 50), color);
                 assert_eq!(index, u32::from(k), "round {round}");
             }
         }
-        assert_eq!(variants.vertices.len(), 100);
+        assert_eq!((variants.vertices.len(), variants.colors.len()), (100, 100));
     }
 
     #[test]

@@ -209,6 +209,13 @@ impl Part<'_> {
             texcoord: vertex.texcoord,
         };
         flat.vertices.extend(fill.vertices.iter().map(vertex));
+        if !fill.colors.is_empty() {
+            flat.colors.resize(first_vertex as usize, [u8::MAX; 4]);
+            flat.colors.extend(&fill.colors);
+        }
+        if !flat.colors.is_empty() {
+            flat.colors.resize(flat.vertices.len(), [u8::MAX; 4]);
+        }
         let triangles = fill.indices.as_chunks().0.iter();
         let corners = triangles.flat_map(|&triangle| self.wound(triangle));
         flat.indices.extend(corners.map(|corner| first_vertex + corner));

@@ -333,6 +333,7 @@ pub(crate) fn with_junctions(
         corner_positions: Vec::new(),
         corner_texcoords: Vec::new(),
         corner_normals: Vec::new(),
+        corner_colors: Vec::new(),
         polygon_ends: Vec::new(),
         ..model.clone()
     };
@@ -362,6 +363,10 @@ fn push_corner(cut: &mut Model, model: &Model, corner: usize) {
     cut.corner_positions.push(model.corner_positions[corner]);
     cut.corner_texcoords.extend(model.corner_texcoords.get(corner));
     cut.corner_normals.extend(model.corner_normals.get(corner));
+    if !model.colors.is_empty() {
+        // Colors of positions too: a new corner has another color than its position.
+        cut.corner_colors.push(model.color_index(corner));
+    }
 }
 
 /// Adds the attributes of a corner between two others, which it has if both of them have them.
@@ -387,5 +392,10 @@ fn push_between(cut: &mut Model, model: &Model, corners: [usize; 2], along: f64)
             cut.normals.push(a.lerp(b, along).to_array());
             to_u32(cut.normals.len() - 1)
         });
+    }
+    if !model.colors.is_empty() {
+        let [a, b] = corners.map(|corner| glam::Vec4::from(model.corner_color(corner)));
+        cut.colors.push(a.lerp(b, along).to_array());
+        cut.corner_colors.push(to_u32(cut.colors.len() - 1));
     }
 }

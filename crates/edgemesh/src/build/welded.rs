@@ -242,9 +242,24 @@ mod tests {
             .map(|p| glam::DVec2::new(p[0], p[1]).as_vec2().to_array())
             .collect();
         model.corner_texcoords = model.corner_positions.clone();
+        // Red grows with y to the left of the long side, from 0 to 1, and is 0 to the right.
+        let red =
+            |(vertex, p): (usize, &[f64; 3])| if vertex < 4 && p[1] > 0.0 { 1.0 } else { 0.0 };
+        model.colors =
+            model.positions.iter().enumerate().map(|at| [red(at), 0.0, 0.0, 1.0]).collect();
         let (mesh, _) = build(&model, Welding::Exact);
         for vertex in &mesh.fill.vertices {
             assert_eq!(vertex.texcoord, [vertex.position[0], vertex.position[1]]);
         }
+        let at = |y: f32| {
+            let colors = mesh.fill.vertices.iter().zip(&mesh.fill.colors);
+            let mut reds: Vec<u8> = colors
+                .filter(|(vertex, _)| vertex.position == [0.0, y, 0.0])
+                .map(|(_, color)| color[0])
+                .collect();
+            reds.sort_unstable();
+            reds
+        };
+        assert_eq!([at(0.0), at(1.0), at(2.0)], [vec![0], vec![0, 128], vec![0, 255]]);
     }
 }

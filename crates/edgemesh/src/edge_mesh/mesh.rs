@@ -101,12 +101,15 @@ pub struct ChainLink {
     pub is_reversed: u32,
 }
 
-/// Triangles for shading, with vertices split where normals or texture coordinates differ, and
-/// their materials.
+/// Triangles for shading, with vertices split where normals, texture coordinates or colors differ,
+/// and their materials.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct FillMesh {
     /// The split vertices.
     pub vertices: Vec<FillVertex>,
+    /// Red, green, blue and opacity of each of `vertices`: display values, coded as sRGB, which
+    /// are multiplied by those of the material. Empty if the model has no colors.
+    pub colors: Vec<[u8; 4]>,
     /// Three indices for each triangle, in the order of [`EdgeMesh::triangles`].
     pub indices: Vec<u32>,
     /// Material ranges, ascending by first triangle; the first range begins at triangle 0.

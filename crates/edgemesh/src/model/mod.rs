@@ -7,6 +7,7 @@ mod rig;
 
 pub(crate) use self::material::MAX_PICTURE_BYTES;
 pub use self::material::{Material, Texture, TextureSource};
+pub(crate) use self::polygon_model::WHITE;
 pub use self::polygon_model::{
     Attributes, Corner, InstancedModel, Model, PolygonRun, Segment, Smoothing, StatedClasses,
     StatedEdge,

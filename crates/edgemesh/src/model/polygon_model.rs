@@ -13,6 +13,9 @@ use crate::model::material::Material;
 use crate::model::rig::Rig;
 use crate::report::Place;
 
+/// The color of vertices and corners without one, if others have colors.
+pub(crate) const WHITE: [f32; 4] = [1.0; 4];
+
 /// A polygonal model as its file describes it.
 #[derive(Debug, Clone, Default)]
 pub struct Model {
@@ -20,9 +23,10 @@ pub struct Model {
     pub name: String,
     /// All vertices of the file, used or not, in its units.
     pub positions: Vec<[f64; 3]>,
-    /// Red, green and blue, 0 to 1, of each of `positions`; empty if the file has no vertex
-    /// colors.
-    pub colors: Vec<[f32; 3]>,
+    /// Red, green, blue and opacity, 0 to 1, of each of `positions`, or a list that corners index:
+    /// see `corner_colors`. Display values, coded as sRGB, like those of [`Material`]; empty if
+    /// the file has no colors of vertices, corners or faces.
+    pub colors: Vec<[f32; 4]>,
     /// Texture coordinates that corners index; (0, 0) is the lower left corner of a picture,
     /// (1, 1) the upper right corner.
     pub texcoords: Vec<[f32; 2]>,
@@ -34,6 +38,9 @@ pub struct Model {
     pub corner_texcoords: Vec<u32>,
     /// Index into `normals` of each corner, or [`NONE`]; empty if no corner has one.
     pub corner_normals: Vec<u32>,
+    /// Index into `colors` of each corner, or [`NONE`] for white; empty if corners have the colors
+    /// of their positions.
+    pub corner_colors: Vec<u32>,
     /// The end of each polygon in the corner lists; empty if all polygons are triangles.
     pub polygon_ends: Vec<u32>,
     /// The line of each polygon in the file, counted from 1; empty if the format has no lines.
@@ -81,13 +88,15 @@ pub struct Corner {
     pub texcoord: u32,
     /// Index into [`Model::normals`], or [`NONE`].
     pub normal: u32,
+    /// Index into [`Model::colors`], or [`NONE`]; see [`Model::corner_colors`].
+    pub color: u32,
 }
 
 impl Corner {
-    /// A corner without texture coordinate and normal.
+    /// A corner without texture coordinate, normal and color of its own.
     #[must_use]
     pub const fn at(position: u32) -> Self {
-        Self { position, texcoord: NONE, normal: NONE }
+        Self { position, texcoord: NONE, normal: NONE, color: NONE }
     }
 }
 
@@ -216,7 +225,36 @@ impl Model {
             position: self.corner_positions[corner],
             texcoord: self.corner_texcoords.get(corner).copied().unwrap_or(NONE),
             normal: self.corner_normals.get(corner).copied().unwrap_or(NONE),
+            color: self.corner_colors.get(corner).copied().unwrap_or(NONE),
         }
+    }
+
+    /// The index into [`Model::colors`] of a corner: its own, or that of its position.
+    ///
+    /// # Panics
+    /// Panics if the model has fewer corners.
+    #[must_use]
+    pub(crate) fn color_index(&self, corner: usize) -> u32 {
+        let own = self.corner_colors.get(corner);
+        own.copied().unwrap_or_else(|| self.corner_positions[corner])
+    }
+
+    /// The color of a corner, which is white if it has none.
+    ///
+    /// # Panics
+    /// Panics if the model has fewer corners.
+    #[must_use]
+    pub fn corner_color(&self, corner: usize) -> [f32; 4] {
+        self.colors.get(self.color_index(corner) as usize).copied().unwrap_or(WHITE)
+    }
+
+    /// The index of the color of a face, for its corners; it is added unless it is that of the
+    /// last face.
+    pub(crate) fn color_of_face(&mut self, color: [f32; 4]) -> u32 {
+        if self.colors.last() != Some(&color) {
+            self.colors.push(color);
+        }
+        to_u32(self.colors.len() - 1)
     }
 
     /// The place of a polygon in the file.
@@ -248,6 +286,10 @@ impl Model {
         if !self.corner_normals.is_empty() || corners.iter().any(|corner| corner.normal != NONE) {
             self.corner_normals.resize(before, NONE);
             self.corner_normals.extend(corners.iter().map(|corner| corner.normal));
+        }
+        if !self.corner_colors.is_empty() || corners.iter().any(|corner| corner.color != NONE) {
+            self.corner_colors.resize(before, NONE);
+            self.corner_colors.extend(corners.iter().map(|corner| corner.color));
         }
         let is_mixed = corners.len() != 3 || !self.polygon_ends.is_empty();
         self.corner_positions.extend(corners.iter().map(|corner| corner.position));
@@ -325,11 +367,22 @@ mod tests {
     fn attributes_of_corners_begin_where_the_first_one_has_any() {
         let mut model = Model::from_polygons(&[[0.0; 3]; 3], &[&[0, 1, 2]]);
         assert_eq!(model.corner(2), Corner::at(2));
-        model
-            .push_polygon(&[0, 1, 2].map(|k| Corner { position: k, texcoord: k, normal: NONE }), 0);
+        model.push_polygon(&[0, 1, 2].map(|k| Corner { texcoord: k, ..Corner::at(k) }), 0);
         assert_eq!(model.corner_texcoords, [NONE, NONE, NONE, 0, 1, 2]);
         assert!(model.corner_normals.is_empty());
         assert_eq!(model.corner(4).texcoord, 1);
+    }
+
+    #[test]
+    fn colors_are_those_of_corners_or_of_positions() {
+        let mut model = Model::from_polygons(&[[0.0; 3]; 3], &[&[2, 1, 0]]);
+        assert_eq!(model.corner_color(0), WHITE, "no colors at all");
+        let [red, green, blue] = [[1., 0., 0., 1.], [0., 1., 0., 0.5], [0., 0., 1., 1.]];
+        model.colors = vec![red, green, blue];
+        assert_eq!([0, 1, 2].map(|corner| model.corner_color(corner)), [blue, green, red]);
+        model.push_polygon(&[0, 1, 2].map(|k| Corner { color: 1, ..Corner::at(k) }), 0);
+        assert_eq!(model.corner_colors, [NONE, NONE, NONE, 1, 1, 1]);
+        assert_eq!([0, 3].map(|corner| model.corner_color(corner)), [WHITE, green]);
     }
 
     #[test]

@@ -91,6 +91,16 @@ fn book(leaves: u8) -> Model {
     mesh.model()
 }
 
+/// A cube whose sides have colors of their own, and one more in the corners of its first side.
+fn painted_cube() -> Model {
+    let (_, mut model) = samples().swap_remove(0);
+    model.colors =
+        (0..7_u8).map(|k| [f32::from(k) / 51.0, 1.0 - f32::from(k) / 255.0, 0.2, 0.4]).collect();
+    model.corner_colors = (0..24).map(|corner| corner / 4).collect();
+    model.corner_colors[2] = 6;
+    model
+}
+
 /// A model with lines along its edges, on beyond them, across, and twice.
 fn lines(mut model: Model) -> Model {
     let beyond = u32::try_from(model.positions.len()).unwrap();
@@ -99,6 +109,54 @@ fn lines(mut model: Model) -> Model {
     let ends = [[[0, 1]; 2].as_slice(), &on, &[[2, 4], [4, 3], [3, 0]]].concat();
     model.segments.extend(ends.into_iter().map(|ends| Segment { ends, line: 0 }));
     model
+}
+
+/// The places and colors at the corners of each triangle, sorted.
+fn painted_triangles(mesh: &EdgeMesh) -> Vec<[([u32; 3], [u8; 4]); 3]> {
+    let fill = &mesh.fill;
+    let corner = |index: &u32| {
+        let place = fill.vertices[*index as usize].position.map(f32::to_bits);
+        (place, fill.colors[*index as usize])
+    };
+    let triangles = fill.indices.as_chunks().0;
+    let mut triangles: Vec<[_; 3]> = triangles
+        .iter()
+        .map(|triangle: &[u32; 3]| {
+            let mut corners = triangle.each_ref().map(corner);
+            corners.sort_unstable();
+            corners
+        })
+        .collect();
+    triangles.sort_unstable();
+    triangles
+}
+
+/// The colors of corners come back from every format that has them; OBJ has no opacities.
+#[test]
+fn colors_come_back() {
+    let painted =
+        |model: &Model| build_edge_mesh(model, &BuildOptions::default(), &mut Report::default());
+    let mesh = painted(&painted_cube());
+    assert_eq!(mesh.fill.colors[0], [0, 255, 51, 102]);
+    for (written, format) in [
+        (ExportFormat::Glb, Format::Glb),
+        (ExportFormat::Gltf, Format::Gltf),
+        (ExportFormat::Ply, Format::Ply),
+        (ExportFormat::Obj, Format::Obj),
+    ] {
+        let (model, _) = read_model_bytes("out", &export(&mesh, written), format).unwrap();
+        let again = painted(&model);
+        let mut expected = mesh.clone();
+        if format == Format::Obj {
+            expected.fill.colors.iter_mut().for_each(|color| color[3] = 255);
+        }
+        assert_eq!(painted_triangles(&again), painted_triangles(&expected), "{format:?}");
+        assert_eq!(hard_edges(&again), hard_edges(&mesh), "{format:?}");
+        assert_eq!(again.positions.len(), 8, "{format:?}");
+    }
+    let bytes = edgemesh::format::edge_mesh_file::to_bytes(&mesh, "", &Report::default(), &[]);
+    let bytes = bytes.unwrap();
+    assert_eq!(edgemesh::format::edge_mesh_file::parse(&bytes).unwrap().to_mesh(), mesh);
 }
 
 /// Hard edges with the words for their classes, of triangles and of lines.

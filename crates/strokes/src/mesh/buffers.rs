@@ -64,7 +64,8 @@ pub struct MeshOptions {
     pub layout: Layout,
     /// Whether edges can be linked into strokes: 12 bytes more per edge.
     pub links: bool,
-    /// Whether the surface can be shaded: 32 bytes per corner with distinct attributes.
+    /// Whether the surface can be shaded: 32 bytes per corner with distinct attributes, and 4
+    /// for its color if the mesh has any.
     pub surface: bool,
     /// How many objects of meshes with several objects are drawn at once: the more, the less room
     /// each has for the strokes of a view. 0 counts as 1, as for a mesh with one object.
@@ -271,10 +272,12 @@ fn surface_arrays(
     layout: Layout,
 ) -> Result<SurfaceArrays, MeshTooLarge> {
     let mut arrays = SurfaceArrays::of(mesh);
-    let limit = device.limits().max_buffer_size;
-    for (what, need) in [
-        ("surface vertices", size_of_val(&*arrays.positions) as u64),
-        ("surface triangles", size_of_val(&*arrays.indices) as u64),
+    let limits = device.limits();
+    let (buffer, binding) = (limits.max_buffer_size, limits.max_storage_buffer_binding_size);
+    for (what, need, limit) in [
+        ("surface vertices", size_of_val(&*arrays.positions) as u64, buffer),
+        ("surface triangles", size_of_val(&*arrays.indices) as u64, buffer),
+        ("vertex colors", size_of_val(&*arrays.colors) as u64, buffer.min(binding)),
     ] {
         if need > limit {
             return Err(MeshTooLarge { what, need, limit });
@@ -429,6 +432,8 @@ impl Upload<'_> {
         };
         let buffers = SurfaceBuffers {
             texcoords: self.items("texture coordinates", &arrays.texcoords, vertex),
+            colors: (!arrays.colors.is_empty())
+                .then(|| self.items("vertex colors", &arrays.colors, BufferUsages::STORAGE)),
             indices: self.items("surface triangles", &arrays.indices, BufferUsages::INDEX),
             ranges: arrays.ranges.clone(),
         };

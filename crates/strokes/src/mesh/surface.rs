@@ -1,5 +1,5 @@
-//! The triangles of a mesh as a surface to be shaded: normals and texture coordinates per
-//! corner, sorted into ranges of one material and group.
+//! The triangles of a mesh as a surface to be shaded: normals, texture coordinates and colors
+//! per corner, sorted into ranges of one material and group.
 //!
 //! Surface vertices begin with the welded vertices in their order; corners whose attributes
 //! differ from the first ones at their vertex follow. So strokes and surfaces read the same
@@ -30,6 +30,8 @@ pub struct MaterialRange {
 pub struct SurfaceBuffers {
     /// 8 bytes per vertex.
     pub texcoords: wgpu::Buffer,
+    /// 4 bytes per vertex, red first, as storage; `None` if the mesh has no colors.
+    pub colors: Option<wgpu::Buffer>,
     /// Three indices of 4 bytes per triangle.
     pub indices: wgpu::Buffer,
     /// All of `indices`, range by range.
@@ -42,6 +44,8 @@ pub(crate) struct SurfaceArrays {
     pub(crate) positions: Vec<[f32; 3]>,
     pub(crate) normals: Vec<[f32; 3]>,
     pub(crate) texcoords: Vec<[f32; 2]>,
+    /// Empty if the mesh has no colors.
+    pub(crate) colors: Vec<[u8; 4]>,
     pub(crate) indices: Vec<u32>,
     pub(crate) ranges: Vec<MaterialRange>,
 }
@@ -53,6 +57,7 @@ impl SurfaceArrays {
             positions: mesh.positions.clone(),
             normals: Vec::new(),
             texcoords: Vec::new(),
+            colors: Vec::new(),
             indices: Vec::new(),
             ranges: Vec::new(),
         };
@@ -73,6 +78,10 @@ impl SurfaceArrays {
         let welded_count = mesh.positions.len();
         self.normals = vec![[0.0; 3]; welded_count];
         self.texcoords = vec![[0.0; 2]; welded_count];
+        let mut colors = Vec::new();
+        if !mesh.fill.colors.is_empty() {
+            colors.resize(welded_count, [u8::MAX; 4]);
+        }
         let mut is_taken = vec![false; welded_count];
         let mut places = vec![NONE; mesh.fill.vertices.len()];
         let corners = mesh.triangles.iter().flatten();
@@ -81,17 +90,23 @@ impl SurfaceArrays {
                 continue;
             }
             let corner = &mesh.fill.vertices[vertex as usize];
+            let color = mesh.fill.colors.get(vertex as usize);
             if std::mem::replace(&mut is_taken[welded as usize], true) {
                 places[vertex as usize] = to_u32(self.positions.len());
                 self.positions.push(corner.position);
                 self.normals.push(corner.normal);
                 self.texcoords.push(corner.texcoord);
+                colors.extend(color);
             } else {
                 places[vertex as usize] = welded;
                 self.normals[welded as usize] = corner.normal;
                 self.texcoords[welded as usize] = corner.texcoord;
+                if let Some(&color) = color {
+                    colors[welded as usize] = color;
+                }
             }
         }
+        self.colors = colors;
         mesh.fill.indices.iter().map(|&vertex| places[vertex as usize]).collect()
     }
 }
@@ -163,7 +178,10 @@ mod tests {
             &[0, 4, 6, 2],
             &[1, 3, 7, 5],
         ];
-        let model = Model::from_polygons(&corners, &faces);
+        let mut model = Model::from_polygons(&corners, &faces);
+        // A red side, a green one and so on: three colors at each vertex, with as many normals.
+        model.colors = (0..6_u8).map(|side| [f32::from(side) / 5.0, 0.2, 1.0, 0.4]).collect();
+        model.corner_colors = (0..24).map(|corner| corner / 4).collect();
         build_edge_mesh(&model, &BuildOptions::default(), &mut Report::default())
     }
 
@@ -179,7 +197,11 @@ mod tests {
             assert_eq!(arrays.positions[place], wanted.position);
             assert_eq!(arrays.normals[place], wanted.normal);
             assert_eq!(arrays.texcoords[place], wanted.texcoord);
+            assert_eq!(arrays.colors[place], mesh.fill.colors[vertex as usize]);
         }
+        assert_eq!(arrays.colors.len(), 24);
+        let colors = |corner: usize| arrays.colors[arrays.indices[corner] as usize];
+        assert_eq!([colors(0), colors(35)], [[0, 51, 255, 102], [255, 51, 255, 102]]);
     }
 
     #[test]

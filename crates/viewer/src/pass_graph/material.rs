@@ -61,6 +61,20 @@ impl MaterialUniform {
     }
 }
 
+impl MaterialUniform {
+    /// A material under vertex colors: as [`MaterialUniform::of`], but white where the model has
+    /// no diffuse color.
+    #[must_use]
+    pub(crate) fn of_colored(material: &Material) -> Self {
+        Self::of(&Material {
+            diffuse: material.diffuse.or(Some([1.0; 3])),
+            diffuse_texture: None,
+            name: String::new(),
+            ..*material
+        })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -19,12 +19,20 @@ use crate::technique::plan::{PassPlan, Target};
 pub(crate) struct ScenePass {
     surfaces: PassPipeline,
     background: Option<Background>,
-    /// Parameters: first those of objects without an override, then those of overrides.
-    buffers: Vec<GroupBuffers>,
-    /// For each object an index in `buffers`; none for objects that are not drawn.
-    buffer_indices: Vec<Option<usize>>,
+    /// Values of variables: first those of objects without an override, then those of overrides.
+    values: Vec<Values>,
+    /// For each object an index in `values`; none for objects that are not drawn.
+    value_indices: Vec<Option<usize>>,
     clears: bool,
     clear_color: wgpu::Color,
+}
+
+/// The values of the variables of a pass.
+#[derive(Debug)]
+struct Values {
+    /// Parameters of the programs.
+    buffers: GroupBuffers,
+    has_vertex_colors: bool,
 }
 
 /// A program that draws the background.
@@ -64,18 +72,22 @@ impl ScenePass {
             }
             _ => None,
         };
-        let mut buffers = vec![buffers_of(&pipeline, pass)];
+        let values_of = |pass: &Pass, view: &SimpleRender| Values {
+            buffers: buffers_of(&pipeline, pass),
+            has_vertex_colors: view.has_vertex_colors,
+        };
+        let mut values = vec![values_of(pass, view)];
         let of_scene = pass.is_rendered().then_some(0);
         let mut of_override = vec![of_scene; input.overrides.len()];
         for (at, technique) in input.overrides.iter().enumerate() {
             let own = technique.pass(&pass.name).filter(|own| own.component == pass.component);
             if let Some(own) = own {
-                of_override[at] = own.is_rendered().then_some(buffers.len());
-                buffers.push(buffers_of(&pipeline, own));
+                of_override[at] = own.is_rendered().then_some(values.len());
+                values.push(values_of(own, &SimpleRender::of(own)?));
             }
         }
         let objects = input.scene.objects.iter();
-        let buffer_indices = objects
+        let value_indices = objects
             .map(|object| of_override.get(object.override_index).copied().unwrap_or(of_scene));
         let [r, g, b, a] = match is_paper && options.is_transparent {
             true => [0.0; 4],
@@ -85,8 +97,8 @@ impl ScenePass {
         Ok(Self {
             surfaces: pipeline,
             background,
-            buffers,
-            buffer_indices: buffer_indices.collect(),
+            values,
+            value_indices: value_indices.collect(),
             clears: view.is_cleared,
             clear_color,
         })
@@ -110,7 +122,7 @@ impl ScenePass {
                 bind(pipeline, buffers).map(|groups| (pipeline, groups))
             })
             .transpose()?;
-        let groups = self.buffers.iter().map(|buffers| bind(&self.surfaces, buffers));
+        let groups = self.values.iter().map(|values| bind(&self.surfaces, &values.buffers));
         let groups = groups.collect::<Result<Vec<_>, Error>>()?;
         let (colors, depth) =
             self.attachments(encoding.framebuffer, encoding.is_fresh, plan, sources);
@@ -134,13 +146,14 @@ impl ScenePass {
         }
         pass.set_pipeline(&self.surfaces.pipeline);
         let Some(surfaces) = encoding.surfaces else { return Ok(()) };
-        let states = encoding.view.objects().iter().zip(&self.buffer_indices);
-        for (at, (state, buffers)) in states.enumerate() {
-            let Some(buffers) = buffers.filter(|_| state.is_placed()) else { continue };
-            for (index, group) in &groups[buffers] {
+        let states = encoding.view.objects().iter().zip(&self.value_indices);
+        for (at, (state, values)) in states.enumerate() {
+            let Some(values) = values.filter(|_| state.is_placed()) else { continue };
+            for (index, group) in &groups[values] {
                 pass.set_bind_group(*index, group, &[]);
             }
-            surfaces.draw(&mut pass, encoding.instances, at);
+            let has_colors = self.values[values].has_vertex_colors;
+            surfaces.draw(&mut pass, encoding.instances, at, has_colors);
         }
         Ok(())
     }

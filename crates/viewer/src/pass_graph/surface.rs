@@ -2,7 +2,9 @@
 //!
 //! Vertices and triangles are those of the mesh instances, sorted into material ranges. A
 //! range is one draw; its number comes as a vertex attribute that does not advance, so the
-//! instance index stays free. Region ids are whole numbers from 1, different for each object,
+//! instance index stays free. Colors of vertices come from a storage buffer, because one of a
+//! single white vertex then stands for all of a model without colors, and for those that a pass
+//! does not draw. Region ids are whole numbers from 1, different for each object,
 //! for each material and for each group of an object.
 
 use std::sync::Arc;
@@ -10,6 +12,7 @@ use std::sync::Arc;
 use bytemuck::{Pod, Zeroable};
 use edgemesh::edge_mesh::EdgeMesh;
 use edgemesh::index::{NONE, to_u32};
+use edgemesh::model::Material;
 use strokes::{Gpu, MaterialRange, MeshInstance, ViewState, upload_levels};
 use wgpu::util::DeviceExt as _;
 
@@ -44,7 +47,7 @@ const fn vertex_buffer(
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct SurfaceRange {
-    /// Index of its material.
+    /// Index of its material; under vertex colors another one ([`MaterialUniform::of_colored`]).
     pub material: u32,
     /// Region id of its object.
     pub object_region: u32,
@@ -61,6 +64,7 @@ pub struct SurfaceRange {
 /// The materials of one model.
 #[derive(Debug)]
 struct ModelMaterials {
+    /// One for each of `textures`, then, if the model has colors, one under them for each.
     uniforms: wgpu::Buffer,
     /// The texture of each material.
     textures: Vec<wgpu::TextureView>,
@@ -72,6 +76,8 @@ struct ModelMaterials {
 pub(crate) struct Surface {
     /// `@group(2)`, one per material.
     groups: Vec<wgpu::BindGroup>,
+    /// As `groups`, with the colors of vertices; empty if the model has none.
+    colored: Vec<wgpu::BindGroup>,
     /// The numbers of the material ranges.
     range_numbers: wgpu::Buffer,
 }
@@ -106,6 +112,7 @@ impl Surfaces {
     /// `input.instances` must have been uploaded with their surfaces.
     pub(crate) fn new(input: &SurfaceInput, images: &mut Images) -> Self {
         let layout = object_layout(&input.gpu.device);
+        let white = storage(&input.gpu.device, "no vertex colors", &[u8::MAX; 4]);
         let mut models = Vec::new();
         // Material ids are counted over the models, group ids over the objects.
         let (mut material_regions, mut material) = (Vec::new(), 1);
@@ -122,17 +129,29 @@ impl Surfaces {
             let material = material_regions[placed.model];
             let regions = FirstRegions { object: to_u32(at) + 1, material, group };
             group += materials.group_count + 1;
-            surfaces.push(Surface::new(input, at, materials, regions, &layout));
+            surfaces.push(Surface::new(input, at, materials, regions, (&layout, &white)));
         }
         Self { layout, surfaces }
     }
 
-    /// Draws the surface of instance `at`; everything but `@group(2)` must be set.
-    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass, instances: &[MeshInstance], at: usize) {
+    /// Draws the surface of instance `at`, with the colors of its vertices if `has_colors`;
+    /// everything but `@group(2)` must be set.
+    pub(crate) fn draw(
+        &self,
+        pass: &mut wgpu::RenderPass,
+        instances: &[MeshInstance],
+        at: usize,
+        has_colors: bool,
+    ) {
         if let (Some(surface), Some(instance)) = (self.surfaces.get(at), instances.get(at)) {
-            surface.draw(pass, instance);
+            surface.draw(pass, instance, has_colors);
         }
     }
+}
+
+fn storage(device: &wgpu::Device, label: &str, contents: &[u8]) -> wgpu::Buffer {
+    let (label, usage) = (Some(label), wgpu::BufferUsages::STORAGE);
+    device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label, contents, usage })
 }
 
 /// `@group(2)` of programs that draw the scene.
@@ -161,6 +180,7 @@ fn object_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
                 },
             ),
             entry(4, wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering)),
+            entry(5, buffer(storage)),
         ],
     })
 }
@@ -186,13 +206,12 @@ impl ModelMaterials {
         // Triangles without a material use the last one.
         uniforms.push(MaterialUniform::default());
         textures.push(images.white(gpu));
-        let descriptor = wgpu::util::BufferInitDescriptor {
-            label: Some("materials"),
-            contents: bytemuck::cast_slice(&uniforms),
-            usage: wgpu::BufferUsages::STORAGE,
-        };
+        if !mesh.fill.colors.is_empty() {
+            uniforms.extend(mesh.fill.materials.iter().map(MaterialUniform::of_colored));
+            uniforms.push(MaterialUniform::of_colored(&Material::default()));
+        }
         Self {
-            uniforms: gpu.device.create_buffer_init(&descriptor),
+            uniforms: storage(&gpu.device, "materials", bytemuck::cast_slice(&uniforms)),
             textures,
             group_count: to_u32(mesh.fill.groups.len()),
         }
@@ -211,7 +230,7 @@ impl Surface {
         at: usize,
         materials: &ModelMaterials,
         regions: FirstRegions,
-        layout: &wgpu::BindGroupLayout,
+        (layout, white): (&wgpu::BindGroupLayout, &wgpu::Buffer),
     ) -> Self {
         let device = &input.gpu.device;
         let last = to_u32(materials.textures.len()) - 1;
@@ -226,42 +245,51 @@ impl Surface {
                 padding: [0; 3],
             }
         };
-        let ranges =
-            input.instances[at].mesh().surface().map_or(&[][..], |surface| &surface.ranges);
+        let surface = input.instances[at].mesh().surface();
+        let ranges = surface.map_or(&[][..], |surface| &surface.ranges);
         let uniforms: Vec<SurfaceRange> = ranges.iter().map(of_range).collect();
-        let numbers: Vec<u32> = (0..to_u32(ranges.len()).max(1)).collect();
-        let buffer = |label, contents: &[u8], usage| {
-            let label = Some(label);
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label, contents, usage })
-        };
-        let storage = wgpu::BufferUsages::STORAGE;
-        let uniforms = buffer("surface ranges", bytemuck::cast_slice(&uniforms), storage);
         let object = input.view.objects()[at].uniform();
-        let group = |texture: &wgpu::TextureView| {
-            let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
-            device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("surface"),
-                layout,
-                entries: &[
-                    entry(0, object.as_entire_binding()),
-                    entry(1, uniforms.as_entire_binding()),
-                    entry(2, materials.uniforms.as_entire_binding()),
-                    entry(3, wgpu::BindingResource::TextureView(texture)),
-                    entry(4, wgpu::BindingResource::Sampler(input.sampler)),
-                ],
-            })
+        let groups = |uniforms: &[SurfaceRange], colors: &wgpu::Buffer| {
+            let uniforms = storage(device, "surface ranges", bytemuck::cast_slice(uniforms));
+            let group = |texture: &wgpu::TextureView| {
+                let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
+                device.create_bind_group(&wgpu::BindGroupDescriptor {
+                    label: Some("surface"),
+                    layout,
+                    entries: &[
+                        entry(0, object.as_entire_binding()),
+                        entry(1, uniforms.as_entire_binding()),
+                        entry(2, materials.uniforms.as_entire_binding()),
+                        entry(3, wgpu::BindingResource::TextureView(texture)),
+                        entry(4, wgpu::BindingResource::Sampler(input.sampler)),
+                        entry(5, colors.as_entire_binding()),
+                    ],
+                })
+            };
+            materials.textures.iter().map(group).collect()
         };
+        let colored = surface.and_then(|surface| surface.colors.as_ref()).map(|colors| {
+            let under_colors = |range: &SurfaceRange| SurfaceRange {
+                material: range.material + last + 1,
+                ..*range
+            };
+            groups(&uniforms.iter().map(under_colors).collect::<Vec<_>>(), colors)
+        });
+        let numbers: Vec<u32> = (0..to_u32(ranges.len()).max(1)).collect();
         Self {
-            groups: materials.textures.iter().map(group).collect(),
-            range_numbers: buffer(
-                "range numbers",
-                bytemuck::cast_slice(&numbers),
-                wgpu::BufferUsages::VERTEX,
-            ),
+            groups: groups(&uniforms, white),
+            colored: colored.unwrap_or_default(),
+            range_numbers: device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("range numbers"),
+                contents: bytemuck::cast_slice(&numbers),
+                usage: wgpu::BufferUsages::VERTEX,
+            }),
         }
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass, instance: &MeshInstance) {
+    fn draw(&self, pass: &mut wgpu::RenderPass, instance: &MeshInstance, has_colors: bool) {
+        let is_colored = has_colors && !self.colored.is_empty();
+        let groups = if is_colored { &self.colored } else { &self.groups };
         let surface = instance.mesh().surface().zip(instance.surface_geometry());
         let Some((buffers, geometry)) = surface else { return };
         pass.set_vertex_buffer(0, geometry.positions.slice(..));
@@ -273,9 +301,9 @@ impl Surface {
             if range.indices.is_empty() {
                 continue;
             }
-            let material = (range.material as usize).min(self.groups.len() - 1);
+            let material = (range.material as usize).min(groups.len() - 1);
             if bound != Some(material) {
-                pass.set_bind_group(2, &self.groups[material], &[]);
+                pass.set_bind_group(2, &groups[material], &[]);
                 bound = Some(material);
             }
             pass.set_vertex_buffer(3, self.range_numbers.slice(4 * number..));

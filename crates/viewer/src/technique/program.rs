@@ -545,13 +545,14 @@ fn wrong_binding(place: &Place, name: &str) -> Mistake {
 /// Checks a binding in the groups of `common/`; an error for others than those that
 /// `common/` declares.
 fn known_binding(at: naga::ResourceBinding, name: &str) -> Result<(), String> {
-    const KNOWN: [(u32, u32, &str); 6] = [
+    const KNOWN: [(u32, u32, &str); 7] = [
         (0, 0, "frame"),
         (2, 0, "object"),
         (2, 1, "surface_ranges"),
         (2, 2, "materials"),
         (2, 3, "base_texture"),
         (2, 4, "base_sampler"),
+        (2, 5, "vertex_colors"),
     ];
     let is_known = |(group, binding, known): &(u32, u32, &str)| {
         at.group == *group && at.binding == *binding && name == *known

@@ -55,12 +55,14 @@ fn check_lengths(mesh: &StoredMesh<'_>) -> Result<(), Flaw> {
     let replicated = 4 * mesh.records.len();
     let has_fill = !mesh.fill_indices.is_empty() || !mesh.fill_vertices.is_empty();
     let indices = if has_fill { 3 * faces } else { 0 };
+    let colors = if mesh.fill_colors.is_empty() { 0 } else { mesh.fill_vertices.len() };
     let floats = mesh.replicated_f32.as_ref().map_or(replicated, |list| list.len());
     let steps = mesh.replicated_i16.as_ref().map_or(replicated, |list| list.len());
     for (tag, found, needed) in [
         (Tag::VERTEX_NORMALS, mesh.vertex_normals.len(), vertices),
         (Tag::FACE_PLANES, mesh.face_planes.len(), faces),
         (Tag::FILL_INDICES, mesh.fill_indices.len(), indices),
+        (Tag::FILL_COLORS, mesh.fill_colors.len(), colors),
         (Tag::REPLICATED_F32, floats, replicated),
         (Tag::REPLICATED_I16, steps, replicated),
         (Tag::SPLIT_FROM, mesh.split_from.len(), mesh.split_from.len().min(vertices)),
@@ -241,6 +243,11 @@ mod tests {
                 assert_eq!(what, format!("{tag}, element 0: {expected}"));
             }
         }
+        for count in [1, 2, 4] {
+            let what = error(|draft| draft.push("FCOL", 4, &vec![9; 4 * count]));
+            let expected = format!("there are {count}, and the other sections need 3");
+            assert_eq!(what, format!("FCOL, element 0: {expected}"));
+        }
         let what = error(|draft| draft.resize("POSI", 4));
         assert_eq!(what, "NORM, element 0: there are 3, and the other sections need 4");
         let what = error(|draft| draft.resize("TRIS", 0));
@@ -413,7 +420,8 @@ mod tests {
     #[test]
     fn floats_may_be_anything() {
         let mut draft = Draft::with_materials();
-        for tag in ["POSI", "NORM", "PLAN", "FVTX", "FRAM", "BNDS"] {
+        draft.push("FCOL", 4, &[7; 12]);
+        for tag in ["POSI", "NORM", "PLAN", "FVTX", "FCOL", "FRAM", "BNDS"] {
             draft.section(tag).bytes.fill(255);
         }
         draft.section("MTRL").bytes[..48].fill(255);

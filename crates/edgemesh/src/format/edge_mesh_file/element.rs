@@ -28,7 +28,7 @@ macro_rules! elements {
 }
 
 elements! {
-    1: u8;
+    1: u8, [u8; 4];
     4: u32, [u32; 3], [f32; 3], FacePlane, EdgeRecord, Chain, ChainLink, FillVertex, FillRun,
         StoredMaterial, EdgeVertex;
     8: u64, f64, [u64; 2], Placement;

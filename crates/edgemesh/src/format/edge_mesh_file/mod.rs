@@ -47,6 +47,8 @@
 //!  LNKS    16   L       edge of a chain: record u32, chain u32, length before it
 //!                       f32, 1 if it runs from v1 to v0 u32
 //!  FVTX    32   W       fill vertex, 8 f32: position, normal, texture (optional)
+//!  FCOL     4   W       color of a fill vertex, 4 bytes: red, green, blue, opacity
+//!                       (optional)
 //!  FIDX     4   3 F     its triangles in the order of TRIS, u32 (optional)
 //!  FRUN    16   R       material range, 4 u32: first triangle, material, group, 1 if
 //!                       all corners have texture coordinates of the model (optional)
@@ -77,7 +79,8 @@
 //!   with FIDX there is at least one. Without FRUN all triangles are one range without
 //!   material, group and texture coordinates. A missing material, group or picture is
 //!   `0xFFFFFFFF`.
-//! - Colors are sRGB, 0 to 1. A texture is multiplied by the diffuse color; (0, 0) is
+//! - Colors are sRGB, 0 to 1, or 0 to 255 in FCOL, which are multiplied by those of the
+//!   material. A texture is multiplied by the diffuse color; (0, 0) is
 //!   the lower left corner of its picture.
 //! - Classes, from bit 0: boundary, ridge, valley, marked, material,
 //!   non-manifold, diagonal, clash, solid, smoothing, groove,

@@ -82,6 +82,7 @@ fn mesh_of<'a>(sections: &Sections<'a>) -> Result<StoredMesh<'a>, FileError> {
         chains: sections.list(Tag::CHAINS)?,
         links: sections.list(Tag::LINKS)?,
         fill_vertices: sections.optional(Tag::FILL_VERTICES)?.unwrap_or_default(),
+        fill_colors: sections.optional(Tag::FILL_COLORS)?.unwrap_or_default(),
         fill_indices,
         fill_runs,
         materials: materials(sections, meta.materials)?.into(),

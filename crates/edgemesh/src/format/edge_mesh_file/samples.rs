@@ -121,13 +121,15 @@ fn lines() -> Sample {
     Sample::of_obj("lines.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\n")
 }
 
-/// Three materials with pictures, two of which share one, and an empty one; two groups;
+/// Three materials with pictures, two of which share one, and an empty one; two groups; colors;
 /// texture coordinates for some of the faces.
 pub(super) fn textured() -> Sample {
     let positions = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.], [0., 0., 1.]];
     let mut model = Model::from_polygons(&positions, &[]);
     model.texcoords = vec![[0.25, 0.75]];
     model.groups = vec!["a".into(), "ö\n".into()];
+    model.colors = vec![[1.0, 0.5, 0.0, 0.25], [0.0, 0.2, 1.0, 1.0]];
+    model.colors.resize(positions.len(), [0.5; 4]);
     let picture = |name: &str, bytes: &[u8]| {
         Some(Texture { name: name.into(), source: TextureSource::Bytes(bytes.into()) })
     };

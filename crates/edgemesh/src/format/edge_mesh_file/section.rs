@@ -29,6 +29,7 @@ impl Tag {
     pub(super) const CHAINS: Self = Self(*b"CHNS");
     pub(super) const LINKS: Self = Self(*b"LNKS");
     pub(super) const FILL_VERTICES: Self = Self(*b"FVTX");
+    pub(super) const FILL_COLORS: Self = Self(*b"FCOL");
     pub(super) const FILL_INDICES: Self = Self(*b"FIDX");
     pub(super) const FILL_RUNS: Self = Self(*b"FRUN");
     pub(super) const MATERIALS: Self = Self(*b"MTRL");

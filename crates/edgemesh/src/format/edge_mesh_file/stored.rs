@@ -42,6 +42,8 @@ pub struct StoredMesh<'a> {
     pub links: Cow<'a, [ChainLink]>,
     /// As [`FillMesh::vertices`].
     pub fill_vertices: Cow<'a, [FillVertex]>,
+    /// As [`FillMesh::colors`].
+    pub fill_colors: Cow<'a, [[u8; 4]]>,
     /// As [`FillMesh::indices`].
     pub fill_indices: Cow<'a, [u32]>,
     /// As [`FillMesh::runs`].
@@ -80,6 +82,7 @@ impl<'a> StoredMesh<'a> {
             chains: borrowed(&mesh.chains.chains),
             links: borrowed(&mesh.chains.links),
             fill_vertices: borrowed(&mesh.fill.vertices),
+            fill_colors: borrowed(&mesh.fill.colors),
             fill_indices: borrowed(&mesh.fill.indices),
             fill_runs: borrowed(&mesh.fill.runs),
             materials: borrowed(&mesh.fill.materials),
@@ -107,6 +110,7 @@ impl<'a> StoredMesh<'a> {
             chains: Chains { chains: self.chains.to_vec(), links: self.links.to_vec() },
             fill: FillMesh {
                 vertices: self.fill_vertices.to_vec(),
+                colors: self.fill_colors.to_vec(),
                 indices: self.fill_indices.to_vec(),
                 runs: self.fill_runs.to_vec(),
                 materials: self.materials.to_vec(),

@@ -124,6 +124,9 @@ fn mesh_contents<'a>(mesh: &'a StoredMesh<'_>) -> Vec<SectionContent<'a>> {
         contents.push(SectionContent::new(Tag::FILL_VERTICES, &mesh.fill_vertices));
         contents.push(SectionContent::new(Tag::FILL_INDICES, &mesh.fill_indices));
     }
+    if !mesh.fill_colors.is_empty() {
+        contents.push(SectionContent::new(Tag::FILL_COLORS, &mesh.fill_colors));
+    }
     if !mesh.fill_runs.is_empty() {
         contents.push(SectionContent::new(Tag::FILL_RUNS, &mesh.fill_runs));
     }

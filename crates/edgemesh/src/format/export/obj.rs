@@ -1,10 +1,11 @@
-//! OBJ: triangles with texture coordinates and materials, and hard edges as polylines.
+//! OBJ: triangles with texture coordinates, colors and materials, and hard edges as polylines.
 //!
 //! Source: Alias|Wavefront, *Advanced Visualizer Manual*, appendix B1: `v`, `vt`, `f`, `l`, `g`,
 //! `o`, `mtllib`, `usemtl`.
 //!
 //! ```text
-//! v 0 0 0           positions: the shortest text that is read back unchanged
+//! v 0 0 0 1 0.5 0   positions: the shortest text that is read back unchanged; with colors, if
+//!                     the mesh has any: a place of several colors is written once for each
 //! vt 0.5 1          the different texture coordinates
 //! usemtl bark       before the triangles of each material
 //! f 1/1 2/4 3/2     triangles
@@ -16,7 +17,8 @@
 //! The first line says whose groups these are, and the reader of this project gives the edges
 //! their classes back. To other readers, and to it without that line, they are lines.
 //!
-//! Normals are not written, because those of a welded mesh are not for shading.
+//! Normals are not written, because those of a welded mesh are not for shading. Opacities of colors
+//! have no place in the format.
 
 use std::io::{self, Write};
 
@@ -51,16 +53,66 @@ pub(super) fn write_obj(
     if !name.is_empty() {
         writeln!(out, "o {name}")?;
     }
-    for &position in &mesh.positions {
-        let [x, y, z] = in_file(mesh, position);
-        writeln!(out, "v {x} {y} {z}")?;
-    }
-    write_faces(mesh, out)?;
+    let places = ColoredPlaces::of(mesh);
+    write_places(mesh, &places, out)?;
+    write_faces(mesh, &places, out)?;
     write_chains(mesh, out)
 }
 
+/// The vertices of a file: a place of several colors has one for each.
+struct ColoredPlaces {
+    /// The vertex of the mesh and the color of each vertex. Those of the mesh come first, in their
+    /// order, with the first color of their corners, or white. Empty if the mesh has no colors:
+    /// then the vertices are those of the mesh.
+    list: IndexSet<(u32, [u8; 4]), FxBuildHasher>,
+}
+
+impl ColoredPlaces {
+    fn of(mesh: &EdgeMesh) -> Self {
+        let Some(&any) = mesh.fill.colors.first() else {
+            return Self { list: IndexSet::default() };
+        };
+        let corners = || mesh.triangles.iter().flatten().zip(&mesh.fill.indices);
+        let mut firsts = vec![None; mesh.positions.len()];
+        for (&vertex, &corner) in corners() {
+            let color = mesh.fill.colors.get(corner as usize).copied().unwrap_or(any);
+            firsts[vertex as usize].get_or_insert(color);
+        }
+        let firsts = firsts.into_iter().map(|color| color.unwrap_or([u8::MAX; 4]));
+        let mut list: IndexSet<(u32, [u8; 4]), FxBuildHasher> = (0..).zip(firsts).collect();
+        for (&vertex, &corner) in corners() {
+            list.insert((vertex, mesh.fill.colors[corner as usize]));
+        }
+        Self { list }
+    }
+
+    /// The index of the vertex of a corner.
+    fn of_corner(&self, mesh: &EdgeMesh, corner: usize, vertex: u32) -> u32 {
+        if self.list.is_empty() {
+            return vertex;
+        }
+        let color = mesh.fill.colors[mesh.fill.indices[corner] as usize];
+        to_u32(self.list.get_index_of(&(vertex, color)).unwrap_or_default())
+    }
+}
+
+fn write_places(mesh: &EdgeMesh, places: &ColoredPlaces, out: &mut impl Write) -> io::Result<()> {
+    if places.list.is_empty() {
+        for &position in &mesh.positions {
+            let [x, y, z] = in_file(mesh, position);
+            writeln!(out, "v {x} {y} {z}")?;
+        }
+    }
+    for &(vertex, [red, green, blue, _]) in &places.list {
+        let [x, y, z] = in_file(mesh, mesh.positions[vertex as usize]);
+        let [red, green, blue] = [red, green, blue].map(|part| f32::from(part) / 255.0);
+        writeln!(out, "v {x} {y} {z} {red} {green} {blue}")?;
+    }
+    Ok(())
+}
+
 /// Writes triangles with their texture coordinates and materials.
-fn write_faces(mesh: &EdgeMesh, out: &mut impl Write) -> io::Result<()> {
+fn write_faces(mesh: &EdgeMesh, places: &ColoredPlaces, out: &mut impl Write) -> io::Result<()> {
     let texcoords = Texcoords::of(mesh);
     for texcoord in &texcoords.list {
         let [u, v] = texcoord.map(f32::from_bits);
@@ -75,10 +127,11 @@ fn write_faces(mesh: &EdgeMesh, out: &mut impl Write) -> io::Result<()> {
         }
         for face in faces {
             write!(out, "f")?;
-            for (corner, vertex) in mesh.triangles[face].iter().enumerate() {
-                write!(out, " {}", vertex + 1)?;
+            for (corner, &vertex) in mesh.triangles[face].iter().enumerate() {
+                let corner = 3 * face + corner;
+                write!(out, " {}", places.of_corner(mesh, corner, vertex) + 1)?;
                 if run.has_texcoords == 1 {
-                    write!(out, "/{}", texcoords.of_corner(mesh, 3 * face + corner) + 1)?;
+                    write!(out, "/{}", texcoords.of_corner(mesh, corner) + 1)?;
                 }
             }
             writeln!(out)?;

@@ -5,8 +5,8 @@
 //! distinguishes the classes in programs that draw them, and all their class bits.
 //! Comments in the header explain colors and bits.
 //!
-//! A mesh with texture coordinates has the vertices of its fill, with `s` and `t`; another one
-//! has its own. Triangles have the diffuse color of their material if any has one; a program that
+//! A mesh with texture coordinates or colors has the vertices of its fill, with `s` and `t`, and
+//! with `red`, `green`, `blue` and `alpha`; another one has its own. Triangles have the diffuse color of their material if any has one; a program that
 //! wants the materials themselves reads glTF.
 //!
 //! Positions are floats, or doubles if the mesh has a frame. The normal of a vertex
@@ -54,6 +54,9 @@ pub(super) fn write_ply(mesh: &EdgeMesh, name: &str, out: &mut impl Write) -> io
         if let Some(texcoord) = vertices.texcoords.get(at) {
             out.write_all(texcoord.map(f32::to_le_bytes).as_flattened())?;
         }
+        if let Some(color) = vertices.colors.get(at) {
+            out.write_all(color)?;
+        }
     }
     for (at, triangle) in vertices.triangles.iter().enumerate() {
         out.write_all(&[3])?;
@@ -98,6 +101,9 @@ fn write_header(
     }
     if !vertices.texcoords.is_empty() {
         writeln!(out, "property float s\nproperty float t")?;
+    }
+    if !vertices.colors.is_empty() {
+        writeln!(out, "{colors}\nproperty uchar alpha")?;
     }
     writeln!(out, "element face {}", vertices.triangles.len())?;
     writeln!(out, "property list uchar int vertex_indices")?;

@@ -1,6 +1,6 @@
 //! The vertices and triangles of files whose vertices have all attributes.
 //!
-//! They are those of the fill, which has a vertex for each normal and texture coordinate at a
+//! They are those of the fill, which has a vertex for each normal, texture coordinate and color at a
 //! place, or those of the mesh.
 
 use crate::edge_mesh::EdgeMesh;
@@ -14,6 +14,8 @@ pub(super) struct Vertices {
     pub(super) normals: Vec<[f32; 3]>,
     /// From the lower left corner of a picture; empty if the mesh has none.
     pub(super) texcoords: Vec<[f32; 2]>,
+    /// Display values, coded as sRGB, with opacity; empty if the mesh has none.
+    pub(super) colors: Vec<[u8; 4]>,
     /// In the order of the mesh.
     pub(super) triangles: Vec<[u32; 3]>,
     /// A vertex at the position of each vertex of the mesh; empty if the vertices are the same.
@@ -21,9 +23,11 @@ pub(super) struct Vertices {
 }
 
 impl Vertices {
-    /// The vertices of the fill if it has texture coordinates, otherwise those of the mesh.
+    /// The vertices of the fill if it has texture coordinates or colors, otherwise those of the
+    /// mesh.
     pub(super) fn of(mesh: &EdgeMesh) -> Self {
-        match mesh.fill.runs.iter().any(|run| run.has_texcoords == 1) {
+        let has_texcoords = mesh.fill.runs.iter().any(|run| run.has_texcoords == 1);
+        match has_texcoords || !mesh.fill.colors.is_empty() {
             true => Self::of_fill(mesh),
             false => Self {
                 positions: mesh.positions.clone(),
@@ -43,6 +47,7 @@ impl Vertices {
             positions: fill.vertices.iter().map(|vertex| vertex.position).collect(),
             normals: fill.vertices.iter().map(|vertex| vertex.normal).collect(),
             texcoords: textured.map(|vertex| vertex.texcoord).collect(),
+            colors: fill.colors.clone(),
             triangles: fill.indices.as_chunks().0.to_vec(),
             of_mesh: vec![NONE; mesh.positions.len()],
         };
@@ -64,6 +69,9 @@ impl Vertices {
                 self.normals.push(mesh.vertex_normals[vertex]);
                 if !self.texcoords.is_empty() {
                     self.texcoords.push([0.0; 2]);
+                }
+                if !self.colors.is_empty() {
+                    self.colors.push([u8::MAX; 4]);
                 }
             }
         }

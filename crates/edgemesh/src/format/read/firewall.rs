@@ -134,10 +134,14 @@ fn check_positions(source: &Source, model: &Model) -> Result<(), ReadError> {
     }
 }
 
-/// Sets texture coordinate and normal indices that are out of range to [`NONE`].
+/// Sets indices of texture coordinates, normals and colors that are out of range to [`NONE`];
+/// colors that are neither those of corners nor of all positions are left out.
 fn drop_wrong_attributes(model: &mut Model, report: &mut Report) {
-    let counts = [model.texcoords.len(), model.normals.len()];
-    let lists = [&mut model.corner_texcoords, &mut model.corner_normals];
+    if model.corner_colors.is_empty() && model.colors.len() != model.positions.len() {
+        model.colors.clear();
+    }
+    let counts = [model.texcoords.len(), model.normals.len(), model.colors.len()];
+    let lists = [&mut model.corner_texcoords, &mut model.corner_normals, &mut model.corner_colors];
     for (list, count) in lists.into_iter().zip(counts) {
         for index in list.iter_mut().filter(|index| **index != NONE && **index as usize >= count) {
             report.warn(WarningCode::Index, None, || {
@@ -249,6 +253,7 @@ fn keep_polygons(model: &mut Model, is_kept: &[bool]) {
     let corner_positions = pick(&model.corner_positions);
     model.corner_texcoords = pick(&model.corner_texcoords);
     model.corner_normals = pick(&model.corner_normals);
+    model.corner_colors = pick(&model.corner_colors);
     model.corner_positions = corner_positions;
     let mut end = 0;
     model.polygon_ends = ranges
@@ -319,11 +324,14 @@ mod tests {
     fn wrong_attributes_are_left_out_and_the_face_is_kept() {
         let mut model = square();
         model.texcoords = vec![[0.0; 2]; 2];
-        model.push_polygon(&[0, 1, 2].map(|k| Corner { position: k, texcoord: k, normal: 5 }), 0);
+        model.colors = vec![[0.5; 4]];
+        let corner = |k| Corner { position: k, texcoord: k, normal: 5, color: k };
+        model.push_polygon(&[0, 1, 2].map(corner), 0);
         let mut report = Report::default();
         check(&SOURCE, &mut model, &mut report, false).unwrap();
         assert_eq!(model.corner_texcoords[7..], [0, 1, NONE]);
-        assert_eq!(report.count(WarningCode::Index), 4);
+        assert_eq!(model.corner_colors[7..], [0, NONE, NONE]);
+        assert_eq!(report.count(WarningCode::Index), 6);
     }
 
     /// Instanced meshes are checked as the model is, and count as its faces.
@@ -378,7 +386,7 @@ mod tests {
         let mut model = square();
         model.normals = vec![[0.0, f32::NAN, 1.0], [0.0, 0.0, 1.0]];
         model.texcoords = vec![[f32::INFINITY, 0.0]];
-        model.colors = vec![[1.0; 3], [f32::NEG_INFINITY; 3]];
+        model.colors = vec![[1.0; 4], [f32::NEG_INFINITY; 4], [0.5; 4], [0.25; 4]];
         model.materials = vec![
             Material { shininess: Some(8.0), ..Material::default() },
             Material {
@@ -393,7 +401,7 @@ mod tests {
         check(&SOURCE, &mut model, &mut report, false).unwrap();
         assert_eq!(model.normals, [[0.0; 3], [0.0, 0.0, 1.0]]);
         assert_eq!(model.texcoords, [[0.0; 2]]);
-        assert_eq!(model.colors, [[1.0; 3], [0.0; 3]]);
+        assert_eq!(model.colors, [[1.0; 4], [0.0; 4], [0.5; 4], [0.25; 4]]);
         let [sound, steel] = &model.materials[..] else { panic!("{:?}", model.materials) };
         assert_eq!(sound.shininess, Some(8.0));
         assert_eq!((steel.diffuse, steel.specular, steel.opacity), (None, Some([0.5; 3]), None));

@@ -115,6 +115,18 @@ impl Strokes {
     }
 }
 
+impl SimpleRender {
+    /// Reads the variables of a pass that draws the surfaces of the scene.
+    ///
+    /// # Errors
+    /// All mistakes, also if it is a pass of another component.
+    pub(crate) fn of(pass: &Pass) -> Result<Self, Mistakes> {
+        let mut mistakes = Mistakes::default();
+        let view = Self::read(&mut Reader::new(pass, &mut mistakes));
+        mistakes.or(view).map(|(view, _)| view)
+    }
+}
+
 impl RunMode {
     /// Reads the variable `run` of a pass.
     #[must_use]

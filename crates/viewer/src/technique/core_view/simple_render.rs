@@ -14,6 +14,8 @@ pub(crate) struct SimpleRender {
     pub(crate) is_cleared: bool,
     /// The color of the background: red, green, blue, alpha, 0 to 1, not premultiplied.
     pub(crate) clear_color: [f32; 4],
+    /// Whether the colors of vertices are drawn.
+    pub(crate) has_vertex_colors: bool,
     /// Its programs.
     pub(crate) programs: ProgramNames,
     /// How it blends with the target.
@@ -26,6 +28,7 @@ impl SimpleRender {
             target: RenderTarget::read(reader),
             is_cleared: reader.bool("clear"),
             clear_color: reader.rgba("clear_color"),
+            has_vertex_colors: reader.bool("vertex_colors"),
             programs: ProgramNames {
                 vertex: reader.optional_string(programs::VERTEX),
                 fragment: reader.optional_string(programs::FRAGMENT),

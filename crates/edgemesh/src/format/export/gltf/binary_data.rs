@@ -38,6 +38,8 @@ impl ElementType {
     pub(super) const VERTICES: Self = Self::new(FLOAT, "VEC3", ARRAY_BUFFER);
     pub(super) const TEXCOORDS: Self = Self::new(FLOAT, "VEC2", ARRAY_BUFFER);
 
+    pub(super) const COLORS: Self = Self::new(UNSIGNED_SHORT, "VEC4", ARRAY_BUFFER);
+
     const fn new(component: u32, shape: &'static str, target: Option<u32>) -> Self {
         Self { component, shape, target }
     }

@@ -83,7 +83,7 @@ fn material(material: &Material, texture: Option<usize>) -> Value {
 }
 
 /// The linear value of an sRGB color component (IEC 61966-2-1).
-fn linear(coded: f32) -> f32 {
+pub(super) fn linear(coded: f32) -> f32 {
     let coded = f64::from(coded.clamp(0.0, 1.0));
     let linear = match coded <= 0.040_45 {
         true => coded / 12.92,

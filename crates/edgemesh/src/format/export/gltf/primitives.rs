@@ -6,6 +6,7 @@ use super::super::vertices::Vertices;
 use super::binary_data::{BinaryData, ElementType, float_bytes};
 use super::edge_visibility::{EXTENSION, EdgeVisibility};
 use super::edges::extension;
+use super::materials::linear;
 use super::rig::Bending;
 use super::surface::Surface;
 use crate::edge_mesh::EdgeMesh;
@@ -27,7 +28,7 @@ pub(super) struct Attributes {
 impl Attributes {
     /// The attributes of vertices, with normals if triangles use them.
     pub(super) fn of(vertices: &Vertices, with_normals: bool, data: &mut BinaryData) -> Self {
-        let Vertices { positions, normals, texcoords, .. } = vertices;
+        let Vertices { positions, normals, texcoords, colors, .. } = vertices;
         let mut own = Self::of_positions(positions, data);
         if with_normals {
             let normals = normals.iter().map(|&normal| float_bytes(unit(normal)));
@@ -38,6 +39,12 @@ impl Attributes {
             let flipped = texcoords.iter().map(|&[u, v]| [u, 1.0 - v].map(f32::to_le_bytes));
             let bytes = flipped.map(|bytes| -> [u8; 8] { bytemuck::cast(bytes) });
             own.attributes["TEXCOORD_0"] = data.push(ElementType::TEXCOORDS, bytes).into();
+        }
+        if !colors.is_empty() {
+            let bytes = colors.iter().map(|&color| linear_color(color));
+            let accessor = data.push(ElementType::COLORS, bytes);
+            data.accessors[accessor]["normalized"] = true.into();
+            own.attributes["COLOR_0"] = accessor.into();
         }
         own
     }
@@ -107,6 +114,16 @@ pub(super) fn line_primitive(
     (!ends.is_empty()).then(|| attributes.primitive(LINES, ends, data))
 }
 
+/// A color in linear values of 16 bits, which keep all sRGB values of 8 bits apart.
+#[expect(clippy::cast_possible_truncation, reason = "from 0 to 1")]
+#[expect(clippy::cast_sign_loss, reason = "from 0 to 1")]
+fn linear_color([red, green, blue, alpha]: [u8; 4]) -> [u8; 8] {
+    let fraction = |part: u8| f32::from(part) / 255.0;
+    let [red, green, blue] = [red, green, blue].map(|part| linear(fraction(part)));
+    let short = |part: f32| ((part * f32::from(u16::MAX)).round() as u16).to_le_bytes();
+    bytemuck::cast([red, green, blue, fraction(alpha)].map(short))
+}
+
 /// The normal, or +z if it is zero.
 fn unit(normal: [f32; 3]) -> [f32; 3] {
     if normal == [0.0; 3] { [0.0, 0.0, 1.0] } else { normal }
@@ -115,6 +132,20 @@ fn unit(normal: [f32; 3]) -> [f32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn colors_are_linear_with_straight_opacity() {
+        // 188 / 255 coded is 0.5029 linear, 128 is 0.2159.
+        let short = |at: usize, color| {
+            let bytes = linear_color(color);
+            f32::from(u16::from_le_bytes([bytes[at], bytes[at + 1]])) / 65535.0
+        };
+        let color = [188, 128, 0, 51];
+        let found = [0, 2, 4, 6].map(|at| short(at, color));
+        for (found, expected) in found.into_iter().zip([0.502_886, 0.215_861, 0.0, 0.2]) {
+            assert!((found - expected).abs() < 2e-5, "{found} {expected}");
+        }
+    }
 
     #[test]
     fn normals_of_zero_become_z() {

@@ -1,7 +1,7 @@
 //! The vertices and triangles of a file.
 //!
 //! A mesh with a fill is written with the vertices of the fill, which have the normals for shading
-//! and the texture coordinates; one without is written with its own. The triangles of each material
+//! and the texture coordinates and colors; one without is written with its own. The triangles of each material
 //! are a primitive, in their order. The vertices of each part of a rig are apart.
 
 use indexmap::{IndexMap, IndexSet};
@@ -99,6 +99,7 @@ impl UnposedPart {
             let normal = (linear.transpose() * normal).normalize_or_zero();
             vertices.normals.push(normal.as_vec3().to_array());
             vertices.texcoords.extend(posed.texcoords.get(at as usize));
+            vertices.colors.extend(posed.colors.get(at as usize));
         }
         (vertices, self.places.into_iter().map(|(_, vertex)| vertex).collect())
     }

@@ -37,7 +37,7 @@ use super::vertices::{VertexAttributes, positions};
 use crate::index::{NONE, to_u32};
 use crate::model::{
     Attributes, Corner, InstancedModel, Model, NodeTransform, Pose, Rig, RigNode, RigPart, Segment,
-    Smoothing,
+    Smoothing, WHITE,
 };
 use crate::report::{Report, WarningCode};
 
@@ -65,9 +65,6 @@ type VertexKey = (BTreeMap<Checked<Semantic>, json::Index<json::Accessor>>, Vec<
 /// The cost of a primitive without its vertices, in elements of the budget. It limits
 /// files in which many nodes share many empty primitives.
 const PRIMITIVE_ELEMENTS: usize = 64;
-
-/// The color of vertices without one, if other vertices have colors.
-const WHITE: [f32; 3] = [1.0; 3];
 
 /// A range of vertices with the same attributes.
 #[derive(Debug, Clone, Copy)]
@@ -413,6 +410,7 @@ impl VertexRange {
             position,
             texcoord: if self.has_texcoords { position } else { NONE },
             normal: if self.has_normals { position } else { NONE },
+            color: NONE,
         }
     }
 }
@@ -558,7 +556,9 @@ mod tests {
             {"attributes": {"POSITION": c}}
         ]}]});
         let (model, _) = sample.read(&rest).unwrap();
-        assert_eq!(model.colors, [[WHITE; 3], [[0.5; 3]; 3], [WHITE; 3]].concat());
+        let gray = model.colors[3];
+        assert!((gray[0] - 0.735_357).abs() < 1e-5 && gray[3] == 1.0, "linear 0.5: {gray:?}");
+        assert_eq!(model.colors, [[WHITE; 3], [gray; 3], [WHITE; 3]].concat());
         assert_eq!(model.corner_normals, [NONE, NONE, NONE, 3, 4, 5, NONE, NONE, NONE]);
     }
 

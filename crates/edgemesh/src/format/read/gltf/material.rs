@@ -72,7 +72,7 @@ fn shininess(roughness: f32) -> f32 {
 }
 
 /// Encodes a linear color component as sRGB (IEC 61966-2-1).
-fn srgb(linear: f32) -> f32 {
+pub(super) fn srgb(linear: f32) -> f32 {
     let linear = f64::from(linear.clamp(0.0, 1.0));
     let coded = match linear <= 0.003_130_8 {
         true => 12.92 * linear,

@@ -13,6 +13,7 @@ use json::mesh::Semantic;
 use super::super::error::{ReadError, ReadErrorKind};
 use super::accessor::Accessor;
 use super::document::Accessor as JsonAccessor;
+use super::material::srgb;
 use super::primitive::Primitive;
 use crate::report::{Place, Report, WarningCode};
 
@@ -22,7 +23,7 @@ use crate::report::{Place, Report, WarningCode};
 pub(super) struct VertexAttributes {
     pub(super) normals: Vec<[f32; 3]>,
     pub(super) texcoords: Vec<[f32; 2]>,
-    pub(super) colors: Vec<[f32; 3]>,
+    pub(super) colors: Vec<[f32; 4]>,
 }
 
 impl VertexAttributes {
@@ -134,14 +135,19 @@ fn texcoords(accessor: Accessor) -> Result<Vec<[f32; 2]>, ReadError> {
     Ok(texcoords.into_iter().map(|[u, v]| [u, 1.0 - v]).collect())
 }
 
-/// Colors without alpha; integers are normalized.
-fn colors(accessor: Accessor) -> Result<Vec<[f32; 3]>, ReadError> {
+/// Colors, coded as sRGB: those of glTF are linear. Integers are normalized; without alpha, colors
+/// are opaque.
+fn colors(accessor: Accessor) -> Result<Vec<[f32; 4]>, ReadError> {
     let accessor = accessor.normalized();
-    if accessor.kind() != Type::Vec4 {
-        return accessor.numbers();
+    // What is not finite is left to the reader of attributes.
+    let part = |part: f32| if part.is_finite() { srgb(part) } else { part };
+    let coded = |[red, green, blue]: [f32; 3], alpha| [part(red), part(green), part(blue), alpha];
+    if accessor.kind() == Type::Vec4 {
+        let colors: Vec<[f32; 4]> = accessor.numbers()?;
+        return Ok(colors.into_iter().map(|[r, g, b, alpha]| coded([r, g, b], alpha)).collect());
     }
-    let colors = accessor.numbers()?;
-    Ok(colors.into_iter().map(|[red, green, blue, _]| [red, green, blue]).collect())
+    let colors: Vec<[f32; 3]> = accessor.numbers()?;
+    Ok(colors.into_iter().map(|color| coded(color, 1.0)).collect())
 }
 
 #[cfg(test)]
@@ -168,7 +174,10 @@ mod tests {
         assert_eq!(model.corner_texcoords, [0, 1, 2]);
         assert_eq!(model.normals, [[0.0, 0.0, 1.0]; 3]);
         assert_eq!(model.texcoords, [[0.0, 0.75]; 3], "from the lower left corner");
-        assert_eq!(model.colors, [[1.0, 0.0, 0.2]; 3], "bytes are normalized in any case");
+        // Bytes are normalized in any case; 0.2 is linear.
+        let [red, green, blue, alpha] = model.colors[2];
+        assert_eq!((red, green, alpha, model.colors.len()), (1.0, 0.0, 9.0 / 255.0, 3));
+        assert!((blue - 0.484_529).abs() < 1e-5, "{blue}");
     }
 
     #[test]
@@ -211,7 +220,7 @@ mod tests {
         assert_eq!(model.polygon_count(), 1);
         assert_eq!(model.corner(0).normal, NONE);
         assert_eq!(model.corner(0).texcoord, NONE);
-        assert_eq!(model.colors, [[0.0; 3], [1.0; 3], [1.0; 3]]);
+        assert_eq!(model.colors, [[0.0; 4], [1.0; 4], [1.0; 4]]);
         assert_eq!(report.count(WarningCode::NonFinite), 1);
         assert!(report.count(WarningCode::Syntax) >= 2, "{report:?}");
     }

@@ -17,7 +17,7 @@ use crate::format::read::firewall::LARGEST_COORDINATE;
 use crate::format::read::number::{parse_number, parse_prefix};
 use crate::format::read::words::quoted;
 use crate::index::{NONE, to_u32};
-use crate::model::{Corner, Model, Segment};
+use crate::model::{Corner, Model, Segment, WHITE};
 use crate::report::{Place, Report, WarningCode};
 
 /// The content of a block; its first line is line 1.
@@ -165,7 +165,7 @@ impl Parser<'_> {
     #[inline]
     fn plain_corner(&self, at: usize) -> Option<(Corner, usize)> {
         let (position, mut at) = self.plain_index(at)?;
-        let mut corner = Corner { position, texcoord: NONE, normal: NONE };
+        let mut corner = Corner::at(position);
         if self.text.get(at) == Some(&b'/') {
             at += 1;
             if self.text.get(at) != Some(&b'/') {
@@ -353,7 +353,10 @@ impl Parser<'_> {
             return Err(BlockError { kind: ReadErrorKind::Number, line, what });
         }
         // Four numbers are a point and its weight; six or seven have a color.
-        self.keep_vertex([x, y, z], (count == 6).then(|| [r, g, b].map(attribute)));
+        self.keep_vertex(
+            [x, y, z],
+            (count == 6).then(|| [attribute(r), attribute(g), attribute(b), 1.0]),
+        );
         Ok(())
     }
 
@@ -374,7 +377,7 @@ impl Parser<'_> {
     }
 
     #[inline]
-    fn keep_vertex(&mut self, position: [f64; 3], color: Option<[f32; 3]>) {
+    fn keep_vertex(&mut self, position: [f64; 3], color: Option<[f32; 4]>) {
         // False for NaN.
         let is_finite = position.iter().all(|coordinate| coordinate.abs() <= LARGEST_COORDINATE);
         if !is_finite {
@@ -384,8 +387,8 @@ impl Parser<'_> {
         }
         let model = &mut self.block.model;
         if color.is_some() || !model.colors.is_empty() {
-            model.colors.resize(model.positions.len(), [1.0; 3]);
-            model.colors.push(color.unwrap_or([1.0; 3]));
+            model.colors.resize(model.positions.len(), WHITE);
+            model.colors.push(color.unwrap_or(WHITE));
         }
         model.positions.push(if is_finite { position } else { [f64::NAN; 3] });
     }
@@ -429,7 +432,7 @@ impl Parser<'_> {
         let position = parse_index(position, model.positions.len()).map_err(|why| wrong(&why))?.0;
         let texcoord = self.attribute_index(line, texcoord, counts[0]);
         let normal = self.attribute_index(line, normal, counts[1]);
-        Ok(Corner { position, texcoord, normal })
+        Ok(Corner { texcoord, normal, ..Corner::at(position) })
     }
 
     fn attribute_index(&mut self, line: u32, word: &[u8], count: usize) -> u32 {

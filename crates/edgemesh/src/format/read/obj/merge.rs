@@ -10,7 +10,7 @@ use super::statement::BlockIndex;
 use crate::format::read::error::{ReadError, ReadErrorKind};
 use crate::format::read::source::Source;
 use crate::index::{MAX_INDEX, NONE, to_u32};
-use crate::model::{Attributes, Material, Model, Segment, Smoothing};
+use crate::model::{Attributes, Material, Model, Segment, Smoothing, WHITE};
 use crate::report::{Place, Report, WarningCode};
 
 /// How many elements of each kind precede a block.
@@ -233,7 +233,7 @@ fn gather(
     }
     if blocks.iter().any(|block| !block.model.colors.is_empty()) {
         for block in &mut blocks {
-            block.model.colors.resize(block.model.positions.len(), [1.0; 3]);
+            block.model.colors.resize(block.model.positions.len(), WHITE);
         }
     }
     gather_polygon_ends(model, &mut blocks, offsets);

@@ -325,7 +325,7 @@ mod tests {
     #[test]
     fn colors_may_be_partial() {
         let model = read("v 0 0 0\nv 1 0 0 1\nv 0 1 0 0.5 0 1\nv 0 1 1 1 0 0 1\nf 1 2 3\n");
-        assert_eq!(model.colors, [[1.0; 3], [1.0; 3], [0.5, 0.0, 1.0], [1.0, 0.0, 0.0]]);
+        assert_eq!(model.colors, [[1.; 4], [1.; 4], [0.5, 0., 1., 1.], [1., 0., 0., 1.]]);
         assert!(read(&format!("{THREE}f 1 2 3\n")).colors.is_empty());
     }
 

@@ -1,4 +1,4 @@
-//! Binary rows: integers and floats of 32 bits, the most significant byte first.
+//! Binary rows: integers and floats (positions, colors and so on) of 32 bits, the most significant byte first.
 //!
 //! ```text
 //! OFF BINARY\n
@@ -34,15 +34,15 @@ pub(super) fn read_binary(
     let mut rows = Rows { source, at, start: at };
     let counts = rows.counts(header.layout.values(4))?;
     let mut elements = Elements::new(source, header.layout, counts);
-    let mut values = Vec::new();
+    let (mut values, mut color) = (Vec::new(), Vec::new());
     for _ in 0..counts.vertices {
         rows.start = rows.at;
         rows.take(header.layout.values(4), f32::from_be_bytes, &mut values)?;
         elements.vertex(&values);
     }
     for _ in 0..counts.faces {
-        rows.face(&mut values)?;
-        elements.face(&values, rows.place(), 0, report)?;
+        rows.face(&mut values, &mut color)?;
+        elements.face(&values, &color, rows.place(), 0, report)?;
     }
     let rest = source.bytes.get(rows.at..).unwrap_or_default();
     if rest.iter().any(|byte| *byte != 0 && !byte.is_ascii_whitespace()) {
@@ -78,8 +78,8 @@ impl Rows<'_, '_> {
         Ok(counts)
     }
 
-    /// Reads the vertices of a face, and passes over its color.
-    fn face(&mut self, values: &mut Vec<f64>) -> Result<(), ReadError> {
+    /// Reads the vertices of a face, and its color in floats.
+    fn face(&mut self, values: &mut Vec<f64>, color: &mut Vec<f64>) -> Result<(), ReadError> {
         self.start = self.at;
         let corners = self.integer()?;
         let Ok(count) = usize::try_from(corners) else {
@@ -93,10 +93,7 @@ impl Rows<'_, '_> {
                 format!("the color of a face has {channels} values; colors have from 0 to 4");
             return Err(self.error(ReadErrorKind::Syntax, what));
         }
-        for _ in 0..channels {
-            self.integer()?;
-        }
-        Ok(())
+        self.take(usize::try_from(channels).unwrap_or_default(), f32::from_be_bytes, color)
     }
 
     fn integer(&mut self) -> Result<i32, ReadError> {

@@ -3,7 +3,7 @@
 use super::super::error::{ReadError, ReadErrorKind};
 use super::super::source::Source;
 use super::header::VertexLayout;
-use crate::index::{MAX_INDEX, NONE};
+use crate::index::{MAX_INDEX, NONE, to_u32};
 use crate::model::{Corner, Model};
 use crate::report::{Place, Report, WarningCode};
 
@@ -45,6 +45,35 @@ pub(super) struct Elements<'s, 'a> {
     layout: VertexLayout,
     vertex_count: usize,
     model: Model,
+    /// The colors of vertices, or of faces, as the file has them.
+    colors: Vec<Color>,
+}
+
+/// A color as the file has it: bytes or fractions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Color {
+    channels: [f32; 3],
+    /// The opacity, if it is stated.
+    alpha: Option<f32>,
+}
+
+impl Color {
+    /// The color of three or four values; missing ones are 0.
+    fn of(values: &[f64]) -> Self {
+        let (channels, rest) = first::<3>(values);
+        Self { channels: channels.map(narrow), alpha: rest.first().copied().map(narrow) }
+    }
+
+    /// Whether it can only be bytes.
+    fn is_bytes(&self) -> bool {
+        self.channels.iter().chain(&self.alpha).any(|&channel| channel >= LEAST_BYTE)
+    }
+
+    /// Red, green, blue and opacity from 0 to 1; `full` is the value of a full channel.
+    fn fractions(&self, full: f32) -> [f32; 4] {
+        let [red, green, blue] = self.channels.map(|channel| channel / full);
+        [red, green, blue, self.alpha.map_or(1.0, |alpha| alpha / full)]
+    }
 }
 
 impl VertexLayout {
@@ -60,11 +89,12 @@ impl VertexLayout {
 impl<'s, 'a> Elements<'s, 'a> {
     /// A model without vertices; `counts` states how many will come.
     pub(super) fn new(source: &'s Source<'a>, layout: VertexLayout, counts: Counts) -> Self {
-        Self { source, layout, vertex_count: counts.vertices, model: Model::default() }
+        let (vertex_count, model) = (counts.vertices, Model::default());
+        Self { source, layout, vertex_count, model, colors: Vec::new() }
     }
 
     /// Adds a vertex: its position, normal, color and texture coordinates, as far as the
-    /// layout has them. The color may have a fourth value, its opacity, which is ignored.
+    /// layout has them. The color may have a fourth value, its opacity.
     pub(super) fn vertex(&mut self, values: &[f64]) {
         let (position, mut rest) = first::<3>(values);
         self.model.positions.push(position);
@@ -74,7 +104,9 @@ impl<'s, 'a> Elements<'s, 'a> {
             rest = behind;
         }
         if self.layout.has_color {
-            self.model.colors.push(first::<3>(rest).0.map(narrow));
+            let texcoord = if self.layout.has_texcoord { 2 } else { 0 };
+            let end = rest.len().saturating_sub(texcoord);
+            self.colors.push(Color::of(rest.get(..end).unwrap_or_default()));
         }
         if self.layout.has_texcoord {
             let texcoord = rest.get(rest.len().saturating_sub(2)..).unwrap_or_default();
@@ -82,7 +114,8 @@ impl<'s, 'a> Elements<'s, 'a> {
         }
     }
 
-    /// Adds a face; one with fewer than three corners is dropped with a warning. `line`
+    /// Adds a face; one with fewer than three corners is dropped with a warning. Its color has
+    /// three or four values, others are no color; it is left out if vertices have colors. `line`
     /// is 0 in binary files.
     ///
     /// # Errors
@@ -90,6 +123,7 @@ impl<'s, 'a> Elements<'s, 'a> {
     pub(super) fn face(
         &mut self,
         vertices: &[f64],
+        color: &[f64],
         place: Place,
         line: u32,
         report: &mut Report,
@@ -105,10 +139,25 @@ impl<'s, 'a> Elements<'s, 'a> {
             let what = format!("too large: more than {MAX_INDEX} corners");
             return Err(self.source.error(ReadErrorKind::Size, Some(place), what));
         }
-        let corners = vertices.iter().map(|&vertex| self.corner(vertex, &place));
+        let color = self.color_of_face(color);
+        let corners = vertices
+            .iter()
+            .map(|&vertex| self.corner(vertex, &place).map(|corner| Corner { color, ..corner }));
         let corners = corners.collect::<Result<Vec<Corner>, ReadError>>()?;
         self.model.push_polygon(&corners, line);
         Ok(())
+    }
+
+    /// The index of the color of a face, or [`NONE`].
+    fn color_of_face(&mut self, values: &[f64]) -> u32 {
+        if self.layout.has_color || values.len() < 3 {
+            return NONE;
+        }
+        let color = Color::of(values);
+        if self.colors.last() != Some(&color) {
+            self.colors.push(color);
+        }
+        to_u32(self.colors.len() - 1)
     }
 
     /// The corner at a vertex, with the attributes of the vertex.
@@ -122,17 +171,14 @@ impl<'s, 'a> Elements<'s, 'a> {
         let position = vertex as u32;
         let index_if = |has: bool| if has { position } else { NONE };
         let texcoord = index_if(self.layout.has_texcoord);
-        Ok(Corner { position, texcoord, normal: index_if(self.layout.has_normal) })
+        let normal = index_if(self.layout.has_normal);
+        Ok(Corner { texcoord, normal, ..Corner::at(position) })
     }
 
     /// The model, with colors from 0 to 1.
     pub(super) fn finish(mut self) -> Model {
-        let colors = &mut self.model.colors;
-        if colors.as_flattened().iter().any(|&channel| channel >= LEAST_BYTE) {
-            for channel in colors.as_flattened_mut() {
-                *channel /= 255.0;
-            }
-        }
+        let full = if self.colors.iter().any(Color::is_bytes) { 255.0 } else { 1.0 };
+        self.model.colors = self.colors.iter().map(|color| color.fractions(full)).collect();
         self.model
     }
 }

@@ -16,7 +16,8 @@
 //! line ends a color. Rejected: vertices that continue in the next line, which Geomview
 //! reads. A vertex without its last value would then take one from the next vertex.
 //!
-//! Colors of faces are ignored. A truncated file is an error, because faces name
+//! Colors are display values, coded as sRGB. Those of faces are those of their corners, unless
+//! vertices have colors; one of a single number, an index of a table elsewhere, is ignored. A truncated file is an error, because faces name
 //! vertices that may be missing.
 
 mod binary;

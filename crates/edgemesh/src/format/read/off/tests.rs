@@ -51,16 +51,23 @@ fn headers_come_in_many_forms() {
 
 #[test]
 fn colors_are_bytes_or_fractions() {
-    let red = [1.0, 0.0, 0.2];
-    for color in ["255 0 51", "255 0 51 9", "1.0 0 0.2", "1 0 .2 0.5", "255.0 0.0 51.0 255.0"] {
+    for (color, alpha) in [
+        ("255 0 51", 1.0),
+        ("255 0 51 9", 9.0 / 255.0),
+        ("1.0 0 0.2", 1.0),
+        ("1 0 .2 0.5", 0.5),
+        ("255.0 0.0 51.0 255.0", 1.0),
+    ] {
+        let red = [1.0, 0.0, 0.2, alpha];
         let text = format!("COFF 3 1 0\n0 0 0 {color}\n1 0 0 {color}\n0 1 0 {color}\n3 0 1 2");
         assert_eq!(sound(&text).colors, [red; 3], "{color}");
     }
     let text = "COFF 3 1 0\n0 0 0 1 1 1\n1 0 0 0 1 0\n0 1 0 255 0 0\n3 0 1 2\n";
     let dark = 1.0 / 255.0;
-    assert_eq!(sound(text).colors, [[dark; 3], [0.0, dark, 0.0], [1.0, 0.0, 0.0]]);
+    let [nearly_black, red] = [[dark, dark, dark, 1.0], [1.0, 0.0, 0.0, 1.0]];
+    assert_eq!(sound(text).colors, [nearly_black, [0.0, dark, 0.0, 1.0], red]);
     let text = "COFF 3 1 0\n0 0 0 1 1 1\n1 0 0 0 1 0\n0 1 0 0 0 0\n3 0 1 2\n";
-    assert_eq!(sound(text).colors[0], [1.0; 3], "white, as no channel is above 1");
+    assert_eq!(sound(text).colors[0], [1.0; 4], "white, as no channel is above 1");
 }
 
 #[test]
@@ -69,7 +76,7 @@ fn values_follow_the_order_of_geomview() {
     let text = format!("STCNOFF\n3 1 0\n0 0 0 {vertex}\n1 0 0 {vertex}\n0 1 0 {vertex}\n3 0 1 2\n");
     let model = sound(&text);
     assert_eq!(model.normals, [[0.0, 0.0, 1.0]; 3]);
-    assert_eq!(model.colors, [[1.0, 0.5, 0.0]; 3]);
+    assert_eq!(model.colors, [[1.0, 0.5, 0.0, 1.0]; 3]);
     assert_eq!(model.texcoords, [[0.25, 0.75]; 3]);
     assert_eq!(
         (&model.corner_normals[..], &model.corner_texcoords[..]),
@@ -82,11 +89,23 @@ fn values_follow_the_order_of_geomview() {
 }
 
 #[test]
-fn colors_of_faces_are_ignored() {
-    for color in ["", "7", "255 0 0", "0.1 0.2 0.3 0.4", "1 0 0 # red"] {
+fn colors_of_faces_are_those_of_their_corners() {
+    for (color, found) in [
+        ("", None),
+        ("7", None),
+        ("255 0 51", Some([1.0, 0.0, 0.2, 1.0])),
+        ("0.1 0.2 0.3 0.4", Some([0.1, 0.2, 0.3, 0.4])),
+        ("1 0 0 # red", Some([1.0, 0.0, 0.0, 1.0])),
+    ] {
         let model = sound(&format!("OFF 3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 {color}\n3 2 1 0\n"));
-        assert_eq!((model.corner_positions, model.colors.len()), (vec![0, 1, 2, 2, 1, 0], 0));
+        assert_eq!(model.corner_positions, [0, 1, 2, 2, 1, 0]);
+        assert_eq!(model.colors.first().copied(), found);
+        assert_eq!(model.corner_color(0), found.unwrap_or([1.0; 4]));
+        assert_eq!(model.corner_color(5), [1.0; 4], "a face without a color is white");
     }
+    let vertex = "0 0 0 0.5 0.5 0.5\n";
+    let model = sound(&format!("COFF 3 1 0\n{vertex}{vertex}{vertex}3 0 1 2 255 0 0\n"));
+    assert_eq!((model.corner_color(0), model.colors.len()), ([0.5, 0.5, 0.5, 1.0], 3));
     for color in ["1 2", "1 2 3 4 5", "red"] {
         let text = format!("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 {color}\n");
         let mut report = Report::default();
@@ -189,12 +208,13 @@ fn binary_files_are_big_endian() {
         (&[0, 1, 2, 3][..], &[4, 7][..])
     );
     assert!(model.polygon_lines.is_empty() && report.warnings().is_empty(), "{report:?}");
+    assert_eq!([model.corner_color(3), model.corner_color(4)], [[0.5, 0.5, 0.5, 1.0], [1.0; 4]]);
     let vertex = floats([1., 2., 3., 0., 0., 1., 1., 0.5, 0., 1., 0.25, 0.75]);
     let rows: [&[Value]; 5] =
         [&integers([3, 1, 0]), &vertex, &vertex, &vertex, &integers([3, 0, 1, 2, 0, 7])];
     let model = read_bytes(&binary("STCNOFF", &rows), &mut report).unwrap();
     assert_eq!((model.positions[2], model.normals[2]), ([1., 2., 3.], [0., 0., 1.]));
-    assert_eq!((model.colors[2], model.texcoords[2]), ([1., 0.5, 0.], [0.25, 0.75]));
+    assert_eq!((model.colors[2], model.texcoords[2]), ([1., 0.5, 0., 1.], [0.25, 0.75]));
     assert_eq!(report.count(WarningCode::Syntax), 1, "a value after the last face");
 }
 

@@ -28,7 +28,7 @@ pub(super) fn read_text(
     let mut rows = Rows { source, line: rest.line(), words: rest };
     let counts = rows.counts()?;
     let mut elements = Elements::new(source, layout, counts);
-    let mut values = Vec::new();
+    let (mut values, mut color) = (Vec::new(), Vec::new());
     for at in 1..=counts.vertices {
         let row = rows.next("vertex", at, counts.vertices)?;
         rows.vertex(row, layout, &mut values, report)?;
@@ -36,8 +36,8 @@ pub(super) fn read_text(
     }
     for at in 1..=counts.faces {
         let row = rows.next("face", at, counts.faces)?;
-        rows.face(row, &mut values, report)?;
-        elements.face(&values, rows.place(), rows.line, report)?;
+        rows.face(row, &mut values, &mut color, report)?;
+        elements.face(&values, &color, rows.place(), rows.line, report)?;
     }
     if rows.next_row().is_some() {
         report.warn(WarningCode::Syntax, Some(rows.place()), || {
@@ -131,11 +131,12 @@ impl<'a> Rows<'_, 'a> {
         Ok(())
     }
 
-    /// Reads the vertices of a face.
+    /// Reads the vertices of a face, and its color, which is empty without one.
     fn face(
         &self,
         mut row: Words,
         values: &mut Vec<f64>,
+        color: &mut Vec<f64>,
         report: &mut Report,
     ) -> Result<(), ReadError> {
         values.clear();
@@ -151,22 +152,23 @@ impl<'a> Rows<'_, 'a> {
             };
             values.push(value);
         }
-        let color = row.left();
-        if !self.is_color(row) {
+        let rest = row.left();
+        if !self.read_color(row, color) {
+            color.clear();
             report.warn(WarningCode::Syntax, Some(self.place()), || {
-                format!("{} behind a face is not a color; it was left out", quoted(color))
+                format!("{} behind a face is not a color; it was left out", quoted(rest))
             });
         }
         Ok(())
     }
 
-    /// Whether the rest of a row can be the color of a face.
-    fn is_color(&self, mut row: Words) -> bool {
-        let mut count = 0;
+    /// Reads the rest of a row as the color of a face; returns whether it can be one.
+    fn read_color(&self, mut row: Words, color: &mut Vec<f64>) -> bool {
+        color.clear();
         loop {
             match self.number(&mut row) {
-                Ok(Some(_)) => count += 1,
-                Ok(None) => return FACE_COLORS.contains(&count),
+                Ok(Some(value)) => color.push(value),
+                Ok(None) => return FACE_COLORS.contains(&color.len()),
                 Err(_) => return false,
             }
         }

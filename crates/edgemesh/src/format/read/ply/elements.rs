@@ -37,6 +37,7 @@ const VERTEX_SLOTS: [&[&str]; SLOTS] = [
     &["blue", "diffuse_blue"],
     &["u", "s", "texture_u"],
     &["v", "t", "texture_v"],
+    &["alpha", "diffuse_alpha"],
 ];
 
 // Slots of `VERTEX_SLOTS`.
@@ -44,6 +45,19 @@ const POSITION: Range<usize> = 0..3;
 const NORMAL: Range<usize> = 3..6;
 const COLOR: Range<usize> = 6..9;
 const TEXCOORD: Range<usize> = 9..11;
+const ALPHA: usize = 11;
+
+/// The names of the properties of a face, by slot.
+const FACE_SLOTS: [&[&str]; 4] = [
+    &["red", "diffuse_red"],
+    &["green", "diffuse_green"],
+    &["blue", "diffuse_blue"],
+    &["alpha", "diffuse_alpha"],
+];
+
+// Slots of `FACE_SLOTS`.
+const FACE_COLOR: Range<usize> = 0..3;
+const FACE_ALPHA: usize = 3;
 
 /// The names of the properties of an edge, by slot.
 const EDGE_SLOTS: [&[&str]; 3] = [&["vertex1"], &["vertex2"], &["flags"]];
@@ -77,6 +91,7 @@ pub(super) fn read_elements(
         vertex_count: vertex.map_or(0, |vertex| vertex.count),
         has_normals: has(NORMAL),
         has_texcoords: has(TEXCOORD),
+        has_colors: has(COLOR),
         states_classes: header.states_classes,
     };
     if header.states_classes {
@@ -85,7 +100,7 @@ pub(super) fn read_elements(
     for element in &header.elements {
         match element.name {
             b"vertex" => reader.vertices(&RowPlan::new(element, &VERTEX_SLOTS, &[]))?,
-            b"face" => reader.faces(&RowPlan::new(element, &[], &CORNER_LISTS))?,
+            b"face" => reader.faces(&RowPlan::new(element, &FACE_SLOTS, &CORNER_LISTS))?,
             b"tristrips" => reader.strips(&RowPlan::new(element, &[], &CORNER_LISTS))?,
             b"edge" => reader.edges(&RowPlan::new(element, &EDGE_SLOTS, &[]))?,
             _ => reader.skip(element, "is unknown")?,
@@ -107,6 +122,8 @@ struct ElementReader<'s, 'a, R> {
     has_normals: bool,
     /// Whether each vertex has texture coordinates.
     has_texcoords: bool,
+    /// Whether each vertex has a color, so that those of faces are left out.
+    has_colors: bool,
     /// Whether edges have the classes of an export of this program.
     states_classes: bool,
 }
@@ -123,19 +140,16 @@ impl<R: Rows> ElementReader<'_, '_, R> {
         if count > MAX_INDEX || self.model.positions.try_reserve_exact(count).is_err() {
             return Err(self.too_large());
         }
-        let has_colors = plan.has(COLOR);
-        let maximum = |slot: usize| plan.slots[slot].map_or(1.0, Scalar::color_maximum);
-        let maxima = [0, 1, 2].map(|channel| maximum(COLOR.start + channel));
+        let channels = Channels::of(plan, COLOR, ALPHA);
         for _ in 0..count {
             self.rows.read(plan, &mut self.row, self.report)?;
-            let [x, y, z, nx, ny, nz, red, green, blue, u, v] = self.row.values;
+            let [x, y, z, nx, ny, nz, _, _, _, u, v, _] = self.row.values;
             self.model.positions.push([x, y, z]);
             if self.has_normals {
                 self.model.normals.push([nx, ny, nz].map(narrow));
             }
-            if has_colors {
-                let color = [red / maxima[0], green / maxima[1], blue / maxima[2]];
-                self.model.colors.push(color.map(narrow));
+            if let Some(channels) = &channels {
+                self.model.colors.push(channels.color(&self.row));
             }
             if self.has_texcoords {
                 self.model.texcoords.push([u, v].map(narrow));
@@ -149,12 +163,15 @@ impl<R: Rows> ElementReader<'_, '_, R> {
             return self.skip(plan.element, NO_LIST);
         }
         self.rows.begin(plan)?;
+        let channels = Channels::of(plan, FACE_COLOR, FACE_ALPHA).filter(|_| !self.has_colors);
         let mut corners = Vec::new();
         for _ in 0..plan.element.count {
             self.rows.read(plan, &mut self.row, self.report)?;
             corners.clear();
+            let color = channels.as_ref().map(|channels| channels.color(&self.row));
+            let color = color.map_or(NONE, |color| self.model.color_of_face(color));
             for &value in &self.row.list {
-                corners.push(self.corner(value)?);
+                corners.push(Corner { color, ..self.corner(value)? });
             }
             self.push(&corners)?;
         }
@@ -238,7 +255,7 @@ impl<R: Rows> ElementReader<'_, '_, R> {
         let position = self.index(value)?;
         let index_if = |has: bool| if has { position } else { NONE };
         let (texcoord, normal) = (index_if(self.has_texcoords), index_if(self.has_normals));
-        Ok(Corner { position, texcoord, normal })
+        Ok(Corner { texcoord, normal, ..Corner::at(position) })
     }
 
     fn index(&self, value: f64) -> Result<u32, ReadError> {
@@ -281,6 +298,32 @@ impl<R: Rows> ElementReader<'_, '_, R> {
                 "the content after the last row was left out".into()
             });
         }
+    }
+}
+
+/// The slots of a color, with the values of full channels.
+struct Channels {
+    slots: [usize; 3],
+    maxima: [f64; 3],
+    /// The slot and the full value of the opacity, if it is stated.
+    alpha: Option<(usize, f64)>,
+}
+
+impl Channels {
+    /// The slots of `plan`, if it has all of `color`.
+    fn of(plan: &RowPlan, color: Range<usize>, alpha: usize) -> Option<Self> {
+        let maximum = |slot: usize| plan.slots[slot].map(Scalar::color_maximum);
+        let slots = [0, 1, 2].map(|channel| color.start + channel);
+        let alpha = maximum(alpha).map(|maximum| (alpha, maximum));
+        let maxima = slots.map(|slot| maximum(slot).unwrap_or(1.0));
+        plan.has(color).then_some(Self { slots, maxima, alpha })
+    }
+
+    /// The color of a row.
+    fn color(&self, row: &Row) -> [f32; 4] {
+        let [red, green, blue] = [0, 1, 2].map(|k| row.values[self.slots[k]] / self.maxima[k]);
+        let alpha = self.alpha.map_or(1.0, |(slot, maximum)| row.values[slot] / maximum);
+        [red, green, blue, alpha].map(narrow)
     }
 }
 

@@ -20,7 +20,7 @@ use crate::index::MAX_INDEX;
 use crate::report::{Place, Report};
 
 /// The most values that are read of a row: those of a vertex.
-pub(super) const SLOTS: usize = 11;
+pub(super) const SLOTS: usize = 12;
 
 /// Where the properties of an element go.
 #[derive(Debug)]

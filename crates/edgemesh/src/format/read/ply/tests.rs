@@ -121,11 +121,34 @@ fn vertices_bring_normals_colors_and_texture_coordinates() {
         0 1 0 0 0 -1 0 13107 0 1 1 9\n3 2 0 1\n";
     let model = read(&ascii(header, rows), &mut Report::default()).unwrap();
     assert_eq!(model.normals, [[0., 0., 2.], [0., 0., 3.], [0., 0., -1.]]);
-    assert_eq!(model.colors, [[1., 0., 0.5], [0.2, 1., 2.], [0., 0.2, 0.]]);
+    assert_eq!(model.colors, [[1., 0., 0.5, 1.], [0.2, 1., 2., 1.], [0., 0.2, 0., 1.]]);
     assert_eq!(model.texcoords, [[0., 1.], [0.25, 0.], [1., 1.]], "s comes before u");
     assert_eq!(model.corner_positions, [2, 0, 1]);
     assert_eq!(model.corner_normals, [2, 0, 1]);
     assert_eq!(model.corner_texcoords, [2, 0, 1]);
+}
+
+#[test]
+fn colors_have_an_opacity_and_may_be_those_of_faces() {
+    let header = |vertex: &str, face: &str| {
+        format!(
+            "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n{vertex}\
+             element face 3\nproperty list uchar int vertex_indices\n{face}"
+        )
+    };
+    let color = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    let of_vertices = header(&format!("property ushort alpha\n{color}"), color.trim_end());
+    let rows = "0 0 0 65535 255 0 51\n1 0 0 13107 0 255 0\n0 1 0 0 0 0 0\n\
+        3 0 1 2 255 0 0\n3 0 1 2 9 9 9\n3 2 1 0 9 9 9\n";
+    let model = read(&ascii(&of_vertices, rows), &mut Report::default()).unwrap();
+    assert_eq!(model.colors, [[1., 0., 0.2, 1.], [0., 1., 0., 0.2], [0., 0., 0., 0.]]);
+    assert!(model.corner_colors.is_empty(), "those of vertices win");
+    let of_faces = header("", &format!("{color}property float diffuse_alpha"));
+    let rows = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 51 0.5\n3 0 1 2 255 0 51 0.5\n\
+        3 2 1 0 0 255 0 1\n";
+    let model = read(&ascii(&of_faces, rows), &mut Report::default()).unwrap();
+    assert_eq!(model.colors, [[1., 0., 0.2, 0.5], [0., 1., 0., 1.]]);
+    assert_eq!(model.corner_colors, [0, 0, 0, 0, 0, 0, 1, 1, 1]);
 }
 
 #[test]

@@ -85,7 +85,7 @@ pub(super) struct FaceSet<'a> {
     pub(super) normals: Option<(ElementLookup<'a>, NumberList<'a>)>,
     /// The texture coordinates, two numbers each.
     pub(super) texcoords: Option<(ElementLookup<'a>, NumberList<'a>)>,
-    /// The colors of vertices, three numbers each.
+    /// The colors of corners, three numbers each; see [`FaceSet::set_colors`].
     pub(super) colors: Option<(ElementLookup<'a>, NumberList<'a>)>,
     /// The material of faces without one in `face_materials`.
     pub(super) material: Option<Material>,
@@ -119,6 +119,15 @@ impl<'a> FaceSet<'a> {
             smoothing,
         }
     }
+
+    /// Sets the colors of corners. They stand for the diffuse color of the material (VRML 97
+    /// 6.10; VRML 1.0, `MaterialBinding`), so that of the material becomes white, which they are
+    /// multiplied by.
+    pub(super) fn set_colors(&mut self, lookup: ElementLookup<'a>, colors: NumberList<'a>) {
+        self.colors = Some((lookup, colors));
+        let white = |material| Material { diffuse: Some([1.0; 3]), ambient: None, ..material };
+        self.material = self.material.take().map(white);
+    }
 }
 
 #[cfg(test)]
@@ -126,7 +135,7 @@ mod tests {
     use crate::format::read::ReadErrorKind;
     use crate::format::read::vrml::tests::{diffuse_of_faces, faces_of, read, sound};
     use crate::index::NONE;
-    use crate::model::Smoothing;
+    use crate::model::{Model, Smoothing};
     use crate::report::{Place, WarningCode};
 
     const POINTS: &str = "coord Coordinate { point [ 0 0 0, 1 0 0, 1 1 0, 0 1 0, 0 0 1 ] }";
@@ -214,25 +223,18 @@ mod tests {
             coordIndex [ 0 1 2 -1 0 2 3 -1 ]";
         let plain = face_set("coordIndex [ 0 1 2 ]");
         let model = sound(&(plain + &face_set(colors)));
-        assert_eq!(
-            model.colors[..7],
-            [
-                [1., 1., 1.],
-                [1., 1., 1.],
-                [1., 1., 1.],
-                [1., 1., 1.],
-                [1., 1., 1.],
-                [1., 0., 0.],
-                [0., 1., 0.]
-            ]
-        );
-        assert_eq!((model.colors.len(), model.materials.len()), (10, 0));
+        let corners = |model: &Model, corners: std::ops::Range<usize>| -> Vec<[f32; 4]> {
+            corners.map(|corner| model.corner_color(corner)).collect()
+        };
+        let [white, red, green] = [[1.; 4], [1., 0., 0., 1.], [0., 1., 0., 1.]];
+        assert_eq!(corners(&model, 0..5), [white, white, white, red, green]);
+        assert_eq!((model.colors.len(), model.materials.len()), (5, 0));
         let model = sound(&face_set(&format!("{colors} colorPerVertex FALSE colorIndex [ 2 0 ]")));
         assert_eq!(diffuse_of_faces(&model), [Some([0., 0., 1.]), Some([1., 0., 0.])]);
         assert!(model.colors.is_empty());
-        let (model, report) =
-            read(&face_set(&format!("{colors} colorIndex [ 0 1 2 -1 4 2 3 ]"))).unwrap();
-        assert_eq!((model.colors[0], report.count(WarningCode::Unsupported)), ([1., 0., 0.], 1));
+        let model = sound(&face_set(&format!("{colors} colorIndex [ 0 1 2 -1 4 2 3 ]")));
+        let black = [0., 0., 0., 1.];
+        assert_eq!([model.corner_color(0), model.corner_color(3)], [red, black], "of one point");
         let (model, report) =
             read(&face_set(&format!("{colors} colorPerVertex FALSE colorIndex [ 0 7 ]"))).unwrap();
         assert_eq!(diffuse_of_faces(&model), [Some([1., 0., 0.]), None]);

@@ -2,7 +2,7 @@
 
 use super::face_set::{ElementLookup, FaceCorner, FaceSet};
 use super::indices::{is_end, point_index};
-use super::number_list::{NumberList, to_f32};
+use super::number_list::NumberList;
 use super::placement::Placement;
 use super::scene_builder::SceneBuilder;
 use crate::format::read::error::ReadError;
@@ -24,7 +24,7 @@ impl SceneBuilder<'_> {
         self.spend(set.node, set.indices.values.len())?;
         let transform = &placement.transform;
         let mut first = FirstElements {
-            position: self.add_positions(&set.points, transform, set.colors.is_some())?,
+            position: self.add_positions(&set.points, transform)?,
             ..FirstElements::default()
         };
         if let Some((_, list)) = &set.normals {
@@ -33,8 +33,8 @@ impl SceneBuilder<'_> {
         if let Some((_, list)) = &set.texcoords {
             first.texcoord = self.add_texcoords(list)?;
         }
-        if set.colors.is_some() {
-            self.pad_colors();
+        if let Some((_, list)) = &set.colors {
+            first.color = self.add_colors(list)?;
         }
         FaceWriter::new(self, set, placement, first).write()
     }
@@ -46,6 +46,7 @@ struct FirstElements {
     position: u32,
     normal: u32,
     texcoord: u32,
+    color: u32,
 }
 
 /// Adds faces one by one; the corners are those of the current face.
@@ -62,8 +63,6 @@ struct FaceWriter<'w, 's, 'a> {
     face: usize,
     /// The number of corners so far, over all faces.
     corner: usize,
-    /// Whether each point has its color.
-    has_color: Vec<bool>,
 }
 
 impl<'w, 's, 'a> FaceWriter<'w, 's, 'a> {
@@ -73,7 +72,6 @@ impl<'w, 's, 'a> FaceWriter<'w, 's, 'a> {
         placement: &'w Placement,
         first: FirstElements,
     ) -> Self {
-        let colored = if set.colors.is_some() { set.points.count::<3>() } else { 0 };
         Self {
             builder,
             set,
@@ -84,7 +82,6 @@ impl<'w, 's, 'a> FaceWriter<'w, 's, 'a> {
             line: 0,
             face: 0,
             corner: 0,
-            has_color: vec![false; colored],
         }
     }
 
@@ -117,9 +114,9 @@ impl<'w, 's, 'a> FaceWriter<'w, 's, 'a> {
             position: self.first.position + to_u32(point),
             texcoord: self.attribute::<2>(set.texcoords.as_ref(), self.first.texcoord, at),
             normal: self.attribute::<3>(set.normals.as_ref(), self.first.normal, at),
+            color: self.attribute::<3>(set.colors.as_ref(), self.first.color, at),
         };
         self.corners.push(corner);
-        self.color_point(at);
         self.corner += 1;
         Ok(())
     }
@@ -145,24 +142,6 @@ impl<'w, 's, 'a> FaceWriter<'w, 's, 'a> {
             });
         }
         element
-    }
-
-    /// Sets the color of a point; if its corners differ, the first counts.
-    fn color_point(&mut self, at: FaceCorner) {
-        let Some((lookup, list)) = self.set.colors.as_ref() else { return };
-        let colors = list.numbers.chunks::<3>();
-        let element = self.element(lookup, colors.len(), at);
-        let Some(color) = element.map(|element| colors[element].map(to_f32)) else { return };
-        let position = self.first.position as usize + at.point;
-        let stored = &mut self.builder.model.colors[position];
-        if !std::mem::replace(&mut self.has_color[at.point], true) {
-            *stored = color;
-        } else if *stored != color {
-            let line = self.set.indices.line_of(at.place);
-            self.builder.warn_in_line(self.set.node, WarningCode::Unsupported, line, || {
-                "a vertex has several colors; the first was used".into()
-            });
-        }
     }
 
     fn finish_face(&mut self) {

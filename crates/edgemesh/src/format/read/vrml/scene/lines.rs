@@ -23,7 +23,7 @@ impl SceneBuilder<'_> {
         placement: &Placement,
     ) -> Result<(), ReadError> {
         self.spend(node, indices.values.len())?;
-        let first = self.add_positions(points, &placement.transform, false)?;
+        let first = self.add_positions(points, &placement.transform)?;
         let mut previous = None;
         for (place, &value) in indices.values.iter().enumerate() {
             if is_end(value) {

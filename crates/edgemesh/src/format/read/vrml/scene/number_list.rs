@@ -1,4 +1,4 @@
-//! Lists of numbers that become positions, normals and texture coordinates.
+//! Lists of numbers that become positions, normals, texture coordinates and colors.
 
 use glam::DAffine3;
 
@@ -51,6 +51,7 @@ pub(super) enum ListKind {
     Positions,
     Normals,
     Texcoords,
+    Colors,
 }
 
 impl ListKey {

@@ -20,9 +20,6 @@ use crate::report::{Report, WarningCode};
 /// and corners. This is about 30,000 spheres, or 1 GiB at most.
 const GENERATED_ELEMENTS: usize = 1 << 26;
 
-/// The color of vertices without one, if other vertices have colors.
-const WHITE: [f32; 3] = [1.0; 3];
-
 /// A model to which the nodes of a scene are added.
 #[derive(Debug)]
 pub(super) struct SceneBuilder<'r> {
@@ -152,15 +149,11 @@ impl<'r> SceneBuilder<'r> {
         })
     }
 
-    /// Gives the vertices without a color a white one.
-    pub(super) fn pad_colors(&mut self) {
-        self.model.colors.resize(self.model.positions.len(), WHITE);
-    }
-
-    /// The model; if one vertex has a color, all have.
+    /// The model.
     pub(super) fn finish(mut self) -> Model {
-        if !self.model.colors.is_empty() {
-            self.pad_colors();
+        // Colors that no corner names are not those of the positions.
+        if self.model.corner_colors.is_empty() {
+            self.model.colors.clear();
         }
         self.model
     }

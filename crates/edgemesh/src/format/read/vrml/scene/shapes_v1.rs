@@ -116,8 +116,9 @@ fn add_face_set(builder: &mut SceneBuilder, node: NodeRef, state: &State) -> Res
     let materials = lookup(state.material_binding, "materialIndex");
     match state.material_binding {
         Binding::Corner | Binding::CornerIndexed => {
-            set.colors =
-                NumberList::if_any(state.material, "diffuseColor").map(|list| (materials, list));
+            if let Some(colors) = NumberList::if_any(state.material, "diffuseColor") {
+                set.set_colors(materials, colors);
+            }
         }
         Binding::Face | Binding::FaceIndexed if state.material.is_some() => {
             let texture = texture.as_ref();

@@ -1,6 +1,6 @@
 //! The shapes of VRML 97 as face sets (ISO/IEC 14772-1, clause 6).
 //!
-//! Colors of vertices become vertex colors. Colors of faces become materials that differ
+//! Colors of vertices become colors of corners. Colors of faces become materials that differ
 //! only in their diffuse color, because a boundary between two of them is drawn.
 
 use super::appearance::appearance;
@@ -93,7 +93,7 @@ impl<'a> Shape<'a> {
         if let Some(colors) = NumberList::if_any(self.node.node_of("color"), "color") {
             let lookup = self.lookup("colorIndex", "colorPerVertex");
             if lookup.binding == Binding::CornerIndexed {
-                set.colors = Some((lookup, colors));
+                set.set_colors(lookup, colors);
             } else {
                 let base = self.material.clone().unwrap_or_default();
                 let material = Box::new(move |at| tinted(&base, &colors, at));

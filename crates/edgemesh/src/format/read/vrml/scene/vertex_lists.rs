@@ -1,4 +1,4 @@
-//! Adds positions, normals and texture coordinates to the model.
+//! Adds positions, normals, texture coordinates and colors to the model.
 //!
 //! Several shapes may use one list, by `USE`, or because VRML 1.0 keeps the last list in
 //! force. Shapes with the same list and the same transform share its elements in the
@@ -15,15 +15,13 @@ use crate::index::to_u32;
 use crate::report::WarningCode;
 
 impl SceneBuilder<'_> {
-    /// Adds the positions of a list, transformed; returns the index of the first. If
-    /// `is_own` is set, no other shape shares them.
+    /// Adds the positions of a list, transformed; returns the index of the first.
     pub(super) fn add_positions(
         &mut self,
         list: &NumberList,
         transform: &DAffine3,
-        is_own: bool,
     ) -> Result<u32, ReadError> {
-        let kind = (list.is_shared && !is_own).then_some(ListKind::Positions);
+        let kind = list.is_shared.then_some(ListKind::Positions);
         self.add_list(list, kind, transform, 3, |builder| {
             let first = builder.model.positions.len();
             let moved = |&point: &[f64; 3]| transform.transform_point3(point.into()).to_array();
@@ -58,6 +56,20 @@ impl SceneBuilder<'_> {
             let first = builder.model.texcoords.len();
             let narrow = |texcoord: &[f64; 2]| texcoord.map(to_f32);
             builder.model.texcoords.extend(list.numbers.chunks::<2>().iter().map(narrow));
+            first
+        })
+    }
+
+    /// Adds the colors of a list; returns the index of the first.
+    pub(super) fn add_colors(&mut self, list: &NumberList) -> Result<u32, ReadError> {
+        let kind = list.is_shared.then_some(ListKind::Colors);
+        self.add_list(list, kind, &DAffine3::IDENTITY, 3, |builder| {
+            let first = builder.model.colors.len();
+            let opaque = |color: &[f64; 3]| {
+                let [red, green, blue] = color.map(to_f32);
+                [red, green, blue, 1.0]
+            };
+            builder.model.colors.extend(list.numbers.chunks::<3>().iter().map(opaque));
             first
         })
     }

@@ -237,14 +237,16 @@ mod tests {
     }
 
     #[test]
-    fn materials_of_vertices_become_vertex_colors() {
+    fn materials_of_vertices_become_colors_of_corners() {
         let model = scene(
             "Coordinate3 { point [ 0 0 0, 1 0 0, 0 1 0 ] }
              Material { diffuseColor [ 1 0 0, 0 1 0, 0 0 1 ] }
              MaterialBinding { value PER_VERTEX_INDEXED }
              IndexedFaceSet { coordIndex [ 0, 1, 2 ] materialIndex [ 2, 1, 0 ] }",
         );
-        assert_eq!(model.colors, [[0., 0., 1.], [0., 1., 0.], [1., 0., 0.]]);
+        let colors = [0, 1, 2].map(|corner| model.corner_color(corner));
+        assert_eq!(colors, [[0., 0., 1., 1.], [0., 1., 0., 1.], [1., 0., 0., 1.]]);
+        assert_eq!(model.materials[0].diffuse, Some([1.; 3]), "the colors stand for it");
     }
 
     #[test]
