@@ -15,9 +15,13 @@
 //     inside     x a fragment         the stroke  |   '.  the surface
 #import <common/stroke_ink.wgsl>
 #import <common/silhouette.wgsl>
+#import <common/glass_depth.wgsl>
 
 // Whether hidden lines are drawn instead of visible ones.
 override IS_HIDDEN: bool = false;
+
+// Whether surfaces of the scene are transparent.
+override HAS_GLASS: bool = false;
 
 // Depth and objects of the fill, in pictures of one and of four samples per pixel.
 @group(0) @binding(1) var fill_depth: texture_depth_2d;
@@ -33,7 +37,7 @@ fn over_surface_of_pixels(in: StrokeVarying) -> @location(0) vec4f {
     if !is_drawn(in, depths_of_pixels(at)) {
         discard;
     }
-    return color;
+    return color * seen_share(in, at, 0u);
 }
 
 @fragment
@@ -46,7 +50,7 @@ fn over_surface_of_samples(
     if !is_drawn(in, depths_of_samples(at, sample)) {
         discard;
     }
-    return color;
+    return color * seen_share(in, at, sample);
 }
 
 @fragment
@@ -61,7 +65,7 @@ fn silhouette_of_pixels(in: StrokeVarying) -> @location(0) vec4f {
     if !is_around(in, objects) || !is_drawn(in, depths_of_pixels(at)) {
         discard;
     }
-    return color;
+    return color * seen_share(in, at, 0u);
 }
 
 @fragment
@@ -79,7 +83,7 @@ fn silhouette_of_samples(
     if !is_around(in, objects) || !is_drawn(in, depths_of_samples(at, sample)) {
         discard;
     }
-    return color;
+    return color * seen_share(in, at, sample);
 }
 
 fn depths_of_pixels(at: Places) -> vec3f {
@@ -155,6 +159,17 @@ fn is_drawn(in: StrokeVarying, depths: vec3f) -> bool {
         return edge < depths.x;
     }
     return is_own_surface(edge, depths.x) && is_own_surface(edge, depths.y);
+}
+
+// The factor of the opacity behind transparent surfaces, which are met where the fill is.
+fn seen_share(in: StrokeVarying, at: Places, sample: u32) -> f32 {
+    if !HAS_GLASS || IS_HIDDEN {
+        return 1.0;
+    }
+    let is_over = in.over_px > 0.0;
+    let glass = glass_depth_at(select(at.here, at.foot, is_over), sample);
+    let is_behind = select(in.position.z, in.foot.z, is_over) < glass;
+    return select(1.0, stroke.behind_glass, is_behind);
 }
 
 // Whether the fill there can be the surface that the edge bounds, judged by its distance

@@ -21,6 +21,16 @@ fn intensity(color: vec3f) -> f32 {
     return dot(color, vec3f(0.3, 0.6, 0.1));
 }
 
+// Whether transparent surfaces are drawn, after all opaque ones.
+override BLENDS: bool = false;
+
+// The color of a surface with its opacity, premultiplied; opaque unless transparent surfaces
+// are drawn.
+fn painted(color: vec3f, material: MaterialUniform) -> vec4f {
+    let opacity = select(1.0, clamp(material.diffuse.a, 0.0, 1.0), BLENDS);
+    return vec4f(color, 1.0) * opacity;
+}
+
 // The material of a range; its diffuse and ambient colors are multiplied by the color of the
 // vertices, and by the base texture if the model has texture coordinates.
 fn material_at(material_range: u32, texel: vec4f, color: vec4f) -> MaterialUniform {

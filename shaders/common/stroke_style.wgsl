@@ -22,6 +22,10 @@ struct StrokeUniform {
     index_count: u32,
     // 1 if edges hidden by their own solid are drawn.
     shows_hidden: u32,
+    // Factor of the opacity behind transparent surfaces.
+    behind_glass: f32,
+    unused: u32,
+    padding: vec2u,
     // For vertex shaders that detect features.
     classes: ClassTable,
 }

@@ -15,6 +15,8 @@
 // of the line hides a fragment, so that a wide stroke ends where another body begins.
 #import <common/frame.wgsl>
 #import <common/fill_depth.wgsl>
+#import <common/glass_depth.wgsl>
+#import <common/stroke_style.wgsl>
 #import <common/stroke_graph.wgsl>
 
 // Rust twin: MITRE_LIMIT in crates/strokes/src/style/link_style.rs.
@@ -24,6 +26,9 @@ const MITRE_LIMIT: f32 = 4.0;
 const SHARED_PX: f32 = 0.5;
 
 override IS_TEXTURED: bool = false;
+
+// Whether surfaces of the scene are transparent.
+override HAS_GLASS: bool = false;
 
 @group(1) @binding(1) var brush: texture_2d<f32>;
 @group(1) @binding(2) var brush_sampler: sampler;
@@ -165,7 +170,12 @@ fn ribbon_fragment(in: RibbonVarying) -> @location(0) vec4f {
         coverage = 0.0;
     }
     if in.depth_and_near.z > 0.0 && coverage > 0.0 {
-        coverage *= share_in_front(depth, in.depth_and_near.z, vec2i(in.position.xy));
+        let pixel = vec2i(in.position.xy);
+        coverage *= share_in_front(depth, in.depth_and_near.z, filled_depths(pixel));
+        if HAS_GLASS {
+            let seen = share_in_front(depth, in.depth_and_near.z, glass_depths(pixel));
+            coverage *= mix(stroke.behind_glass, 1.0, seen);
+        }
     }
     let opacity = mix(in.u_and_opacity.z, in.u_and_opacity.w, t);
     coverage *= opacity;
@@ -185,17 +195,16 @@ fn ribbon_fragment(in: RibbonVarying) -> @location(0) vec4f {
     return vec4f(coverage);
 }
 
-// The share of a pixel's samples whose fill is at most near_px in front of a depth.
-fn share_in_front(depth: f32, near_px: f32, pixel: vec2i) -> f32 {
+// The share of a pixel's samples whose surface is at most near_px in front of a depth.
+fn share_in_front(depth: f32, near_px: f32, surface: vec4f) -> f32 {
     let here = distance_of(depth);
     let nearest = here - near_px / px_per_unit_at(here);
-    // Without a fill, this is the far plane.
-    let filled = filled_depths(pixel);
+    // Without a surface, this is the far end of the scene.
     let behind = vec4f(
-        f32(distance_of(filled.x) >= nearest),
-        f32(distance_of(filled.y) >= nearest),
-        f32(distance_of(filled.z) >= nearest),
-        f32(distance_of(filled.w) >= nearest),
+        f32(distance_of(surface.x) >= nearest),
+        f32(distance_of(surface.y) >= nearest),
+        f32(distance_of(surface.z) >= nearest),
+        f32(distance_of(surface.w) >= nearest),
     );
     return dot(behind, vec4f(0.25));
 }

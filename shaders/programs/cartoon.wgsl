@@ -57,5 +57,5 @@ fn cartoon(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @locati
     let white = mix(own, vec3f(1.0), clamp(intensity(material.specular.rgb), 0.0, 1.0));
     let bright = params.bright * select(vec3f(1.0), white, is_own);
     let color = mix(lit * own, bright, highlight * f32(params.has_specular));
-    return vec4f(color * frame.light_color, 1.0);
+    return painted(color * frame.light_color, material);
 }

@@ -23,5 +23,5 @@ fn gooch(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @location
     let cool = params.blue + params.alpha * material.diffuse.rgb;
     let warmth = 0.5 * (1.0 + dot(surface.normal, surface.to_light));
     let glint = specular_factor(surface, material.specular.w) * material.specular.rgb;
-    return vec4f(mix(cool, warm, warmth) + params.highlight * glint, 1.0);
+    return painted(mix(cool, warm, warmth) + params.highlight * glint, material);
 }

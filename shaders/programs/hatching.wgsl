@@ -94,7 +94,7 @@ fn hatched(
     }
     let material = material_at(material_range, texel, color);
     let ink = select(params.ink_color, material.diffuse.rgb, params.from_material == 1u);
-    return vec4f(mix(ink, params.paper_color, level), 1.0);
+    return painted(mix(ink, params.paper_color, level), material);
 }
 
 @vertex

@@ -9,5 +9,5 @@ fn phong(at: SurfaceVarying, @builtin(front_facing) is_front: bool) -> @location
     let material = material_at(at.material_range, texel, at.color);
     let lit = diffuse_factor(surface) * material.diffuse.rgb
         + specular_factor(surface, material.specular.w) * material.specular.rgb;
-    return vec4f(material.ambient.rgb + frame.light_color * lit, 1.0);
+    return painted(material.ambient.rgb + frame.light_color * lit, material);
 }

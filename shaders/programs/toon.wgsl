@@ -45,7 +45,7 @@ fn stepped(light: f32, light_a_pixel: f32, material: MaterialUniform) -> vec4f {
     }
     let color = params.ambient * material.ambient.rgb
         + frame.light_color * step * material.diffuse.rgb;
-    return vec4f(color, 1.0);
+    return painted(color, material);
 }
 
 @fragment

@@ -10,5 +10,5 @@ fn unlit(at: SurfaceVarying) -> @location(0) vec4f {
     let laid = textureSample(texture, texture_sampler, at.texcoord);
     cut(at);
     let material = material_at(at.material_range, texel, at.color);
-    return vec4f(material.diffuse.rgb * mix(vec3f(1.0), laid.rgb, laid.a), 1.0);
+    return painted(material.diffuse.rgb * mix(vec3f(1.0), laid.rgb, laid.a), material);
 }

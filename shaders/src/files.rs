@@ -29,6 +29,8 @@ pub const COMMON: &[EmbeddedFile] = &[
     embedded!("common/fill_object_of_pixels.wgsl"),
     embedded!("common/fill_object_of_samples.wgsl"),
     embedded!("common/frame.wgsl"),
+    embedded!("common/glass_depth_of_pixels.wgsl"),
+    embedded!("common/glass_depth_of_samples.wgsl"),
     embedded!("common/light.wgsl"),
     embedded!("common/line_class.wgsl"),
     embedded!("common/mesh.wgsl"),
@@ -79,6 +81,9 @@ pub const STROKES: &[EmbeddedFile] = &[
     embedded!("stroke_expanded.wgsl"),
     embedded!("stroke_face_normals.wgsl"),
     embedded!("stroke_listed.wgsl"),
+    embedded!("glass_layer.wgsl"),
+    embedded!("glass_sum.wgsl"),
+    embedded!("stroke_behind_glass.wgsl"),
     embedded!("stroke_over_surface.wgsl"),
     embedded!("stroke_replicated.wgsl"),
     embedded!("stroke_replicated_16.wgsl"),
@@ -132,7 +137,7 @@ pub fn all() -> impl Iterator<Item = &'static EmbeddedFile> {
 
 /// The text of a file, by its path from the shader folder.
 ///
-/// Four paths are placeholders that shaders import and a caller of
+/// Five paths are placeholders that shaders import and a caller of
 /// [`ShaderSource::embedded_with`](crate::ShaderSource::embedded_with) puts a file in;
 /// here they stand for the usual one.
 #[must_use]
@@ -142,6 +147,7 @@ pub fn text(path: &str) -> Option<&'static str> {
         "common/edge_faces.wgsl" => "common/faces_indexed.wgsl",
         "common/fill_depth.wgsl" => "common/fill_depth_of_pixels.wgsl",
         "common/fill_object.wgsl" => "common/fill_object_of_pixels.wgsl",
+        "common/glass_depth.wgsl" => "common/glass_depth_of_pixels.wgsl",
         _ => path,
     };
     all().find(|(known, _)| *known == path).map(|(_, text)| *text)

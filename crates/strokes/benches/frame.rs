@@ -86,7 +86,9 @@ impl Contender {
 impl Runner {
     fn new(gpu: &Gpu, mesh: &EdgeMesh, formats: TargetFormats, contender: &Contender) -> Self {
         let Contender { layout, stage, .. } = *contender;
-        let mut renderer = Renderer::new(gpu, RendererOptions { layout, stage, formats }).unwrap();
+        let mut renderer =
+            Renderer::new(gpu, RendererOptions { layout, stage, ..RendererOptions::new(formats) })
+                .unwrap();
         let style = renderer.prepare(gpu, &contender.style).unwrap();
         let options = MeshOptions { layout, links: style.is_linked(), ..MeshOptions::default() };
         let buffers = Arc::new(MeshBuffers::new(&gpu.device, mesh, options).unwrap());

@@ -256,6 +256,7 @@ impl Lines {
             styles: &self.styles,
             view: &self.view,
             fill: Fill::Done,
+            glass_depth: None,
             overview: None,
             resolves: true,
             timer: None,

@@ -90,6 +90,7 @@ impl Studio {
             styles,
             view,
             fill,
+            glass_depth: None,
             overview: None,
             resolves: true,
             timer: None,

@@ -317,7 +317,8 @@ fn no_view_draws_what_is_no_number() {
         &["strokes.placement=inside", "strokes.brush=fur", "ridge.kind=thin"],
     ];
     for how in crate::noop::layouts_and_stages() {
-        let options = RendererOptions { layout: how.0, stage: how.1, formats };
+        let options =
+            RendererOptions { layout: how.0, stage: how.1, ..RendererOptions::new(formats) };
         let mut renderer = Renderer::new(gpu, options).unwrap();
         for (mesh_name, mesh) in awkward_meshes() {
             let buffers = Arc::new(MeshBuffers::new(&gpu.device, &mesh, how.0).unwrap());
@@ -418,8 +419,9 @@ fn what_is_near_is_drawn_whatever_is_far() {
         let with_stray = cube_with(&stray, &[&[0, 1, 2]]);
         for style in ["ink", "linked", "phong", "hidden_line"] {
             let technique = technique(style, &[]);
-            let [wanted, found] = [&alone, &with_stray]
-                .map(|mesh| scene_picture(&scene_of(mesh), &[technique.clone()], 300, &camera));
+            let [wanted, found] = [&alone, &with_stray].map(|mesh| {
+                scene_picture(&scene_of(mesh), std::slice::from_ref(&technique), 300, &camera)
+            });
             // In the box of the larger mesh, turned-away edges are left to the depth test.
             let differing = differing_pixels(&wanted, &found);
             assert!(differing < 12, "{style}, {name}: {differing} pixels");
@@ -433,7 +435,7 @@ fn what_is_near_is_drawn_whatever_is_far() {
     let on_ground = cube_with(&ground, &[&[3, 2, 1, 0]]);
     let ink = ink_with(&[]);
     let [wanted, found] = [&alone, &on_ground]
-        .map(|mesh| scene_picture(&scene_of(mesh), &[ink.clone()], 300, &camera));
+        .map(|mesh| scene_picture(&scene_of(mesh), std::slice::from_ref(&ink), 300, &camera));
     let ink_of = |picture: &RgbaImage| count(picture, |[red, ..]| red < 128);
     let differing = differing_pixels(&wanted, &found);
     assert!(ink_of(&wanted) > 500 && differing < 12, "{differing} of {}", ink_of(&wanted));

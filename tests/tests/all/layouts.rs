@@ -134,6 +134,9 @@ fn mesh_layouts() -> BTreeMap<String, Layout> {
             set_index,
             index_count,
             shows_hidden,
+            behind_glass,
+            unused,
+            padding,
             classes
         }),
     ])
@@ -303,7 +306,7 @@ fn structs_in_buffers_are_laid_out_alike_and_found_on_both_sides() {
 }
 
 /// Constants that only a shader has.
-const OF_SHADERS: [&str; 43] = [
+const OF_SHADERS: [&str; 44] = [
     "CROSS",
     "DIAGONALS",
     "NOWHERE",
@@ -314,6 +317,7 @@ const OF_SHADERS: [&str; 43] = [
     "WORDS_PER_EDGE",
     "START_PX",
     "OWN_REACH",
+    "SAME_DEPTH",
     "GROUP",
     "BREAK",
     "CORNER",

@@ -24,6 +24,8 @@ mod gpu_device;
 #[cfg(feature = "gpu")]
 mod gpu_edges;
 #[cfg(feature = "gpu")]
+mod gpu_glass;
+#[cfg(feature = "gpu")]
 mod gpu_graph;
 #[cfg(feature = "gpu")]
 mod gpu_instances;

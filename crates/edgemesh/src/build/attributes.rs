@@ -2,6 +2,7 @@
 
 use super::faces::FaceSources;
 use crate::edge_mesh::EdgeFlags;
+use crate::index::to_u32;
 use crate::model::{Attributes, Model, Smoothing};
 
 /// Attributes by face.
@@ -46,6 +47,21 @@ impl FaceAttributes {
             materials: ByFace::of(model, sources, |run| run.material),
             smoothing: ByFace::of(model, sources, |run| run.smoothing),
         }
+    }
+
+    /// The faces through which others are seen: of materials that are not opaque.
+    pub(crate) fn see_through_faces(
+        &self,
+        model: &Model,
+        face_count: usize,
+    ) -> impl Iterator<Item = usize> {
+        let is_seen_through: Vec<bool> =
+            model.materials.iter().map(|material| !material.is_opaque()).collect();
+        let count = if is_seen_through.contains(&true) { face_count } else { 0 };
+        (0..count).filter(move |&face| {
+            let material = self.materials.get(to_u32(face)) as usize;
+            is_seen_through.get(material).copied().unwrap_or(false)
+        })
     }
 
     /// The edges across which shading of a face is smooth.

@@ -116,11 +116,13 @@ impl Components {
     /// on the edges of components without an outside.
     ///
     /// A component is closed if each of its edges has two faces with the same winding; its faces
-    /// look outward if the volume that it encloses is positive.
+    /// look outward if the volume that it encloses is positive. One with a face of
+    /// `see_through_faces` hides nothing, as an open one.
     pub(crate) fn mark_solids(
         &self,
         measures: &[Measures],
         has_outside: &[bool],
+        see_through_faces: impl Iterator<Item = usize>,
         records: &mut [EdgeRecord],
     ) {
         let opens = EdgeFlags::BOUNDARY | EdgeFlags::NON_MANIFOLD | EdgeFlags::CLASH;
@@ -132,7 +134,11 @@ impl Components {
                 }
             }
         });
-        let is_open: Vec<bool> = is_open.into_iter().map(AtomicBool::into_inner).collect();
+        let mut is_open: Vec<bool> = is_open.into_iter().map(AtomicBool::into_inner).collect();
+        let mut has_outside = has_outside.to_vec();
+        for component in see_through_faces.map(|face| self.of_face[face] as usize) {
+            (is_open[component], has_outside[component]) = (true, false);
+        }
         records.par_iter_mut().with_min_len(1 << 12).for_each(|record| {
             let component = self.of_face[record.face_a as usize] as usize;
             let is_solid = !is_open[component] && measures[component].six_volumes > 0.0;

@@ -83,7 +83,8 @@ impl SurfaceInput<'_> {
             outsides = self.outsides(faces, &surface);
         }
         let Surface { built, components, measures, .. } = &mut surface;
-        components.mark_solids(measures, &outsides.has_outside, &mut built.records);
+        let see_through = self.attributes.see_through_faces(faces.model, faces.triangles.len());
+        components.mark_solids(measures, &outsides.has_outside, see_through, &mut built.records);
         surface
     }
 }

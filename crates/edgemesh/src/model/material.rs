@@ -34,6 +34,14 @@ pub struct Material {
     pub diffuse_texture: Option<Texture>,
 }
 
+impl Material {
+    /// Whether nothing behind the material is seen through it.
+    #[must_use]
+    pub fn is_opaque(&self) -> bool {
+        self.opacity.is_none_or(|opacity| opacity >= 1.0)
+    }
+}
+
 /// A picture on a surface. Texture coordinate (0, 0) is its lower left corner, (1, 1) its upper
 /// right corner; it repeats beyond.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]

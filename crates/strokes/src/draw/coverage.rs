@@ -48,6 +48,7 @@ impl CoveragePipeline {
         device: &wgpu::Device,
         layouts: &StrokeLayouts,
         formats: &TargetFormats,
+        has_glass: bool,
     ) -> Result<Self, ShaderError> {
         let make = |label: &str, entries: &[wgpu::BindGroupLayoutEntry]| {
             bind_layout(device, label, entries)
@@ -71,7 +72,9 @@ impl CoveragePipeline {
         let ribbons = (0..CHANNELS)
             .map(|channel| {
                 [false, true].map(|is_textured| {
-                    ribbon_pipeline(device, &module, &groups, channel, is_textured)
+                    let overrides = [("IS_TEXTURED", is_textured), ("HAS_GLASS", has_glass)]
+                        .map(|(name, value)| (name, f64::from(u8::from(value))));
+                    ribbon_pipeline(device, &module, &groups, channel, &overrides)
                 })
             })
             .collect();
@@ -134,7 +137,7 @@ fn ribbon_pipeline(
     module: &wgpu::ShaderModule,
     groups: &[Option<&wgpu::BindGroupLayout>],
     channel: usize,
-    is_textured: bool,
+    constants: &[(&str, f64)],
 ) -> wgpu::RenderPipeline {
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("ribbons"),
@@ -152,7 +155,6 @@ fn ribbon_pipeline(
         wgpu::ColorWrites::BLUE,
         wgpu::ColorWrites::ALPHA,
     ];
-    let constants = [("IS_TEXTURED", f64::from(u8::from(is_textured)))];
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("ribbons"),
         layout: Some(&layout),
@@ -169,7 +171,7 @@ fn ribbon_pipeline(
             module,
             entry_point: Some("ribbon_fragment"),
             compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &constants,
+                constants,
                 ..Default::default()
             },
             targets: &[Some(wgpu::ColorTargetState {

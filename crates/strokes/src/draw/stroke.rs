@@ -32,7 +32,6 @@ use wgpu::{CompareFunction, StencilFaceState, StencilOperation};
 use crate::draw::stroke_layouts::StrokeLayouts;
 use crate::gpu::bind::uniform_buffer;
 use crate::gpu::device::Gpu;
-use crate::gpu::shader::embedded_module;
 use crate::gpu::target_formats::TargetFormats;
 use crate::mesh::capacity::BYTES_PER_VERTEX;
 use crate::mesh::layout::Layout;
@@ -67,6 +66,12 @@ pub struct StrokeUniform {
     pub index_count: u32,
     /// 1 if edges that their own solid hides are drawn.
     pub shows_hidden: u32,
+    /// Factor of the opacity behind transparent surfaces.
+    pub behind_glass: f32,
+    /// Unused.
+    pub unused: u32,
+    /// Unused.
+    pub padding: [u32; 2],
     /// The classes, for vertex shaders that detect.
     pub classes: ClassTable,
 }
@@ -92,6 +97,9 @@ impl StrokeUniform {
             set_index: to_u32(set_index),
             index_count: to_u32(style.kind.indices().len()),
             shows_hidden: u32::from(set.visibility == Visibility::Hidden),
+            behind_glass: style.behind_glass,
+            unused: 0,
+            padding: [0; 2],
             classes: *table,
         }
     }
@@ -147,23 +155,39 @@ pub(crate) struct StrokeVariant {
     pub(crate) is_textured: bool,
     /// See [`StrokeSet::lies_over_surface`].
     pub(crate) is_over_surface: bool,
+    /// Whether surfaces can be transparent.
+    pub(crate) has_glass: bool,
 }
 
 impl StrokeVariant {
-    pub(crate) fn new(source: VertexSource, set: &StrokeSet) -> Self {
+    pub(crate) fn new(source: VertexSource, set: &StrokeSet, has_glass: bool) -> Self {
         Self {
             source,
             visibility: set.visibility,
             is_thin: set.style.kind == LineKind::Thin,
             is_textured: set.style.brush.is_some(),
             is_over_surface: set.lies_over_surface(),
+            // Hidden strokes are hidden by opaque surfaces alone.
+            has_glass: has_glass && set.visibility != Visibility::Hidden,
         }
+    }
+
+    /// Whether fragments read the fill, or transparent surfaces.
+    pub(crate) const fn reads_fill(self) -> bool {
+        self.is_over_surface || self.has_glass
     }
 
     /// The shader of the fragments, and its entry point.
     const fn fragment(self, vertex_shader: &'static str, samples: u32) -> [&'static str; 2] {
         let entry = match (self.visibility, samples) {
-            _ if !self.is_over_surface => return [vertex_shader, "stroke_fragment"],
+            _ if !self.reads_fill() => return [vertex_shader, "stroke_fragment"],
+            (_, samples) if !self.is_over_surface => {
+                let entry = match samples {
+                    1 => "behind_glass_of_pixels",
+                    _ => "behind_glass_of_samples",
+                };
+                return ["stroke_behind_glass.wgsl", entry];
+            }
             (Visibility::Silhouette, 1) => "silhouette_of_pixels",
             (Visibility::Silhouette, _) => "silhouette_of_samples",
             (_, 1) => "over_surface_of_pixels",
@@ -190,7 +214,7 @@ impl StrokeVariant {
             VertexSource::All => layouts.groups(Some(&layouts.edges), Some(&layouts.planes)),
             VertexSource::Attributes => layouts.groups(Some(&layouts.object), None),
         };
-        if self.is_over_surface {
+        if self.reads_fill() {
             groups[0] = Some(&layouts.frame_fill);
         }
         groups
@@ -239,11 +263,15 @@ pub(crate) fn stroke_pipeline(
     let fragments = if fragment_shader == shader {
         module.clone()
     } else {
-        embedded_module(device, fragment_shader)?
+        formats.shader_module(device, fragment_shader)?
     };
     let is_hidden = variant.visibility == Visibility::Hidden;
-    let constants = [("IS_TEXTURED", variant.is_textured), ("IS_HIDDEN", is_hidden)]
-        .map(|(name, value)| (name, f64::from(u8::from(value))));
+    let constants = [
+        ("IS_TEXTURED", variant.is_textured),
+        ("IS_HIDDEN", is_hidden),
+        ("HAS_GLASS", variant.has_glass),
+    ]
+    .map(|(name, value)| (name, f64::from(u8::from(value))));
     let constants = if variant.is_over_surface { &constants[..] } else { &constants[..1] };
     let compilation_options = wgpu::PipelineCompilationOptions { constants, ..Default::default() };
     let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {

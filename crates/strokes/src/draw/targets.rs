@@ -183,18 +183,23 @@ impl Targets {
         }
     }
 
-    /// Binds the frame with the depth and stencil of these targets, by [`frame_fill_layout`].
+    /// Binds the frame with the depth and stencil of these targets, by [`frame_fill_layout`], and
+    /// with the depth of transparent surfaces. Without these, the fill stands for them: no visible
+    /// stroke is behind it.
     pub(crate) fn bind_with_frame(
         &self,
         device: &wgpu::Device,
         layout: &wgpu::BindGroupLayout,
         frame: &FrameBinding,
+        glass_depth: Option<&wgpu::TextureView>,
     ) -> wgpu::BindGroup {
-        let [depth, objects] = fill_bindings(self.formats.samples);
+        let [depth, objects, glass] = fill_bindings(self.formats.samples);
+        let glass_depth = glass_depth.unwrap_or(&self.depth_texture);
         let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
         let mut entries = vec![
             entry(0, frame.buffer().as_entire_binding()),
             entry(depth, wgpu::BindingResource::TextureView(&self.depth_texture)),
+            entry(glass, wgpu::BindingResource::TextureView(glass_depth)),
         ];
         let stencil = self.object_texture.as_ref();
         entries.extend(
@@ -359,8 +364,8 @@ impl Targets {
 }
 
 /// `@group(0)` of strokes that read the fill: the frame, the depth as a texture of one sample
-/// per pixel (binding 1) or of several (2), and the stencil of targets that have one in the
-/// same way (3 or 4).
+/// per pixel (binding 1) or of several (2), the stencil of targets that have one in the same way
+/// (3 or 4), and the depth of transparent surfaces (5 or 6).
 pub(crate) fn frame_fill_layout(
     device: &wgpu::Device,
     formats: &TargetFormats,
@@ -376,9 +381,12 @@ pub(crate) fn frame_fill_layout(
         },
         count: None,
     };
-    let [depth, objects] = fill_bindings(formats.samples);
-    let mut entries =
-        vec![uniform_entry(0, visibility), texture(depth, wgpu::TextureSampleType::Depth)];
+    let [depth, objects, glass] = fill_bindings(formats.samples);
+    let mut entries = vec![
+        uniform_entry(0, visibility),
+        texture(depth, wgpu::TextureSampleType::Depth),
+        texture(glass, wgpu::TextureSampleType::Depth),
+    ];
     if formats.has_stencil() {
         entries.push(texture(objects, wgpu::TextureSampleType::Uint));
     }
@@ -388,7 +396,7 @@ pub(crate) fn frame_fill_layout(
     })
 }
 
-/// The bindings of depth and stencil.
-const fn fill_bindings(samples: u32) -> [u32; 2] {
-    if samples > 1 { [2, 4] } else { [1, 3] }
+/// The bindings of depth, stencil, and depth of transparent surfaces.
+const fn fill_bindings(samples: u32) -> [u32; 3] {
+    if samples > 1 { [2, 4, 6] } else { [1, 3, 5] }
 }

@@ -46,10 +46,11 @@ impl TargetFormats {
     }
 
     /// The file that replaces a placeholder in shaders that read the fill:
-    /// `common/fill_depth.wgsl` or `common/fill_object.wgsl`.
+    /// `common/fill_depth.wgsl`, `common/fill_object.wgsl` or `common/glass_depth.wgsl`.
     fn shader_file(&self, placeholder: &str) -> Option<&'static str> {
         match (placeholder, self.samples > 1) {
             ("common/fill_depth.wgsl", true) => Some("common/fill_depth_of_samples.wgsl"),
+            ("common/glass_depth.wgsl", true) => Some("common/glass_depth_of_samples.wgsl"),
             ("common/fill_object.wgsl", _) if !self.has_stencil() => {
                 Some("common/fill_object_of_none.wgsl")
             }

@@ -387,7 +387,7 @@ impl FrameEncoder<'_> {
     /// Draws one stroke set of an object, edge by edge.
     fn strokes(&self, pass: &mut wgpu::RenderPass, object: &DrawnObject, index: usize) {
         let Some(set) = object.style.sets.get(index) else { return };
-        let with_fill = self.frame_fill.as_ref().filter(|_| set.lies_over_surface);
+        let with_fill = self.frame_fill.as_ref().filter(|_| set.reads_fill);
         pass.set_bind_group(0, with_fill.unwrap_or(self.frame), &[]);
         pass.set_bind_group(1, &set.style, &[]);
         let sizes = object.instance.mesh().chunks.iter().map(|chunk| chunk.size);

@@ -38,6 +38,10 @@ pub struct FrameRequest<'a> {
     pub view: &'a ViewState,
     /// How surfaces are drawn under the strokes.
     pub fill: Fill,
+    /// The depth of the nearest transparent surfaces, which are in neither `fill` nor the depth of
+    /// `targets`, if there are any: strokes behind them are fainter. Of the size and sample count
+    /// of the targets, drawn with [`push_away`](crate::push_away).
+    pub glass_depth: Option<&'a wgpu::TextureView>,
     /// The whole picture at a smaller size, if a tile is drawn: its depth decides where linked
     /// strokes are visible, so that they begin and end alike in all tiles.
     pub overview: Option<&'a Targets>,

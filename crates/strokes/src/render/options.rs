@@ -24,13 +24,16 @@ pub struct RendererOptions {
     pub stage: DetectionStage,
     /// The formats of all targets.
     pub formats: TargetFormats,
+    /// Whether frames can have transparent surfaces
+    /// ([`FrameRequest::glass_depth`](crate::FrameRequest::glass_depth)).
+    pub has_glass: bool,
 }
 
 impl RendererOptions {
     /// Meshes in the indexed layout, detected in compute shaders.
     #[must_use]
     pub const fn new(formats: TargetFormats) -> Self {
-        Self { layout: Layout::Indexed, stage: DetectionStage::Compute, formats }
+        Self { layout: Layout::Indexed, stage: DetectionStage::Compute, formats, has_glass: false }
     }
 
     /// The options with unsupported combinations replaced.

@@ -112,8 +112,9 @@ impl Pipelines {
         classes: &ClassTable,
     ) -> Result<PreparedStrokes, ShaderError> {
         let style = style_group(gpu, &self.layouts, &mut self.brushes, set, index, classes);
-        let RendererOptions { stage, layout, .. } = self.options;
-        let mut pipeline = |source| self.stroke(gpu, StrokeVariant::new(source, set));
+        let RendererOptions { stage, layout, has_glass, .. } = self.options;
+        let variant = |source| StrokeVariant::new(source, set, has_glass);
+        let mut pipeline = |source| self.stroke(gpu, variant(source));
         let kind = set.style.kind;
         let lies_over_surface = set.lies_over_surface();
         let vertices = match (stage, layout) {
@@ -139,6 +140,7 @@ impl Pipelines {
             kind,
             visibility: set.visibility,
             lies_over_surface,
+            reads_fill: variant(VertexSource::Listed).reads_fill(),
             is_linked: set.style.is_linked() && stage == DetectionStage::Compute,
             color: set.style.color,
             reach_px: set.style.reach_px(),
@@ -150,12 +152,12 @@ impl Pipelines {
 
     /// Builds the pipelines of the stroke graph once, if compute shaders detect.
     pub(crate) fn build_graph(&mut self, device: &wgpu::Device) -> Result<(), ShaderError> {
-        let RendererOptions { layout, stage, formats } = &self.options;
+        let RendererOptions { layout, stage, formats, has_glass } = &self.options;
         if *stage == DetectionStage::Compute && self.graph.is_none() {
             self.graph = Some(GraphPipelines {
                 link: LinkPipeline::new(device, &self.layouts.frame, *layout)?,
                 path: PathPipeline::new(device, &self.layouts.frame_fill, formats)?,
-                coverage: CoveragePipeline::new(device, &self.layouts, formats)?,
+                coverage: CoveragePipeline::new(device, &self.layouts, formats, *has_glass)?,
             });
         }
         Ok(())

@@ -36,6 +36,8 @@ pub(crate) struct PreparedStrokes {
     pub(crate) kind: LineKind,
     pub(crate) visibility: Visibility,
     pub(crate) lies_over_surface: bool,
+    /// Whether its fragments read the fill, or transparent surfaces.
+    pub(crate) reads_fill: bool,
     pub(crate) is_linked: bool,
     /// Premultiplied.
     pub(crate) color: [f32; 4],

@@ -81,6 +81,7 @@ impl Renderer {
             styles: &scene.styles,
             view: &scene.view,
             fill: Fill::Clear(background),
+            glass_depth: None,
             overview: None,
             resolves: true,
             timer: timer.map(|timer| timer.passes_from(0)),
@@ -115,12 +116,13 @@ impl Renderer {
         frame.link(encoder);
         frame.expand(encoder);
         let asks_for_fill = |placed: &Placed| {
-            placed.object.style.sets.iter().any(|set| set.lies_over_surface || set.is_linked)
+            placed.object.style.sets.iter().any(|set| set.reads_fill || set.is_linked)
         };
         let asks_for_fill = placed.iter().any(asks_for_fill);
         let with_fill = |targets: &Targets| {
             let layout = &pipelines.layouts.frame_fill;
-            asks_for_fill.then(|| targets.bind_with_frame(&gpu.device, layout, view.frame()))
+            let (device, frame, glass) = (&gpu.device, view.frame(), request.glass_depth);
+            asks_for_fill.then(|| targets.bind_with_frame(device, layout, frame, glass))
         };
         let encode = FrameEncoder {
             pipelines,

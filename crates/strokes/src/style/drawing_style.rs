@@ -52,6 +52,8 @@ pub struct StrokeStyle {
     /// The distances from the eye, in units of the scene, where strokes begin to
     /// fade and where nothing is left of them.
     pub fade: Option<[f32; 2]>,
+    /// Factor of the opacity behind transparent surfaces: 1 as elsewhere, 0 for nothing.
+    pub behind_glass: f32,
     /// How edges are linked into strokes; `None` draws each edge by itself, as the paper
     /// does. Thin lines and fins are never linked, nor is anything if vertex shaders detect.
     pub link: Option<LinkStyle>,
@@ -68,6 +70,7 @@ impl Default for StrokeStyle {
             parameterization: Parameterization::default(),
             brush: None,
             fade: None,
+            behind_glass: 0.4,
             link: None,
         }
     }

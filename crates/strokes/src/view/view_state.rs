@@ -95,6 +95,12 @@ impl ViewState {
         self.frame.bind_group()
     }
 
+    /// The buffer of the frame uniform, for bind groups of a program's own.
+    #[must_use]
+    pub const fn frame_buffer(&self) -> &wgpu::Buffer {
+        self.frame.buffer()
+    }
+
     pub(crate) const fn frame(&self) -> &FrameBinding {
         &self.frame
     }

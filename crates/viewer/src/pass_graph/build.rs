@@ -10,6 +10,7 @@ use strokes::{Gpu, MeshInstance, MeshOptions, TargetFormats, Targets, ViewState,
 use super::bindings::{Samplers, Sources};
 use super::builder::Builder;
 use super::copy_pass::CopyPass;
+use super::glass::GlassTargets;
 use super::ping_pong::PingPong;
 use super::pipeline_cache::PipelineCache;
 use super::scene_buffers::SceneBuffers;
@@ -31,6 +32,8 @@ use crate::technique::plan::{PassPlan, Plan, TexturePlan};
 pub(crate) struct GraphChange {
     /// None to keep the framebuffer.
     framebuffer: Option<Targets>,
+    /// None to keep those of the framebuffer.
+    glass: Option<GlassTargets>,
     textures: Vec<TextureChange>,
     instances: Vec<MeshInstance>,
     surfaces: SurfacesChange,
@@ -70,6 +73,7 @@ impl PassGraph {
                 samplers: Samplers::new(device),
             },
             surfaces: None,
+            glass: None,
             strokes: StrokeRenderers::default(),
             steps: Vec::new(),
             pipelines: PipelineCache::default(),
@@ -115,27 +119,37 @@ impl PassGraph {
         let is_same =
             self.framebuffer.size == options.size && *self.framebuffer.formats() == formats;
         let framebuffer = (!is_same).then(|| Targets::new(device, options.size, formats));
-        let textures = self.texture_changes(device, plan, options.size);
-        let pipelines = RefCell::new(std::mem::take(&mut self.pipelines));
-        let frame = &frame_layout(device);
-        let builder = Builder { gpu, input, formats, frame, pipelines };
         let built = match &surfaces {
             SurfacesChange::New(surfaces) => Some(surfaces),
             SurfacesChange::Kept => self.surfaces.as_ref(),
             SurfacesChange::Dropped => None,
         };
+        let glass = built
+            .filter(|surfaces| surfaces.has_glass() && (!is_same || self.glass.is_none()))
+            .map(|_| {
+                let framebuffer = framebuffer.as_ref().unwrap_or(&self.framebuffer);
+                GlassTargets::new(gpu, framebuffer, &self.view)
+            })
+            .transpose()?;
+        let textures = self.texture_changes(device, plan, options.size);
+        let pipelines = RefCell::new(std::mem::take(&mut self.pipelines));
+        let frame = &frame_layout(device);
+        let builder = Builder { gpu, input, formats, frame, pipelines };
         let steps = groups.iter().zip(strokes);
         let steps = steps.map(|(group, strokes)| builder.step(group, built, strokes));
         let steps: Result<Vec<Step>, Error> = steps.collect();
         self.pipelines = builder.pipelines.into_inner();
-        Ok(GraphChange { framebuffer, textures, instances, surfaces, steps: steps? })
+        Ok(GraphChange { framebuffer, glass, textures, instances, surfaces, steps: steps? })
     }
 
     /// Applies a change that was built from this graph.
     pub(crate) fn apply(&mut self, change: GraphChange) {
-        let GraphChange { framebuffer, textures, instances, surfaces, steps } = change;
+        let GraphChange { framebuffer, glass, textures, instances, surfaces, steps } = change;
         if let Some(framebuffer) = framebuffer {
             self.framebuffer = framebuffer;
+        }
+        if glass.is_some() {
+            self.glass = glass;
         }
         self.instances = instances;
         match surfaces {

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use strokes::{Gpu, TargetFormats};
 
-use super::pipeline::{Geometry, GraphLayouts, PassPipeline, PipelineTarget, Programs};
+use super::pipeline::{DepthUse, Geometry, GraphLayouts, PassPipeline, PipelineTarget, Programs};
 use super::pipeline_cache::PipelineCache;
 use super::textures::wgpu_format;
 use super::{GraphInput, blend};
@@ -49,6 +49,7 @@ impl Builder<'_> {
                 is_pushed: false,
                 writes_depth: false,
                 clips,
+                depth_use: DepthUse::Nearest,
             },
         }
     }

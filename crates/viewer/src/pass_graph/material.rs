@@ -1,7 +1,10 @@
 //! Materials for shaders, with defaults for values that a model does not have.
 
 use bytemuck::{Pod, Zeroable};
+use edgemesh::edge_mesh::FillMesh;
 use edgemesh::model::Material;
+
+use crate::scene::models::Scene;
 
 /// A material for the Phong model. WGSL twin: `Material` in
 /// `shaders/common/surface.wgsl`.
@@ -21,6 +24,21 @@ const AMBIENT_SHARE: f32 = 0.2;
 
 /// The default specular exponent.
 const DEFAULT_SHININESS: f32 = 32.0;
+
+/// Whether surfaces behind a material show through it.
+pub(crate) fn is_transparent(material: &Material) -> bool {
+    !material.is_opaque()
+}
+
+/// Whether any surface of a scene is transparent.
+pub(crate) fn has_glass(scene: &Scene) -> bool {
+    let of_mesh = |fill: &FillMesh| {
+        let materials =
+            fill.runs.iter().filter_map(|run| fill.materials.get(run.material as usize));
+        materials.into_iter().any(is_transparent)
+    };
+    scene.models.iter().any(|model| of_mesh(&model.mesh.fill))
+}
 
 impl Default for MaterialUniform {
     /// The material of surfaces without one: light gray with a soft highlight.

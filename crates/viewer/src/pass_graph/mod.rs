@@ -12,7 +12,8 @@
 //!
 //! - `scene_pass`, `screen_pass`, `ping_pong`, `copy_pass`, `stroke_pass`: the core
 //!   components (thesis, section 2.3); `docs/techniques.md` lists the steps to add one.
-//! - `surface`, `material`, `textures`: surfaces and textures of passes.
+//! - `surface`, `material`, `textures`: surfaces and textures of passes; `glass`: transparent
+//!   surfaces.
 //! - `bindings`, `params`, `pipeline`, `blend`: parameters, textures and targets of
 //!   programs; `pipeline_cache`: pipelines built before.
 //! - `build`: builds a graph from a plan, and reuses an earlier graph; `builder`: the shared
@@ -23,6 +24,7 @@ mod blend;
 mod build;
 mod builder;
 mod copy_pass;
+mod glass;
 pub(crate) mod material;
 mod params;
 mod ping_pong;
@@ -44,6 +46,7 @@ use strokes::{
 
 use self::bindings::Sources;
 use self::copy_pass::CopyPass;
+use self::glass::GlassTargets;
 pub use self::material::MaterialUniform;
 use self::ping_pong::PingPong;
 use self::pipeline_cache::PipelineCache;
@@ -107,6 +110,8 @@ pub(crate) struct PassGraph {
     scene: SceneBuffers,
     sources: Sources,
     surfaces: Option<Surfaces>,
+    /// If any surface is transparent.
+    glass: Option<GlassTargets>,
     strokes: StrokeRenderers,
     steps: Vec<Step>,
     pipelines: PipelineCache,
@@ -177,6 +182,9 @@ struct Encoding<'a> {
     view: &'a ViewState,
     instances: &'a [MeshInstance],
     surfaces: Option<&'a Surfaces>,
+    glass: Option<&'a GlassTargets>,
+    /// Whether the depth of transparent surfaces is that of the frame.
+    has_glass_depth: bool,
     overview: Option<&'a Targets>,
     /// Whether nothing was drawn to the framebuffer in this frame yet.
     is_fresh: bool,
@@ -254,9 +262,16 @@ impl PassGraph {
 
     /// Changes the size of the picture. Only textures whose size depends on it are made
     /// again; `plan` is the plan of this graph.
-    pub(crate) fn resize(&mut self, device: &wgpu::Device, plan: &Plan, size: [u32; 2]) {
+    ///
+    /// # Errors
+    /// If a built-in shader has a mistake.
+    pub(crate) fn resize(&mut self, gpu: &Gpu, plan: &Plan, size: [u32; 2]) -> Result<(), Error> {
+        let device = &gpu.device;
         let formats = *self.framebuffer.formats();
         self.framebuffer = Targets::new(device, size, formats);
+        if self.glass.is_some() {
+            self.glass = Some(GlassTargets::new(gpu, &self.framebuffer, &self.view)?);
+        }
         let mut is_new = Vec::with_capacity(plan.textures.len());
         for (texture, plan) in self.sources.generated.iter_mut().zip(&plan.textures) {
             is_new.push(!texture.is_for(plan, size, texture.is_double()));
@@ -271,6 +286,7 @@ impl PassGraph {
                 pass.resize(device, size);
             }
         }
+        Ok(())
     }
 
     /// Encodes a frame, to be submitted before the next one is encoded.
@@ -294,6 +310,8 @@ impl PassGraph {
             view: &self.view,
             instances: &self.instances,
             surfaces: self.surfaces.as_ref(),
+            glass: self.glass.as_ref(),
+            has_glass_depth: false,
             overview: tile.and_then(|input| input.overview),
             is_fresh: true,
             has_depth: false,

@@ -11,7 +11,7 @@ use super::Encoding;
 use super::bindings::{Replacement, Sources};
 use super::builder::Builder;
 use super::params::Iteration;
-use super::pipeline::{GroupBuffers, PassPipeline, PipelineTarget};
+use super::pipeline::{DepthUse, GroupBuffers, PassPipeline, PipelineTarget};
 use super::screen_pass::{color_attachment, draw, own_program, screen_pipeline};
 use super::textures::target_texture;
 use crate::error::Error;
@@ -56,6 +56,7 @@ impl PingPong {
             blend: None,
             is_pushed: false,
             writes_depth: false,
+            depth_use: DepthUse::Nearest,
             clips: options.clips,
         };
         let count = view.run_count;

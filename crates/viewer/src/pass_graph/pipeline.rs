@@ -57,6 +57,26 @@ pub(crate) struct PipelineTarget {
     pub(crate) writes_depth: bool,
     /// Whether there are clip planes.
     pub(crate) clips: bool,
+    pub(crate) depth_use: DepthUse,
+}
+
+/// The target of a pipeline that draws the depth alone.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct DepthTarget {
+    pub(crate) format: wgpu::TextureFormat,
+    pub(crate) samples: u32,
+    pub(crate) bias: wgpu::DepthBiasState,
+    /// Whether there are clip planes.
+    pub(crate) clips: bool,
+}
+
+/// How surfaces use the depth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum DepthUse {
+    /// The nearest surface is kept.
+    Nearest,
+    /// Only where the depth is that of the surface; nothing is written.
+    Same,
 }
 
 impl PipelineTarget {
@@ -74,6 +94,7 @@ impl PipelineTarget {
             is_pushed: true,
             writes_depth: false,
             clips,
+            depth_use: DepthUse::Nearest,
         }
     }
 }
@@ -132,6 +153,74 @@ impl PassPipeline {
         Ok(Self { pipeline, groups: [pass, vertex].into_iter().flatten().collect() })
     }
 
+    /// Builds a pipeline that draws the depth of surfaces alone, with the vertex program of a pass.
+    pub(crate) fn of_depth(
+        gpu: &Gpu,
+        shared: GraphLayouts,
+        (label, vertex, reads): (&str, &Program, &[TextureRead]),
+        (module, entry_point): (&wgpu::ShaderModule, &str),
+        target: DepthTarget,
+    ) -> Result<Self, Error> {
+        let DepthTarget { format, samples, bias, clips } = target;
+        let device = &gpu.device;
+        let groups: Vec<PassGroup> = [PASS_GROUP, VERTEX_GROUP]
+            .into_iter()
+            .map(|index| (index, GroupPlan::new(index, &[vertex], reads)))
+            .filter(|(_, plan)| !plan.is_empty())
+            .map(|(index, plan)| PassGroup { index, layout: plan.layout(device), plan })
+            .collect();
+        let own = |index| groups.iter().find(|group| group.index == index);
+        let layouts = [
+            Some(shared.frame),
+            own(PASS_GROUP).map(|group| &group.layout),
+            Some(shared.surface),
+            own(VERTEX_GROUP).map(|group| &group.layout),
+        ];
+        let used = layouts.iter().rposition(Option::is_some).map_or(0, |last| last + 1);
+        let constants = [("CLIPS", f64::from(u8::from(clips)))];
+        let options =
+            |constants| wgpu::PipelineCompilationOptions { constants, ..Default::default() };
+        let faults = device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(label),
+            bind_group_layouts: &layouts[..used],
+            immediate_size: 0,
+        });
+        let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(label),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: &program_module(vertex, device, label),
+                entry_point: Some(&vertex.function),
+                compilation_options: options(if vertex.asks_for_clips {
+                    &constants[..]
+                } else {
+                    &[]
+                }),
+                buffers: &VERTEX_BUFFERS,
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format,
+                depth_write_enabled: Some(true),
+                depth_compare: Some(wgpu::CompareFunction::Greater),
+                stencil: wgpu::StencilState::default(),
+                bias,
+            }),
+            multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
+            fragment: Some(wgpu::FragmentState {
+                module,
+                entry_point: Some(entry_point),
+                compilation_options: options(&constants),
+                targets: &[],
+            }),
+            multiview_mask: None,
+            cache: None,
+        });
+        found(faults, label)?;
+        Ok(Self { pipeline, groups })
+    }
+
     /// Uniform buffers with the values of `pass` for each group.
     pub(crate) fn buffers(
         &self,
@@ -180,18 +269,25 @@ fn render_pipeline(
             })
         })
         .collect();
-    let constants = [("CLIPS", f64::from(u8::from(target.clips)))];
-    let options = |program: &Program| wgpu::PipelineCompilationOptions {
-        constants: if program.asks_for_clips { &constants } else { &[] },
-        ..Default::default()
+    let constants = |program: &Program| {
+        let blends = target.depth_use == DepthUse::Same;
+        let known = [
+            (program.asks_for_clips, "CLIPS", target.clips),
+            (program.asks_for_blends, "BLENDS", blends),
+        ];
+        let asked = known.into_iter().filter(|(is_asked_for, ..)| *is_asked_for);
+        let asked = asked.map(|(_, name, value)| (name, f64::from(u8::from(value))));
+        asked.collect::<Vec<(&str, f64)>>()
     };
+    let [of_vertex, of_fragment] = [vertex, fragment].map(constants);
+    let options = |constants| wgpu::PipelineCompilationOptions { constants, ..Default::default() };
     let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(label),
         layout: Some(layout),
         vertex: wgpu::VertexState {
             module: &modules[0],
             entry_point: Some(&vertex.function),
-            compilation_options: options(vertex),
+            compilation_options: options(&of_vertex),
             buffers: if geometry == Geometry::Surfaces { &VERTEX_BUFFERS } else { &[] },
         },
         primitive: wgpu::PrimitiveState::default(),
@@ -200,14 +296,19 @@ fn render_pipeline(
         fragment: Some(wgpu::FragmentState {
             module: &modules[1],
             entry_point: Some(&fragment.function),
-            compilation_options: options(fragment),
+            compilation_options: options(&of_fragment),
             targets: &targets,
         }),
         multiview_mask: None,
         cache: None,
     });
+    found(faults, label).map(|()| pipeline)
+}
+
+/// The first fault since `faults` was opened, as one of the programs of a pass.
+fn found(faults: wgpu::ErrorScopeGuard, label: &str) -> Result<(), Error> {
     match pollster::block_on(faults.pop()) {
-        None => Ok(pipeline),
+        None => Ok(()),
         Some(error) => {
             let causes = std::iter::successors(Some(&error as &dyn std::error::Error), |error| {
                 error.source()
@@ -226,15 +327,16 @@ fn depth_state(
     target: &PipelineTarget,
 ) -> wgpu::DepthStencilState {
     let is_surface = geometry == Geometry::Surfaces;
-    let compare = if is_surface {
+    let compare = match (is_surface, target.depth_use) {
         // A second pass over the same scene is not hidden by the first.
-        wgpu::CompareFunction::GreaterEqual
-    } else {
-        wgpu::CompareFunction::Always
+        (true, DepthUse::Nearest) => wgpu::CompareFunction::GreaterEqual,
+        (true, DepthUse::Same) => wgpu::CompareFunction::Equal,
+        (false, _) => wgpu::CompareFunction::Always,
     };
+    let writes = is_surface && target.depth_use == DepthUse::Nearest;
     wgpu::DepthStencilState {
         format,
-        depth_write_enabled: Some(is_surface || target.writes_depth),
+        depth_write_enabled: Some(writes || target.writes_depth),
         depth_compare: Some(compare),
         stencil: wgpu::StencilState::default(),
         bias: if is_surface && target.is_pushed {

@@ -1,14 +1,15 @@
 //! `simple_render`: the surfaces of the scene with a vertex and a fragment program.
 
-use strokes::{Targets, TimedPasses};
+use strokes::{Gpu, Targets, TimedPasses};
 
 use super::Encoding;
 use super::bindings::Sources;
 use super::builder::Builder;
+use super::glass::Glass;
 use super::params::Iteration;
-use super::pipeline::{Geometry, GraphLayouts, GroupBuffers, PassPipeline, Programs};
+use super::pipeline::{BoundGroups, Geometry, GraphLayouts, GroupBuffers, PassPipeline, Programs};
 use super::screen_pass::{color_attachment, screen_vertex};
-use super::surface::Surfaces;
+use super::surface::{Ranges, Surfaces};
 use crate::error::Error;
 use crate::technique::core_view::SimpleRender;
 use crate::technique::pass::Pass;
@@ -17,22 +18,31 @@ use crate::technique::plan::{PassPlan, Target};
 /// Draws the surfaces of the scene.
 #[derive(Debug)]
 pub(crate) struct ScenePass {
-    surfaces: PassPipeline,
+    surfaces: ValuedPipeline,
+    /// If the pass draws to the picture, and a surface is transparent.
+    glass: Option<Glass<ValuedPipeline>>,
     background: Option<Background>,
-    /// Values of variables: first those of objects without an override, then those of overrides.
-    values: Vec<Values>,
-    /// For each object an index in `values`; none for objects that are not drawn.
+    /// Whether the colors of vertices are drawn: first for objects without an override, then for
+    /// overrides.
+    vertex_colors: Vec<bool>,
+    /// For each object an index of values; none for objects that are not drawn.
     value_indices: Vec<Option<usize>>,
     clears: bool,
     clear_color: wgpu::Color,
 }
 
-/// The values of the variables of a pass.
+/// A pipeline with parameters for all values of the variables of a pass.
 #[derive(Debug)]
-struct Values {
-    /// Parameters of the programs.
-    buffers: GroupBuffers,
-    has_vertex_colors: bool,
+struct ValuedPipeline {
+    pipeline: PassPipeline,
+    buffers: Vec<GroupBuffers>,
+}
+
+impl ValuedPipeline {
+    fn bind(&self, gpu: &Gpu, sources: &mut Sources) -> Result<Vec<BoundGroups>, Error> {
+        let bind = |buffers| self.pipeline.bind(gpu, buffers, sources, None);
+        self.buffers.iter().map(bind).collect()
+    }
 }
 
 /// A program that draws the background.
@@ -72,18 +82,21 @@ impl ScenePass {
             }
             _ => None,
         };
-        let values_of = |pass: &Pass, view: &SimpleRender| Values {
-            buffers: buffers_of(&pipeline, pass),
-            has_vertex_colors: view.has_vertex_colors,
+        let glass = if is_paper && surfaces.has_glass() && target.blend.is_none() {
+            Some(Glass::new(builder, layouts, programs, &target)?)
+        } else {
+            None
         };
-        let mut values = vec![values_of(pass, view)];
+        let mut passes = vec![pass];
+        let mut vertex_colors = vec![view.has_vertex_colors];
         let of_scene = pass.is_rendered().then_some(0);
         let mut of_override = vec![of_scene; input.overrides.len()];
         for (at, technique) in input.overrides.iter().enumerate() {
             let own = technique.pass(&pass.name).filter(|own| own.component == pass.component);
             if let Some(own) = own {
-                of_override[at] = own.is_rendered().then_some(values.len());
-                values.push(values_of(own, &SimpleRender::of(own)?));
+                of_override[at] = own.is_rendered().then_some(passes.len());
+                passes.push(own);
+                vertex_colors.push(SimpleRender::of(own)?.has_vertex_colors);
             }
         }
         let objects = input.scene.objects.iter();
@@ -94,10 +107,15 @@ impl ScenePass {
             false => view.clear_color.map(f64::from),
         };
         let clear_color = wgpu::Color { r: r * a, g: g * a, b: b * a, a };
+        let valued = |pipeline: &PassPipeline| ValuedPipeline {
+            pipeline: pipeline.clone(),
+            buffers: passes.iter().map(|pass| buffers_of(pipeline, pass)).collect(),
+        };
         Ok(Self {
-            surfaces: pipeline,
+            surfaces: valued(&pipeline),
+            glass: glass.map(|glass| glass.map(valued)),
             background,
-            values,
+            vertex_colors,
             value_indices: value_indices.collect(),
             clears: view.is_cleared,
             clear_color,
@@ -113,17 +131,13 @@ impl ScenePass {
         timer: Option<TimedPasses>,
     ) -> Result<(), Error> {
         let gpu = encoding.gpu;
-        let mut bind = |pipeline: &PassPipeline, buffers: &GroupBuffers| {
-            pipeline.bind(gpu, buffers, sources, None)
-        };
         let background = self.background.as_ref();
         let background = background
             .map(|Background { pipeline, buffers }| {
-                bind(pipeline, buffers).map(|groups| (pipeline, groups))
+                pipeline.bind(gpu, buffers, sources, None).map(|groups| (pipeline, groups))
             })
             .transpose()?;
-        let groups = self.values.iter().map(|values| bind(&self.surfaces, &values.buffers));
-        let groups = groups.collect::<Result<Vec<_>, Error>>()?;
+        let groups = self.surfaces.bind(gpu, sources)?;
         let (colors, depth) =
             self.attachments(encoding.framebuffer, encoding.is_fresh, plan, sources);
         if plan.target == Target::Framebuffer {
@@ -144,18 +158,57 @@ impl ScenePass {
             }
             pass.draw(0..3, 0..1);
         }
-        pass.set_pipeline(&self.surfaces.pipeline);
-        let Some(surfaces) = encoding.surfaces else { return Ok(()) };
+        let ranges = if self.glass.is_some() { Ranges::Opaque } else { Ranges::All };
+        self.record(&mut pass, encoding, &self.surfaces, &groups, ranges);
+        drop(pass);
+        self.encode_glass(encoder, encoding, sources)
+    }
+
+    /// Draws the transparent surfaces over the picture.
+    fn encode_glass(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        encoding: &mut Encoding,
+        sources: &mut Sources,
+    ) -> Result<(), Error> {
+        let Some((glass, targets)) = self.glass.as_ref().zip(encoding.glass) else {
+            return Ok(());
+        };
+        let gpu = encoding.gpu;
+        if let Some(layers) = &glass.layers {
+            let groups = [layers[0].bind(gpu, sources)?, layers[1].bind(gpu, sources)?];
+            targets.encode(encoder, encoding.framebuffer, encoding.view, |pass, at| {
+                self.record(pass, encoding, &layers[at], &groups[at], Ranges::Transparent);
+            });
+        }
+        let groups = glass.nearest.bind(gpu, sources)?;
+        targets.encode_nearest(encoder, encoding.view, |pass| {
+            self.record(pass, encoding, &glass.nearest, &groups, Ranges::Transparent);
+        });
+        encoding.has_glass_depth = true;
+        Ok(())
+    }
+
+    /// Draws ranges of the surfaces of all objects with a pipeline and its bound groups.
+    fn record(
+        &self,
+        pass: &mut wgpu::RenderPass,
+        encoding: &Encoding,
+        valued: &ValuedPipeline,
+        groups: &[BoundGroups],
+        ranges: Ranges,
+    ) {
+        let Some(surfaces) = encoding.surfaces else { return };
+        pass.set_pipeline(&valued.pipeline.pipeline);
         let states = encoding.view.objects().iter().zip(&self.value_indices);
         for (at, (state, values)) in states.enumerate() {
             let Some(values) = values.filter(|_| state.is_placed()) else { continue };
             for (index, group) in &groups[values] {
                 pass.set_bind_group(*index, group, &[]);
             }
-            let has_colors = self.values[values].has_vertex_colors;
-            surfaces.draw(&mut pass, encoding.instances, at, has_colors);
+            let has_colors = self.vertex_colors[values];
+            surfaces.draw(pass, encoding.instances, at, has_colors, ranges);
         }
-        Ok(())
     }
 
     /// The attachments; `is_fresh` if nothing was drawn to the framebuffer yet.

@@ -12,6 +12,8 @@ use strokes::{
     TargetFormats, TimedPasses,
 };
 
+use super::glass::GlassTargets;
+use super::material::has_glass;
 use super::stroke_style::style_of_passes;
 use super::{Encoding, GraphInput, GraphOptions};
 use crate::error::Error;
@@ -83,7 +85,8 @@ impl StrokeRenderers {
     ) -> Result<StrokeGroup, Error> {
         let GraphInput { scene, technique, overrides, options, .. } = *input;
         let GraphOptions { layout, stage, .. } = *options;
-        let options = RendererOptions { layout, stage, formats }.supported();
+        let has_glass = has_glass(scene);
+        let options = RendererOptions { layout, stage, formats, has_glass }.supported();
         let renderer = self.renderer(gpu, options)?;
         let style = |passes: &[&Pass], folders: &[std::path::PathBuf]| {
             style_of_passes(passes, folders, &scene.frame, scene.thresholds)
@@ -132,6 +135,10 @@ impl StrokeRenderers {
             styles: &group.styles,
             view: encoding.view,
             fill,
+            glass_depth: encoding
+                .glass
+                .filter(|_| encoding.has_glass_depth)
+                .map(GlassTargets::nearest),
             overview: encoding.overview,
             resolves: false,
             timer,

@@ -104,6 +104,7 @@ fn style_of(
         parameterization: view.parameterization,
         brush: brush_of(pass, view, folders)?,
         fade: view.fade.map(|distances| distances.map(scaled)),
+        behind_glass: view.behind_glass,
         link: view.is_linked.then(|| view.link.clone()),
     })
 }

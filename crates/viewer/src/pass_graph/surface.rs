@@ -16,7 +16,7 @@ use edgemesh::model::Material;
 use strokes::{Gpu, MaterialRange, MeshInstance, ViewState, upload_levels};
 use wgpu::util::DeviceExt as _;
 
-use super::material::MaterialUniform;
+use super::material::{MaterialUniform, is_transparent};
 use super::textures::{Images, averaged_levels, decode_image};
 use crate::error::ImageError;
 use crate::scene::models::Scene;
@@ -47,7 +47,7 @@ const fn vertex_buffer(
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct SurfaceRange {
-    /// Index of its material; under vertex colors another one ([`MaterialUniform::of_colored`]).
+    /// Index of its material; under vertex colors another one (`MaterialUniform::of_colored`).
     pub material: u32,
     /// Region id of its object.
     pub object_region: u32,
@@ -68,6 +68,8 @@ struct ModelMaterials {
     uniforms: wgpu::Buffer,
     /// The texture of each material.
     textures: Vec<wgpu::TextureView>,
+    /// Whether each material of the model is transparent.
+    is_transparent: Vec<bool>,
     group_count: u32,
 }
 
@@ -80,6 +82,16 @@ pub(crate) struct Surface {
     colored: Vec<wgpu::BindGroup>,
     /// The numbers of the material ranges.
     range_numbers: wgpu::Buffer,
+    /// Whether each range is transparent.
+    is_transparent: Vec<bool>,
+}
+
+/// The ranges of a surface that are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Ranges {
+    All,
+    Opaque,
+    Transparent,
 }
 
 /// The surfaces of a scene.
@@ -134,17 +146,23 @@ impl Surfaces {
         Self { layout, surfaces }
     }
 
-    /// Draws the surface of instance `at`, with the colors of its vertices if `has_colors`;
-    /// everything but `@group(2)` must be set.
+    /// Whether any surface is transparent.
+    pub(crate) fn has_glass(&self) -> bool {
+        self.surfaces.iter().any(|surface| surface.is_transparent.contains(&true))
+    }
+
+    /// Draws ranges of the surface of instance `at`, with the colors of its vertices if
+    /// `has_colors`; everything but `@group(2)` must be set.
     pub(crate) fn draw(
         &self,
         pass: &mut wgpu::RenderPass,
         instances: &[MeshInstance],
         at: usize,
         has_colors: bool,
+        ranges: Ranges,
     ) {
         if let (Some(surface), Some(instance)) = (self.surfaces.get(at), instances.get(at)) {
-            surface.draw(pass, instance, has_colors);
+            surface.draw(pass, instance, has_colors, ranges);
         }
     }
 }
@@ -213,8 +231,15 @@ impl ModelMaterials {
         Self {
             uniforms: storage(&gpu.device, "materials", bytemuck::cast_slice(&uniforms)),
             textures,
+            is_transparent: mesh.fill.materials.iter().map(is_transparent).collect(),
             group_count: to_u32(mesh.fill.groups.len()),
         }
+    }
+}
+
+impl ModelMaterials {
+    fn is_transparent(&self, range: &MaterialRange) -> bool {
+        self.is_transparent.get(range.material as usize).copied().unwrap_or(false)
     }
 }
 
@@ -279,6 +304,7 @@ impl Surface {
         Self {
             groups: groups(&uniforms, white),
             colored: colored.unwrap_or_default(),
+            is_transparent: ranges.iter().map(|range| materials.is_transparent(range)).collect(),
             range_numbers: device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some("range numbers"),
                 contents: bytemuck::cast_slice(&numbers),
@@ -287,7 +313,13 @@ impl Surface {
         }
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass, instance: &MeshInstance, has_colors: bool) {
+    fn draw(
+        &self,
+        pass: &mut wgpu::RenderPass,
+        instance: &MeshInstance,
+        has_colors: bool,
+        ranges: Ranges,
+    ) {
         let is_colored = has_colors && !self.colored.is_empty();
         let groups = if is_colored { &self.colored } else { &self.groups };
         let surface = instance.mesh().surface().zip(instance.surface_geometry());
@@ -297,8 +329,15 @@ impl Surface {
         pass.set_vertex_buffer(2, buffers.texcoords.slice(..));
         pass.set_index_buffer(buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
         let mut bound = None;
-        for (number, range) in (0_u64..).zip(&buffers.ranges) {
-            if range.indices.is_empty() {
+        for ((number, range), is_transparent) in
+            (0_u64..).zip(&buffers.ranges).zip(&self.is_transparent)
+        {
+            let is_drawn = match ranges {
+                Ranges::All => true,
+                Ranges::Opaque => !is_transparent,
+                Ranges::Transparent => *is_transparent,
+            };
+            if !is_drawn || range.indices.is_empty() {
                 continue;
             }
             let material = (range.material as usize).min(groups.len() - 1);

@@ -215,8 +215,8 @@ impl PictureRenderer {
     pub(crate) fn resize(&mut self, size: [u32; 2]) -> Result<(), Error> {
         check_size(&self.gpu, size)?;
         let (gpu, plan, samples) = (&self.gpu, &self.plan, self.options.samples);
-        gpu.make(|| self.graph.resize(&gpu.device, plan, size))
-            .map_err(|error| self.lose_graph(error, size, samples))?;
+        gpu.make(|| self.graph.resize(gpu, plan, size))
+            .map_err(|error| self.lose_graph(error, size, samples))??;
         self.options.size = size;
         Ok(())
     }

@@ -64,6 +64,8 @@ pub(crate) struct Program {
     pub(crate) interface: Interface,
     /// Whether it has the override `CLIPS`, which is 0 without clip planes.
     pub(crate) asks_for_clips: bool,
+    /// Whether it has the override `BLENDS`, which is 1 for transparent surfaces.
+    pub(crate) asks_for_blends: bool,
     /// Whether its loops are limited: true for all but built-in programs.
     pub(crate) is_bounded: bool,
 }
@@ -283,13 +285,23 @@ impl ShaderFiles {
             self.entry_point(&module, &path, function, kind, place).map_err(Mistakes::of)?;
         let reflection = Reflection { files: self, source: &source, module: &module };
         let interface = reflection.interface(entry, &info)?;
-        let is_clips = |known: &naga::Override| known.name.as_deref() == Some("CLIPS");
-        let asks_for_clips = module.overrides.iter().any(|(_, known)| is_clips(known));
+        let asks_for = |name: &str| {
+            module.overrides.iter().any(|(_, known)| known.name.as_deref() == Some(name))
+        };
+        let (asks_for_clips, asks_for_blends) = (asks_for("CLIPS"), asks_for("BLENDS"));
         let shipped = ShaderSource::embedded(&path);
         let is_bounded = shipped.map_or(true, |shipped| shipped.text != source.text);
         let (name, function) = (name.to_owned(), function.to_owned());
         let source = Arc::new(source);
-        Ok(Program { name, function, source, interface, asks_for_clips, is_bounded })
+        Ok(Program {
+            name,
+            function,
+            source,
+            interface,
+            asks_for_clips,
+            asks_for_blends,
+            is_bounded,
+        })
     }
 
     /// The index of the entry point of a program.

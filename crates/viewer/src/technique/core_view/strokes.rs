@@ -35,6 +35,8 @@ pub(crate) struct Strokes {
     /// Distances from the eye, in units of the model, at which strokes begin and finish
     /// fading.
     pub(crate) fade: Option<[f32; 2]>,
+    /// Factor of the opacity behind transparent surfaces.
+    pub(crate) behind_glass: f32,
     /// Smallest angle of a ridge in degrees; `None` for that of the mesh.
     pub(crate) ridge_angle_deg: Option<f32>,
     /// Smallest angle of a valley in degrees; `None` for that of the mesh.
@@ -82,6 +84,7 @@ impl Strokes {
             kind: reader.word("kind"),
             ends,
             fade: (fade_end > fade_begin).then_some([fade_begin, fade_end]),
+            behind_glass: reader.number("behind_glass"),
             ridge_angle_deg: read_unless_negative(reader, "ridge_angle"),
             valley_angle_deg: read_unless_negative(reader, "valley_angle"),
             is_linked: reader.bool("linked"),
